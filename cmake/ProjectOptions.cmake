@@ -1,0 +1,13 @@
+# Compile options of every target of this project, as one interface target.
+set(SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread")
+
+add_library(project_options INTERFACE)
+target_compile_options(project_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Werror
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>)
+
+if(SANITIZE)
+  # Sanitized code must be whole: third-party calls into it otherwise give false reports.
+  add_compile_options(-fsanitize=${SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${SANITIZE})
+endif()

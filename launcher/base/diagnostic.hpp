@@ -1,0 +1,52 @@
+// Errors and warnings for a person at a terminal: place, line, caret, suggestion, include chain.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+
+namespace launch {
+
+enum class Severity { kWarning, kError };
+
+struct Diagnostic {
+  Severity severity = Severity::kError;
+  // One sentence, lower case, no full stop: "unknown attribute 'exce' of <node>".
+  std::string message;
+  // What the caret points at; may be empty.
+  SourceRange where;
+  // What to do about it: "did you mean 'exec'?"; may be empty.
+  std::string help;
+};
+
+// Errors found while loading or visiting a launch file. Holds at least one diagnostic; what() is the plain rendering.
+class LaunchError : public std::runtime_error {
+ public:
+  explicit LaunchError(std::vector<Diagnostic> diagnostics);
+  LaunchError(std::string message, SourceRange where, std::string help = {});
+
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+// Renders as compilers do, with a line end after each line:
+//
+//   system.launch.xml:4:21: error: unknown attribute 'exce' of <node>
+//       4 |   <node pkg="demo" exce="talker"/>
+//         |                    ^~~~
+//         = help: did you mean 'exec'?
+//         = included from main.launch.xml:3:3
+//
+// `colour` adds ANSI colours. Long lines are cut around the caret, tabs become spaces.
+std::string render(const Diagnostic& diagnostic, bool colour = false);
+std::string render(const std::vector<Diagnostic>& diagnostics, bool colour = false);
+
+// "did you mean 'exec'?" for the candidate nearest to `name`, or "" when none is near enough.
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
+
+}  // namespace launch

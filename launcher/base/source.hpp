@@ -1,0 +1,91 @@
+// Where a piece of text stands in a launch file.
+//
+// Every Entity, attribute value and template fragment carries a SourceRange, so that errors of any phase can point at
+// the line that asked for it. A range holds byte offsets into the kept text of its file; lines and columns are
+// computed when a diagnostic is rendered.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launch {
+
+class SourceFile;
+
+// Bytes [begin, end) of a file. `file` is null for text that comes from no file (the command line).
+struct SourceRange {
+  std::shared_ptr<const SourceFile> file;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+
+  explicit operator bool() const { return file != nullptr; }
+};
+
+// The text of one launch file, kept for as long as anything points into it.
+class SourceFile {
+ public:
+  // Line and column, both from 1; columns count characters (UTF-8 code points), not bytes.
+  struct Position {
+    std::uint32_t line = 1;
+    std::uint32_t column = 1;
+  };
+
+  // `included_from` is the place of the include that loaded this file, empty for a file given by the user.
+  SourceFile(std::string path, std::string text, SourceRange included_from = {});
+
+  // Reads a file. Throws LaunchError (diagnostic.hpp) when it can't be read.
+  static std::shared_ptr<const SourceFile> read(const std::string& path, SourceRange included_from = {});
+
+  const std::string& path() const { return path_; }
+  const std::string& text() const { return text_; }
+  const SourceRange& included_from() const { return included_from_; }
+
+  Position position(std::size_t offset) const;
+  // The text of a line (from 1) without its line end.
+  std::string_view line(std::uint32_t number) const;
+
+ private:
+  std::string path_;
+  std::string text_;
+  SourceRange included_from_;
+  std::vector<std::uint32_t> line_starts_;
+};
+
+// "file:line:column" of the start of a range; "command line" when it has no file.
+std::string to_string(const SourceRange& range);
+
+// Text as the parser decoded it (entities and quoting resolved), able to say where each of its bytes came from.
+class LocatedText {
+ public:
+  LocatedText() = default;
+  // Text that stands in the file as it is (or comes from no file).
+  explicit LocatedText(std::string text, SourceRange range = {});
+
+  // Appends decoded bytes that came from [raw_begin, raw_end) of the file.
+  void append(std::string_view decoded, std::uint32_t raw_begin, std::uint32_t raw_end);
+
+  const std::string& text() const { return text_; }
+  const SourceRange& range() const { return range_; }
+  // The range in the file of bytes [position, position + length) of text().
+  SourceRange range(std::size_t position, std::size_t length) const;
+
+ private:
+  // Decoded bytes from `decoded` on stand in the file from `raw` on, up to the next anchor. `verbatim` is false where
+  // one decoded run stands for a longer or shorter raw run (an entity, an escape).
+  struct Anchor {
+    std::uint32_t decoded;
+    std::uint32_t raw_begin;
+    std::uint32_t raw_end;
+    bool verbatim;
+  };
+
+  std::string text_;
+  SourceRange range_;
+  std::vector<Anchor> anchors_;
+};
+
+}  // namespace launch

@@ -1,0 +1,27 @@
+// Reads launch files into Entity trees.
+#pragma once
+
+#include <memory>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/frontend/entity.hpp"
+
+namespace launch {
+
+// Parses by file name suffix: .launch.xml .xml .launch -> XML first; .launch.yaml .launch.yml .yaml .yml -> YAML first;
+// a file that isn't of its suffix's syntax is tried in the other. Returns the root entity, type_name "launch".
+// Throws LaunchError with every syntax error found. A `.py` file is refused with a clear error.
+Entity load_entity_tree(const std::shared_ptr<const SourceFile>& file);
+
+Entity parse_xml(const std::shared_ptr<const SourceFile>& file);   // xml_frontend.cpp
+Entity parse_yaml(const std::shared_ptr<const SourceFile>& file);  // yaml_frontend.cpp
+
+// Types a piece of text by the scalar rules of YAML 1.1 (as PyYAML's safe loader): 010 is 8, yes is true, 1e3 is a
+// string. Used by the YAML front end for plain scalars and by parameter values of XML files.
+Scalar yaml11_scalar(LocatedText text);  // yaml11.cpp
+
+// Types a whole text as YAML 1.1 flow or block content: a scalar or a list (parameter values: "[1, 2]", "- 1").
+// Throws LaunchError when it isn't valid YAML. Mappings are refused as LaunchError too.
+Value yaml11_value(const LocatedText& text);  // yaml11.cpp
+
+}  // namespace launch

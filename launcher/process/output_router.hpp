@@ -1,0 +1,55 @@
+// Takes whole lines of children and of the launcher to the screen and to log files.
+#pragma once
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+enum class OutputStream { kOut, kErr };
+
+// Levels of launcher messages, by their ROS 2 names.
+enum class LogLevel { kDebug, kInfo, kWarning, kError, kCritical };
+
+// One run's log directory BASE/YYYY-MM-DD-HH-MM-SS-ffffff-HOST-PID with launch.log, and BASE/latest as a link to it.
+struct LogDirectory {
+  std::string path;
+
+  // BASE by ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log. Throws std::system_error.
+  static LogDirectory create(const std::map<std::string, std::string>& environment);
+};
+
+class OutputRouter {
+ public:
+  struct Options {
+    int screen_fd = 1;               // children's lines and launcher messages, as ROS 2 does
+    std::string log_directory;       // empty: no files are written
+    LogLevel screen_level = LogLevel::kInfo;
+    bool colour = false;
+  };
+
+  explicit OutputRouter(Options options);
+  ~OutputRouter();
+
+  // Bytes read from a child. Complete lines are written at once; a rest waits for its end or for close_stream().
+  // Invalid UTF-8 becomes U+FFFD. Never blocks the caller for a slow screen longer than a write does.
+  void write(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets, std::string_view bytes);
+  // The stream has ended: writes the rest as a line.
+  void close_stream(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets);
+
+  // A launcher message: "[INFO] [logger]: text" on the screen, with a time stamp in front in launch.log.
+  void message(LogLevel level, std::string_view logger, std::string_view text);
+
+  void flush();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace launch

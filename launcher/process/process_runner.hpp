@@ -1,0 +1,28 @@
+// Starts and signals operating system processes. The seam between the supervisor and the kernel.
+#pragma once
+
+#include <memory>
+
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+class ProcessRunner {
+ public:
+  virtual ~ProcessRunner() = default;
+
+  // Starts a process in a process group of its own, with default signal dispositions and nothing blocked.
+  // Throws std::system_error when it can't be started (no such program, no permission, no such directory).
+  virtual Process spawn(const ProcessSpec& spec) = 0;
+
+  // Sends a signal to every process of the group of `process`. A group that is gone is not an error.
+  virtual void signal_group(const Process& process, int signal) = 0;
+
+  // Reaps an exited process. Must only be called once its pidfd is readable. Sets code and usage.
+  virtual ProcessExit reap(const Process& process) = 0;
+};
+
+// posix_spawn and pidfds.
+std::unique_ptr<ProcessRunner> make_posix_process_runner();
+
+}  // namespace launch

@@ -1,0 +1,87 @@
+// What to run, fully evaluated; what runs; how it ended. Three types, because they have three lives.
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/base/unique_fd.hpp"
+#include "launcher/process/event_loop.hpp"
+
+namespace launch {
+
+// Number of a process in this launch, from 1 in the order of requests; the N of its label "talker-N". Kept by respawns.
+using ProcessId = std::uint32_t;
+
+// Where a stream's lines go; combine freely.
+struct OutputTargets {
+  bool screen = false;    // launcher's standard output, "[LABEL] text"
+  bool log = false;       // launch.log
+  bool own_log = false;   // LABEL-stdout.log or LABEL-stderr.log, and LABEL.log
+  bool operator==(const OutputTargets&) const = default;
+};
+
+struct OutputRouting {
+  OutputTargets out;
+  OutputTargets err;
+  bool operator==(const OutputRouting&) const = default;
+
+  // The modes of ROS 2: screen, log, both, own_log, full; nullopt for another word.
+  static std::optional<OutputRouting> from_mode(std::string_view mode);
+};
+
+struct RespawnPolicy {
+  bool enabled = false;
+  Duration delay{0};
+  std::int64_t max_retries = -1;  // negative: no limit
+};
+
+// Text that the process reads from a file of its own: written before the first spawn into the run's private directory,
+// its path put in place of argv[argument], removed when the launch ends.
+struct GeneratedFile {
+  std::size_t argument = 0;
+  std::string name;     // file name hint, "talker-params.yaml"
+  std::string content;
+};
+
+// Configuration: plain data, all substitutions performed. `launch --dry-run` prints exactly this.
+struct ProcessSpec {
+  std::string name;               // label without its number; the supervisor appends "-N"
+  std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
+  std::map<std::string, std::string> environment;  // complete, not a difference
+  std::string working_directory;  // empty: the launcher's
+  bool shell = false;             // run argv joined with spaces through /bin/sh -c
+  bool emulate_tty = false;       // stdout and stderr are pseudo-terminals
+  OutputRouting output;
+  RespawnPolicy respawn;
+  Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
+  Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
+  std::vector<GeneratedFile> files;
+  SourceRange origin;             // the launch-file line that asked for it
+};
+
+// Invocation: one running process. The group of the process has the number `pid`.
+struct Process {
+  pid_t pid = -1;
+  UniqueFd pidfd;
+  UniqueFd out;  // read end of standard output
+  UniqueFd err;
+  UniqueFd in;   // write end of standard input, kept open, never written
+};
+
+// Outcome.
+struct ProcessExit {
+  int code = 0;    // exit code; -N when ended by signal N, 127 when it could not be started
+  Duration ran_for{0};
+  rusage usage{};
+};
+
+}  // namespace launch

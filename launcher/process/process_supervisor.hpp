@@ -1,0 +1,82 @@
+// Owns the state of every process of a launch, from the request to start it to its last exit.
+//
+// A process is a row of the State x Event table in process_supervisor.cpp. Whoever wants to know (console, logs, launch
+// events) observes transitions. The work per event does not depend on the number of processes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/output_router.hpp"
+#include "launcher/process/process_runner.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+enum class ProcessState { kStarting, kRunning, kInterrupting, kTerminating, kKilling, kRespawnDelay, kDone };
+
+// What observers are told. `spec` and `label` stay valid as long as the supervisor.
+struct ProcessStarted {
+  pid_t pid;
+};
+struct ProcessStartFailed {
+  std::string reason;  // "No such file or directory"
+};
+struct ProcessExited {
+  pid_t pid;
+  ProcessExit exit;
+  bool expected;  // a signal of ours, or shutdown, had been sent
+  bool will_respawn;
+};
+struct SignalSent {
+  int signal;
+  // Set when this signal follows one that did not work: the earlier signal and how long we waited.
+  int escalated_from = 0;
+  Duration waited{0};
+};
+struct ProcessDone {};  // will not run again
+
+struct ProcessEvent {
+  ProcessId id;
+  const std::string& label;
+  const ProcessSpec& spec;
+  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessDone> what;
+};
+
+class ProcessSupervisor {
+ public:
+  using Observer = std::function<void(const ProcessEvent&)>;
+
+  // All references must outlive the supervisor.
+  ProcessSupervisor(EventLoop& loop, ProcessRunner& runner, OutputRouter& output);
+  ~ProcessSupervisor();  // kills what is still alive
+
+  // Called for every event, in the order of registration. Observers may call start(), shutdown() and signal().
+  void observe(Observer observer);
+
+  // Takes a process over and starts it now. A failing start is an event (then ProcessExited is not sent, but respawn
+  // applies as to an exit with code 127), not an exception. After shutdown() new requests are ignored: returns 0.
+  ProcessId start(ProcessSpec spec);
+
+  // Ends everything: SIGINT now, SIGTERM and SIGKILL after the timeouts of each spec; pending respawns are dropped.
+  // A process that is being started is interrupted after its start. Later calls have no effect.
+  void shutdown();
+
+  // Sends SIGKILL to everything that is alive, now.
+  void kill_all();
+
+  // Processes that are not yet kDone.
+  std::size_t active() const;
+  ProcessState state(ProcessId id) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace launch

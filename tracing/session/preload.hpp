@@ -1,0 +1,22 @@
+// Which LTTng helper libraries a process must preload for its userspace events to fire.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+struct PreloadPlan {
+  std::vector<std::string> libraries;  // paths, in the order of preloading
+  std::vector<std::string> warnings;   // a library that is not installed, two profilers at once
+};
+
+// `find_library` gives the path of a library by its file name, or "" when it is not there; by default the dynamic
+// linker's directories are searched.
+PreloadPlan plan_preload(const std::vector<std::string>& events_ust);
+PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string (*find_library)(const std::string&));
+
+// LD_PRELOAD with the libraries appended, separated by colons; those already in it are not repeated.
+std::string append_preload(const std::string& current, const std::vector<std::string>& libraries);
+
+}  // namespace tracing

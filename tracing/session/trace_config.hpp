@@ -1,0 +1,43 @@
+// One trace, fully described: what `<trace>` and `launch trace` evaluate to.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+// The 42 events of provider `ros2`, and those that describe objects once (initialisation events).
+const std::vector<std::string>& default_ros_events();       // "ros2:rcl_init", …
+const std::vector<std::string>& initialisation_ros_events();
+// procname vpid vtid
+const std::vector<std::string>& default_context_fields();
+
+struct TraceConfig {
+  std::string session_name;  // final: any time stamp already appended
+  std::string base_path;     // absolute directory that will hold the trace directory
+  bool append_trace = false;
+  std::vector<std::string> events_ust = default_ros_events();
+  std::vector<std::string> events_kernel;
+  std::vector<std::string> syscalls;
+  std::vector<std::string> context_fields_ust = default_context_fields();
+  std::vector<std::string> context_fields_kernel = default_context_fields();
+  std::uint64_t subbuffer_size_ust = 8 * 4096;     // bytes, rounded up to a power of two
+  std::uint64_t subbuffer_size_kernel = 32 * 4096;
+  bool snapshot_mode = false;
+  bool dual_session = false;
+
+  // base_path/session_name, or base_path/session_name/snapshot for the snapshot half of a dual session.
+  std::string trace_directory() const;
+  // session_name, or session_name-snapshot for the snapshot half of a dual session.
+  std::string lttng_session_name() const;
+};
+
+// `given` when not empty, else $ROS_TRACE_DIR, else $ROS_HOME/tracing, else ~/.ros/tracing; ~ expanded, made absolute.
+std::string trace_base_path(const std::string& given, const std::map<std::string, std::string>& environment);
+
+// "-YYYYMMDDHHMMSS", local time, now.
+std::string session_timestamp();
+
+}  // namespace tracing

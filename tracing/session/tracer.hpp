@@ -1,0 +1,76 @@
+// Controls trace sessions. The seam between the product and LTTng.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tracing/session/trace_config.hpp"
+
+namespace tracing {
+
+// A trace could not be set up, or control over it was lost. what() is one line; remedy() says what to do, may be empty.
+class TraceError : public std::runtime_error {
+ public:
+  explicit TraceError(const std::string& what, std::string remedy = {})
+      : std::runtime_error(what), remedy_(std::move(remedy)) {}
+  const std::string& remedy() const { return remedy_; }
+
+ private:
+  std::string remedy_;
+};
+
+// Events that the tracer could not keep, as its counters say just before the session is destroyed.
+struct ChannelLoss {
+  std::string domain;   // "ust" or "kernel"
+  std::string channel;
+  std::uint64_t discarded_events = 0;  // event-loss mode: newest events dropped while buffers were full
+  std::uint64_t lost_packets = 0;      // overwrite mode: oldest packets overwritten
+};
+
+struct LossAccount {
+  std::vector<ChannelLoss> channels;
+  std::uint64_t discarded_events() const;
+  std::uint64_t lost_packets() const;
+};
+
+// How long each step of the set-up took, for --timing.
+struct SetupStep {
+  std::string name;  // "session daemon", "create session", "channel ros2", …
+  std::chrono::nanoseconds took;
+};
+
+struct SetupReport {
+  std::string trace_directory;
+  bool started_daemon = false;
+  std::vector<SetupStep> steps;
+  std::vector<std::string> warnings;
+};
+
+// All calls block, some for hundreds of milliseconds: call them from a thread of your own, one at a time.
+class Tracer {
+ public:
+  virtual ~Tracer() = default;
+
+  // Checks, creates, configures and starts the session. Throws TraceError with nothing left behind.
+  virtual SetupReport start(const TraceConfig& config) = 0;
+
+  // Stops recording, waits until the consumer has written everything, reads the losses, destroys the session.
+  // `give_up` is asked from time to time while waiting; when it says true, the session is destroyed at once, with what
+  // is written by then. Throws TraceError when the session can't be reached any more.
+  virtual LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) = 0;
+
+  // The verbs of `launch trace`. Each throws TraceError and leaves the session as it is on error.
+  virtual void pause(const std::string& lttng_session_name) = 0;
+  virtual void resume(const std::string& lttng_session_name) = 0;
+  virtual void record_snapshot(const std::string& lttng_session_name) = 0;
+};
+
+// The real one, on liblttng-ctl.
+std::unique_ptr<Tracer> make_lttng_tracer();
+
+}  // namespace tracing
