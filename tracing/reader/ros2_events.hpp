@@ -53,10 +53,11 @@ constexpr std::string_view field_name(std::string_view member) {
 
 // Each struct has `kName`, the full event name, and `for_each_field(event, visit)`, which calls
 // visit.operator()<FieldType>(field name, member) for each member in the order of the payload.
-#define TRACING_DECLARE_EVENT(struct_, name_, fields_)            \
-  struct struct_ {                                                \
-    static constexpr std::string_view kName = "ros2:" #name_;     \
-    fields_ template <class Event, class Visit>                   \
+#define TRACING_DECLARE_EVENT(struct_, name_, fields_)                 \
+  struct struct_ {                                                     \
+    static constexpr std::string_view kName = "ros2:" #name_;          \
+    fields_ bool operator==(const struct_&) const = default;           \
+    template <class Event, class Visit>                                \
     static constexpr void for_each_field(Event& event, Visit&& visit); \
   };
 TRACING_ROS2_EVENTS(TRACING_DECLARE_EVENT, TRACING_DECLARE_MEMBER)

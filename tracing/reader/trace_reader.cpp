@@ -68,8 +68,8 @@ const bt_component_source* add_source(bt_graph* graph, const bt_component_class_
   if (bt_graph_add_source_component(graph, ctf_fs, directories.front().c_str(), parameters.get(),
                                     BT_LOGGING_LEVEL_NONE, &source) != BT_GRAPH_ADD_COMPONENT_STATUS_OK) {
     babeltrace::throw_noted_error(fmt::format("cannot read the trace '{}'", directories.front().string()),
-                                  "its metadata are missing, incomplete or not CTF 1.8; see whether "
-                                  "'babeltrace2' reads it");
+                                  "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon "
+                                  "leaves such a trace");
   }
   return source;
 }
@@ -123,7 +123,7 @@ void TraceReader::read(TraceSink& sink) {
     }
     babeltrace::throw_noted_error(
         fmt::format("the trace '{}' is damaged or ends early", implementation_->directory.string()),
-        "what comes before the damage was read; a session whose daemon was killed leaves such a trace");
+        "what comes before the damage was read");
   }
 }
 
