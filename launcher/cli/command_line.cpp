@@ -21,7 +21,7 @@ constexpr const char* kFooter =
     "\n"
     "Examples:\n"
     "  launch system.launch.xml rate:=20\n"
-    "  launch demo_nodes talker_listener.launch.yaml\n"
+    "  launch launch_examples 01_ping_pong.launch.yaml\n"
     "  launch --show-args system.launch.xml\n"
     "  launch --dry-run system.launch.xml\n";
 
