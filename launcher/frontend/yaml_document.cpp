@@ -267,7 +267,7 @@ std::optional<std::size_t> find_indenting_tab(std::string_view text, std::size_t
   return std::nullopt;
 }
 
-LaunchError syntax_error(const YAML::ParserException& error, const LocatedText& source, std::size_t offset) {
+YamlSyntaxError syntax_error(const YAML::ParserException& error, const LocatedText& source, std::size_t offset) {
   const std::string& text = source.text();
   std::size_t at = std::min(static_cast<std::size_t>(std::max(error.mark.pos, 0)) + offset, text.size());
   if (const std::optional<std::size_t> tab = find_indenting_tab(text, at)) {
@@ -304,7 +304,7 @@ std::string describe(const YamlNode& node) {
 
 YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors) {
   if (std::optional<Diagnostic> bad = find_bad_character(source)) {
-    throw LaunchError({std::move(*bad)});
+    throw YamlSyntaxError(std::vector<Diagnostic>{std::move(*bad)});
   }
   const std::size_t offset = source.text().starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   TreeBuilder builder(source, offset, errors);

@@ -25,16 +25,16 @@ std::vector<std::string> argv_of(const std::string& xml, const test_support::Pla
 }
 
 TEST(Node, RosArgumentsAreAlwaysThere) {
-  EXPECT_THAT(argv_of(R"(<node exec="prog"/>)"), ElementsAre("prog", "--ros-args"));
+  EXPECT_THAT(argv_of(R"xml(<node exec="prog"/>)xml"), ElementsAre("prog", "--ros-args"));
 }
 
 TEST(Node, OrderOfArgvIsThatOfRos2) {
-  EXPECT_THAT(argv_of(R"(
+  EXPECT_THAT(argv_of(R"xml(
     <node exec="prog" name="n" namespace="ns" args="a 'b c'" ros_args="--log-level debug">
       <remap from="chatter" to="/out"/>
       <param name="p" value="1"/>
       <remap from="~/x" to="y"/>
-    </node>)"),
+    </node>)xml"),
               ElementsAre("prog", "a", "b c", "--ros-args", "--log-level", "debug", "--ros-args", "-r", "__node:=n", "-r",
                           "__ns:=/ns", "--params-file", "", "-r", "chatter:=/out", "-r", "~/x:=y"));
 }
@@ -66,33 +66,33 @@ INSTANTIATE_TEST_SUITE_P(Vectors, NodeNamespace,
                                          NamespaceCase{"/a", nullptr, "__ns:=/a"}));
 
 TEST(Node, InvalidNamesAreErrorsAtTheirPlace) {
-  EXPECT_EQ(plan_actions(R"(<node exec="prog" name="a/b"/>)").error,
+  EXPECT_EQ(plan_actions(R"xml(<node exec="prog" name="a/b"/>)xml").error,
             "/test/system.launch.xml:2:25: error: invalid node name 'a/b'\n"
             "    2 | <node exec=\"prog\" name=\"a/b\"/>\n"
             "      |                         ^~~\n"
             "      = help: use letters, digits and underscores, not starting with a digit\n");
-  EXPECT_THAT(plan_actions(R"(<node exec="prog" namespace="/a//b"/>)").error,
+  EXPECT_THAT(plan_actions(R"xml(<node exec="prog" namespace="/a//b"/>)xml").error,
               HasSubstr("the resulting namespace is invalid: '/a//b'"));
-  EXPECT_THAT(plan_actions(R"(<node exec="prog" namespace="1a"/>)").error,
+  EXPECT_THAT(plan_actions(R"xml(<node exec="prog" namespace="1a"/>)xml").error,
               HasSubstr("the resulting namespace is invalid: '/1a'"));
 }
 
 TEST(Node, TwoWithOneNameGiveAWarning) {
-  const Planned planned = plan_actions(R"(
-    <node exec="p" name="n" namespace="a"/><node exec="p" name="n" namespace="a"/><node exec="p" name="n"/>)");
+  const Planned planned = plan_actions(R"xml(
+    <node exec="p" name="n" namespace="a"/><node exec="p" name="n" namespace="a"/><node exec="p" name="n"/>)xml");
   EXPECT_THAT(planned.messages,
               ElementsAre("[launch_ros.actions.node] there are now at least 2 nodes with the name /a/n created within this "
                           "launch context"));
 }
 
 TEST(Node, LabelIsTheBaseNameOfTheProgram) {
-  EXPECT_EQ(plan_actions(R"(<node exec="/opt/bin/prog"/>)").plan.processes.at(0).name, "prog");
-  EXPECT_EQ(plan_actions(R"(<node exec="prog" name="n" exec_name="label"/>)").plan.processes.at(0).name, "label");
-  EXPECT_EQ(plan_actions(R"(<node exec="prog" launch-prefix="gdb --args"/>)").plan.processes.at(0).name, "gdb");
+  EXPECT_EQ(plan_actions(R"xml(<node exec="/opt/bin/prog"/>)xml").plan.processes.at(0).name, "prog");
+  EXPECT_EQ(plan_actions(R"xml(<node exec="prog" name="n" exec_name="label"/>)xml").plan.processes.at(0).name, "label");
+  EXPECT_EQ(plan_actions(R"xml(<node exec="prog" launch-prefix="gdb --args"/>)xml").plan.processes.at(0).name, "gdb");
 }
 
 TEST(Node, MisspeltAttributeGetsASuggestion) {
-  EXPECT_EQ(plan_actions(R"(<node pkg="demo" exce="talker"/>)").error,
+  EXPECT_EQ(plan_actions(R"xml(<node pkg="demo" exce="talker"/>)xml").error,
             "/test/system.launch.xml:2:18: error: unexpected attribute 'exce' in 'node'\n"
             "    2 | <node pkg=\"demo\" exce=\"talker\"/>\n"
             "      |                  ^~~~\n"
@@ -122,15 +122,15 @@ class NodeInPackage : public testing::Test {
 };
 
 TEST_F(NodeInPackage, ProgramIsFoundInTheLibexecDirectory) {
-  EXPECT_THAT(argv_of(R"(<node pkg="demo" exec="talker"/>)", options_),
+  EXPECT_THAT(argv_of(R"xml(<node pkg="demo" exec="talker"/>)xml", options_),
               ElementsAre((prefix_ / "lib/demo/talker").string(), "--ros-args"));
 }
 
 TEST_F(NodeInPackage, MissingPackageAndProgramAreErrorsWithSuggestions) {
-  const std::string package_error = plan_actions(R"(<node pkg="dmo" exec="talker"/>)", options_).error;
+  const std::string package_error = plan_actions(R"xml(<node pkg="dmo" exec="talker"/>)xml", options_).error;
   EXPECT_THAT(package_error, HasSubstr(":2:12: error: package 'dmo' not found"));
   EXPECT_THAT(package_error, HasSubstr("did you mean 'demo'?"));
-  const std::string program_error = plan_actions(R"(<node pkg="demo" exec="talkr"/>)", options_).error;
+  const std::string program_error = plan_actions(R"xml(<node pkg="demo" exec="talkr"/>)xml", options_).error;
   EXPECT_THAT(program_error, HasSubstr(":2:24: error: executable 'talkr' not found on the libexec directory"));
   EXPECT_THAT(program_error, HasSubstr("did you mean 'talker'?"));
 }
@@ -146,18 +146,18 @@ TEST_F(NodeInPackage, ParameterFilesArePassedUnread) {
   EXPECT_EQ(performed.error, "");
   EXPECT_EQ(performed.plan.processes.at(0).files.at(0).content, "/**: {ros__parameters: {a: 7}}\n");
 
-  const Planned missing = plan_actions(R"(<node exec="p"><param from="/no/such.yaml"/></node>)");
+  const Planned missing = plan_actions(R"xml(<node exec="p"><param from="/no/such.yaml"/></node>)xml");
   EXPECT_THAT(missing.messages, ElementsAre("[launch_ros.actions.node] /test/system.launch.xml:2:29: parameter file path is "
                                             "not a file: /no/such.yaml"));
   EXPECT_THAT(missing.plan.processes.at(0).argv, ElementsAre("p", "--ros-args"));
 }
 
 TEST(NodeParameters, AreWrittenForTheNodeOrForAnyNode) {
-  const Planned planned = plan_actions(R"(
+  const Planned planned = plan_actions(R"xml(
     <node exec="p" name="talker" namespace="left">
       <param name="g"><param name="h" value="true"/><param name="i"><param name="j" value="x"/></param></param>
     </node>
-    <node exec="p" name="talker"><param name="rate" value="10"/></node>)");
+    <node exec="p" name="talker"><param name="rate" value="10"/></node>)xml");
   ASSERT_EQ(planned.error, "");
   EXPECT_EQ(planned.plan.processes.at(0).files.at(0).content,
             "/left/talker:\n  ros__parameters:\n    g.h: true\n    g.i.j: \"x\"\n");
@@ -167,13 +167,13 @@ TEST(NodeParameters, AreWrittenForTheNodeOrForAnyNode) {
 
 TEST(NodeParameters, FormsThatExcludeEachOtherAreErrors) {
   const auto error = [](const std::string& params) { return plan_actions("<node exec=\"p\">" + params + "</node>").error; };
-  EXPECT_THAT(error(R"(<param name="a" value="1" from="f"/>)"), HasSubstr("name and from attributes are mutually exclusive"));
-  EXPECT_THAT(error(R"(<param name="a" value="1"><param name="b" value="2"/></param>)"),
+  EXPECT_THAT(error(R"xml(<param name="a" value="1" from="f"/>)xml"), HasSubstr("name and from attributes are mutually exclusive"));
+  EXPECT_THAT(error(R"xml(<param name="a" value="1"><param name="b" value="2"/></param>)xml"),
               HasSubstr("nested parameters and value attributes are mutually exclusive"));
-  EXPECT_THAT(error(R"(<param name="a"/>)"), HasSubstr("either a value attribute or nested params are needed"));
-  EXPECT_THAT(error(R"(<param value="1"/>)"), HasSubstr("param entity should have a name or a from attribute"));
-  EXPECT_THAT(error(R"(<param name="a" value="1" allow_substs="true"/>)"), HasSubstr("allow_substs can only be used with from"));
-  EXPECT_THAT(error(R"(<param name="a" value="1" type="integer"/>)"), HasSubstr("got invalid type identifier 'integer'"));
+  EXPECT_THAT(error(R"xml(<param name="a"/>)xml"), HasSubstr("either a value attribute or nested params are needed"));
+  EXPECT_THAT(error(R"xml(<param value="1"/>)xml"), HasSubstr("param entity should have a name or a from attribute"));
+  EXPECT_THAT(error(R"xml(<param name="a" value="1" allow_substs="true"/>)xml"), HasSubstr("allow_substs can only be used with from"));
+  EXPECT_THAT(error(R"xml(<param name="a" value="1" type="integer"/>)xml"), HasSubstr("got invalid type identifier 'integer'"));
 }
 
 }  // namespace

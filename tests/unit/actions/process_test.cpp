@@ -19,15 +19,15 @@ ProcessSpec only_process(const std::string& xml, const test_support::PlanOptions
 }
 
 TEST(Executable, CommandIsSplitBeforeSubstitution) {
-  const ProcessSpec spec = only_process(R"(
+  const ProcessSpec spec = only_process(R"xml(
     <let name="x" value="7"/><let name="sp" value="a b"/>
-    <executable cmd="prog $(var sp) z --x=$(var x) pre$(var sp)post 'q r' &quot;&quot;"/>)");
+    <executable cmd="prog $(var sp) z --x=$(var x) pre$(var sp)post 'q r' &quot;&quot;"/>)xml");
   EXPECT_THAT(spec.argv, ElementsAre("prog", "a b", "z", "--x=7", "prea bpost", "q r", ""));
   EXPECT_EQ(spec.name, "prog");
 }
 
 TEST(Executable, DefaultsAreThoseOfRos2) {
-  const ProcessSpec spec = only_process(R"(<executable cmd="/usr/bin/env"/>)");
+  const ProcessSpec spec = only_process(R"xml(<executable cmd="/usr/bin/env"/>)xml");
   EXPECT_EQ(spec.name, "env");
   EXPECT_EQ(spec.working_directory, "");
   EXPECT_EQ(spec.output, *launch::OutputRouting::from_mode("log"));
@@ -41,12 +41,12 @@ TEST(Executable, DefaultsAreThoseOfRos2) {
 }
 
 TEST(Executable, EveryAttributeIsTaken) {
-  const ProcessSpec spec = only_process(R"(
+  const ProcessSpec spec = only_process(R"xml(
     <executable cmd="prog a" name="label" cwd="/tmp" launch-prefix="nice -n '5'" output="full" respawn="yes"
                 respawn_delay="0.25" respawn_max_retries="3" on_exit="shutdown" shell="true" emulate_tty="true"
                 sigterm_timeout="1.5" sigkill_timeout="2">
       <env name="A" value="1"/>
-    </executable>)");
+    </executable>)xml");
   EXPECT_THAT(spec.argv, ElementsAre("nice", "-n", "5", "prog", "a"));
   EXPECT_EQ(spec.name, "label");
   EXPECT_EQ(spec.working_directory, "/tmp");
@@ -64,7 +64,7 @@ TEST(Executable, EveryAttributeIsTaken) {
 }
 
 TEST(Executable, ConfigurationsGiveDefaults) {
-  const std::string xml = R"(<executable cmd="prog"/>)";
+  const std::string xml = R"xml(<executable cmd="prog"/>)xml";
   EXPECT_THAT(only_process(xml, {.arguments = {{"launch-prefix", "gdb -ex run"}}}).argv,
               ElementsAre("gdb", "-ex", "run", "prog"));
   EXPECT_THAT(
@@ -78,25 +78,25 @@ TEST(Executable, ConfigurationsGiveDefaults) {
 
 TEST(Executable, OutputModeCanBeOverriddenByTheEnvironment) {
   const test_support::PlanOptions options{.environment = {{"OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both"}}};
-  EXPECT_EQ(only_process(R"(<executable cmd="prog" output="log"/>)", options).output,
+  EXPECT_EQ(only_process(R"xml(<executable cmd="prog" output="log"/>)xml", options).output,
             *launch::OutputRouting::from_mode("both"));
 }
 
 TEST(Executable, WrongValuesAreErrorsAtTheirPlace) {
-  EXPECT_EQ(plan_actions(R"(<executable cmd="prog" output="scren"/>)").error,
+  EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" output="scren"/>)xml").error,
             "/test/system.launch.xml:2:32: error: 'scren' is not a valid output mode, expected screen, log, both, own_log "
             "or full\n"
             "    2 | <executable cmd=\"prog\" output=\"scren\"/>\n"
             "      |                                ^~~~~\n"
             "      = help: did you mean 'screen'?\n");
-  EXPECT_THAT(plan_actions(R"(<executable cmd="prog" on_exit="restart"/>)").error,
+  EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" on_exit="restart"/>)xml").error,
               HasSubstr(":2:33: error: on_exit can only be 'shutdown', got 'restart'"));
-  EXPECT_THAT(plan_actions(R"(<executable cmd="prog" respawn="maybe"/>)").error,
+  EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" respawn="maybe"/>)xml").error,
               HasSubstr(":2:33: error: respawn is expected to be a boolean, got 'maybe'"));
-  EXPECT_THAT(plan_actions(R"(<executable cmd="prog" respawn_delay="-1"/>)").error,
+  EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" respawn_delay="-1"/>)xml").error,
               HasSubstr("expected a number that is not negative, got '-1'"));
-  EXPECT_THAT(plan_actions(R"(<executable cmd=""/>)").error, HasSubstr("the command is empty"));
-  EXPECT_THAT(plan_actions(R"(<executable cmd="prog"><arg name="a"/></executable>)").error,
+  EXPECT_THAT(plan_actions(R"xml(<executable cmd=""/>)xml").error, HasSubstr("the command is empty"));
+  EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog"><arg name="a"/></executable>)xml").error,
               HasSubstr("unexpected nested tag 'arg' in 'executable'"));
   EXPECT_THAT(plan_text("launch:\n- executable: {cmd: prog, respawn: true}\n").error,
               HasSubstr("attribute 'respawn' of 'executable' is expected to be of type str, got bool"));

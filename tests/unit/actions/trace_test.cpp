@@ -22,7 +22,7 @@ std::map<std::string, launch::ScopeSetting> settings_of(const Planned& planned) 
 using Words = std::vector<std::string>;
 
 TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
-  const Planned planned = plan_actions(R"(<trace session-name="run"/>)");
+  const Planned planned = plan_actions(R"xml(<trace session-name="run"/>)xml");
   auto settings = settings_of(planned);
   EXPECT_EQ(std::get<std::string>(settings.at("session-name").value), "run");
   EXPECT_EQ(std::get<std::string>(settings.at("trace-directory").value), "/home/user/.ros/tracing/run");
@@ -38,16 +38,16 @@ TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
 }
 
 TEST(Trace, ListsAreSplitLikeCommandLines) {
-  auto settings = settings_of(plan_actions(R"(
+  auto settings = settings_of(plan_actions(R"xml(
     <let name="kernel" value=""/><let name="more" value="a b"/>
-    <trace session-name="run" events-ust="ros2:* 'x y' $(var more)" events-kernel="$(var kernel)" context-fields=""/>)"));
+    <trace session-name="run" events-ust="ros2:* 'x y' $(var more)" events-kernel="$(var kernel)" context-fields=""/>)xml"));
   EXPECT_THAT(std::get<Words>(settings.at("events-ust").value), ElementsAre("ros2:*", "x y", "a b"));
   EXPECT_TRUE(std::get<Words>(settings.at("events-kernel").value).empty());
   EXPECT_TRUE(std::get<Words>(settings.at("context-fields").value).empty());
 }
 
 TEST(Trace, DualSessionAsASubstitutionSelectsItsEventsWhenVisited) {
-  const std::string xml = R"(<trace session-name="run" dual-session="$(var dual)"/>)";
+  const std::string xml = R"xml(<trace session-name="run" dual-session="$(var dual)"/>)xml";
   auto dual = settings_of(plan_actions(xml, {.arguments = {{"dual", "true"}}}));
   EXPECT_EQ(std::get<Words>(dual.at("events-ust").value).size(), 22U);
   EXPECT_EQ(std::get<std::string>(dual.at("trace-directory").value), "/home/user/.ros/tracing/run/snapshot");
@@ -56,20 +56,20 @@ TEST(Trace, DualSessionAsASubstitutionSelectsItsEventsWhenVisited) {
 }
 
 TEST(Trace, DirectoriesComeFromTheLaunchEnvironment) {
-  const std::string xml = R"(<trace session-name="run"/>)";
+  const std::string xml = R"xml(<trace session-name="run"/>)xml";
   auto by_home = settings_of(plan_actions(xml, {.environment = {{"HOME", "/h"}, {"ROS_HOME", "/ros"}}}));
   EXPECT_EQ(std::get<std::string>(by_home.at("trace-directory").value), "/ros/tracing/run");
   auto by_variable = settings_of(plan_actions(xml, {.environment = {{"HOME", "/h"}, {"ROS_TRACE_DIR", "/traces"}}}));
   EXPECT_EQ(std::get<std::string>(by_variable.at("trace-directory").value), "/traces/run");
-  auto given = settings_of(plan_actions(R"(<trace session-name="run" base-path="/elsewhere"/>)"));
+  auto given = settings_of(plan_actions(R"xml(<trace session-name="run" base-path="/elsewhere"/>)xml"));
   EXPECT_EQ(std::get<std::string>(given.at("trace-directory").value), "/elsewhere/run");
 }
 
 TEST(Trace, PreloadsForProcessesBeforeItToo) {
-  const Planned planned = plan_actions(R"(
+  const Planned planned = plan_actions(R"xml(
     <executable cmd="first"/>
     <trace session-name="run" events-ust="lttng_ust_libc:*"/>
-    <executable cmd="second"><env name="LD_PRELOAD" value="mine.so"/></executable>)");
+    <executable cmd="second"><env name="LD_PRELOAD" value="mine.so"/></executable>)xml");
   ASSERT_EQ(planned.error, "");
   const std::string first = planned.plan.processes.at(0).environment.at("LD_PRELOAD");
   EXPECT_THAT(first, testing::EndsWith("liblttng-ust-libc-wrapper.so"));
@@ -77,14 +77,14 @@ TEST(Trace, PreloadsForProcessesBeforeItToo) {
 }
 
 TEST(Trace, ConditionsApply) {
-  EXPECT_TRUE(plan_actions(R"(<trace session-name="run" if="false"/>)").plan.scopes.empty());
+  EXPECT_TRUE(plan_actions(R"xml(<trace session-name="run" if="false"/>)xml").plan.scopes.empty());
 }
 
 TEST(Trace, BadNamesAreErrorsAtTheirPlace) {
-  EXPECT_THAT(plan_actions(R"(<trace session-name=""/>)").error, HasSubstr(":2:22: error: the session name is empty"));
-  EXPECT_THAT(plan_actions(R"(<trace session-name="a/b"/>)").error, HasSubstr("the session name 'a/b' has a slash"));
-  EXPECT_THAT(plan_actions(R"(<trace/>)").error, HasSubstr("attribute 'session-name' not found in entity 'trace'"));
-  EXPECT_THAT(plan_actions(R"(<trace session-name="a" event-ust="x"/>)").error, HasSubstr("did you mean 'events-ust'?"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name=""/>)xml").error, HasSubstr(":2:22: error: the session name is empty"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a/b"/>)xml").error, HasSubstr("the session name 'a/b' has a slash"));
+  EXPECT_THAT(plan_actions(R"xml(<trace/>)xml").error, HasSubstr("attribute 'session-name' not found in entity 'trace'"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a" event-ust="x"/>)xml").error, HasSubstr("did you mean 'events-ust'?"));
 }
 
 }  // namespace

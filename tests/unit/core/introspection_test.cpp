@@ -52,12 +52,12 @@ class LaunchFiles : public testing::Test {
 };
 
 TEST_F(LaunchFiles, ArgumentsAreShownAsRos2LaunchDoes) {
-  const std::string path = write("main.launch.xml", R"(
+  const std::string path = write("main.launch.xml", R"xml(
     <arg name="mode" default="x$(env HOME)" description="operation mode"><choice value="a"/><choice value="b"/></arg>
     <group><arg name="plain"/></group>
     <timer period="1.0"><arg name="extra" default=""/></timer>
     <arg name="chosen" default="a" if="$(var plain)"><choice value="a"/></arg>
-    <arg name="mode" default="second"/>)");
+    <arg name="mode" default="second"/>)xml");
   EXPECT_EQ(show(path),
             "Arguments (pass arguments as '<name>:=<value>'):\n"
             "\n"
@@ -118,10 +118,10 @@ TEST_F(LaunchFiles, ConditionalRequiredArgumentsAreCheckedWhenVisited) {
 
 TEST_F(LaunchFiles, IncludesAreNoScopeAndRestoreTheirDirectory) {
   write("child.launch.xml", "<arg name=\"a\" default=\"c\"/><let name=\"set\" value=\"by child\"/>");
-  const std::string main = write("main.launch.xml", R"(
+  const std::string main = write("main.launch.xml", R"xml(
     <arg name="a" default="p"/>
     <include file="$(dirname)/child.launch.xml"/>
-    <executable cmd="$(var a) $(var set) $(filename)"/>)");
+    <executable cmd="$(var a) $(var set) $(filename)"/>)xml");
   LaunchContext context(registry_, {}, "", [](LogLevel, std::string_view, std::string_view) {});
   const LaunchPlan plan = plan_launch(context, *load_launch_description(main, registry_));
   EXPECT_THAT(plan.processes.at(0).argv, testing::ElementsAre("p", "by child", main));
