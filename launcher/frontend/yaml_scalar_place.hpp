@@ -1,0 +1,15 @@
+// Finds where each character of a decoded YAML scalar stands in the source.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "launcher/base/source.hpp"
+
+namespace launch {
+
+// `decoded` is the value of the scalar that begins (with its tag, anchor, quote or block indicator) at byte `begin` of
+// `source`. Gives it with the place of each of its characters, quotes left out.
+LocatedText locate_yaml_scalar(const LocatedText& source, std::size_t begin, std::string_view decoded);
+
+}  // namespace launch
