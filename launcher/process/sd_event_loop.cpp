@@ -88,7 +88,6 @@ class SdEventLoop final : public EventLoop {
   static int expired(sd_event_source* source, std::uint64_t microseconds, void* data);
   static int signalled(sd_event_source* source, const signalfd_siginfo* info, void* data);
   static int posted(sd_event_source* source, int fd, std::uint32_t events, void* data);
-  static int settled(sd_event_source* source, void* data);
 
   // The border between sd-event's C frames and callbacks that may throw: run() throws it again.
   template <typename Function>
@@ -108,8 +107,8 @@ class SdEventLoop final : public EventLoop {
   bool quit_ = false;
   std::exception_ptr failure_;
 
-  // Exits wait two rounds (see settled()).
-  SdSource settle_;
+  // See deliver_exits().
+  bool delivering_exits_ = false;
   std::deque<std::shared_ptr<Registration>> noticed_exits_;
   std::deque<std::shared_ptr<Registration>> settled_exits_;
 
@@ -124,16 +123,11 @@ SdEventLoop::SdEventLoop() {
   check(sd_event_new(&event), "cannot create an event loop");
   event_.reset(event);
 
-  sd_event_source* source = nullptr;
-  check(sd_event_add_defer(event, &source, &SdEventLoop::settled, this), "cannot create an event source");
-  settle_.reset(source);
-  check(sd_event_source_set_priority(source, kPriority), "cannot set the priority of an event source");
-  check(sd_event_source_set_enabled(source, SD_EVENT_OFF), "cannot disable an event source");
-
   post_fd_.reset(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!post_fd_) {
     throw std::system_error(errno, std::system_category(), "cannot create an eventfd");
   }
+  sd_event_source* source = nullptr;
   check(sd_event_add_io(event, &source, post_fd_.get(), EPOLLIN, &SdEventLoop::posted, this),
         "cannot watch an eventfd");
   post_source_.reset(source);
@@ -181,20 +175,17 @@ int SdEventLoop::exited(sd_event_source* source, int, std::uint32_t, void* data)
   loop.guard([&] {
     check(sd_event_source_set_enabled(source, SD_EVENT_OFF), "cannot disable an event source");
     loop.noticed_exits_.push_back(registration);
-    check(sd_event_source_set_enabled(loop.settle_.get(), SD_EVENT_ONESHOT), "cannot enable an event source");
+    if (!std::exchange(loop.delivering_exits_, true)) {
+      loop.post([&loop] { loop.deliver_exits(); });
+    }
   });
   return 0;
 }
 
 // Output that was readable when an exit was noticed is delivered before the exit. sd-event knows the age of a pending
-// source in iterations, so sources noticed in one iteration have no order. Exits are therefore queued, and delivered
-// by the second run of this source after that: it became pending in a later iteration than all that output.
-int SdEventLoop::settled(sd_event_source*, void* data) {
-  auto& loop = *static_cast<SdEventLoop*>(data);
-  loop.guard([&] { loop.deliver_exits(); });
-  return 0;
-}
-
+// source in iterations, so sources found ready in one iteration have no order. An exit therefore waits for the second
+// run of this function after it was noticed: the post for that one became pending in a later iteration than any of
+// that output.
 void SdEventLoop::deliver_exits() {
   while (!settled_exits_.empty() && !interrupted()) {
     const auto registration = std::move(settled_exits_.front());
@@ -205,8 +196,9 @@ void SdEventLoop::deliver_exits() {
   }
   settled_exits_.insert(settled_exits_.end(), noticed_exits_.begin(), noticed_exits_.end());
   noticed_exits_.clear();
-  if (!settled_exits_.empty()) {
-    check(sd_event_source_set_enabled(settle_.get(), SD_EVENT_ONESHOT), "cannot enable an event source");
+  delivering_exits_ = !settled_exits_.empty();
+  if (delivering_exits_) {
+    post([this] { deliver_exits(); });
   }
 }
 
