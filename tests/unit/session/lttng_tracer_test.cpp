@@ -30,7 +30,9 @@ using tracing::SetupStep;
 using tracing::TraceConfig;
 using tracing::TraceError;
 
-bool never() { return false; }
+bool never() {
+  return false;
+}
 
 struct LttngTracer : testing::Test {
   TraceConfig config_named(const std::string& name) const {
@@ -65,9 +67,8 @@ TEST_F(LttngTracer, RecordsEveryEventOfTwoApplications) {
   const SetupReport report = tracer->start(config);
   EXPECT_EQ(report.trace_directory, config.trace_directory());
   EXPECT_THAT(report.warnings, IsEmpty());
-  EXPECT_THAT(step_names(report),
-              testing::ElementsAre("checks", "session daemon", "create session", "channel ros2", "events ros2",
-                                   "context fields ros2", "start"));
+  EXPECT_THAT(step_names(report), testing::ElementsAre("checks", "session daemon", "create session", "channel ros2",
+                                                       "events ros2", "context fields ros2", "start"));
   TracedApp first(60, 100);
   TracedApp second(60, 100);
   first.end();
@@ -185,10 +186,11 @@ TEST_F(LttngTracer, DaemonThatDoesNotStartIsAnErrorWithItsOwnWords) {
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string path = getenv("PATH");
   setenv("PATH", (program.parent_path().string() + ":" + path).c_str(), 1);
-  EXPECT_EQ(start_error(config_named("run")),
-            "lttng-sessiond was started but does not answer: Error: no room\n"
-            "run `lttng-sessiond --verbose` to see why; a daemon of another container that shares HOME is kept apart by "
-            "another LTTNG_HOME");
+  EXPECT_EQ(
+      start_error(config_named("run")),
+      "lttng-sessiond was started but does not answer: Error: no room\n"
+      "run `lttng-sessiond --verbose` to see why; a daemon of another container that shares HOME is kept apart by "
+      "another LTTNG_HOME");
   setenv("PATH", path.c_str(), 1);
 }
 
@@ -221,9 +223,10 @@ TEST_F(LttngTracer, KernelEventsWithoutAKernelTracerAreAnErrorAndNoSessionIsLeft
     GTEST_SKIP() << "skipped, because this machine has the kernel tracer";
   }
   EXPECT_THAT(error, testing::StartsWith("kernel events cannot be recorded: "));
-  EXPECT_THAT(error, testing::EndsWith("\ninstall the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as "
-                                       "root or as a member of the group `tracing`; or trace without events-kernel and "
-                                       "syscalls"));
+  EXPECT_THAT(error,
+              testing::EndsWith("\ninstall the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as "
+                                "root or as a member of the group `tracing`; or trace without events-kernel and "
+                                "syscalls"));
   EXPECT_EQ(listed_sessions(), "");
 }
 
@@ -249,9 +252,9 @@ TEST_F(LttngTracer, OddSubbufferSizesAreRoundedUpWithAWarning) {
 TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2Tracing) {
   tracer->start(config_named("run"));
   const std::string listing = run_command({"lttng", "list", "run"}).out;
-  for (const char* expected : {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
-                               "Sub-buffer size:  32768 bytes", "Sub-buffer count: 2", "Switch timer:     inactive",
-                               "Read timer:       200 us", "Output mode:      mmap"}) {
+  for (const char* expected :
+       {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard", "Sub-buffer size:  32768 bytes",
+        "Sub-buffer count: 2", "Switch timer:     inactive", "Read timer:       200 us", "Output mode:      mmap"}) {
     EXPECT_THAT(listing, testing::HasSubstr(expected));
   }
   tracer->finish(config_named("run"), never);
@@ -313,8 +316,9 @@ TEST_F(LttngTracer, SnapshotsHoldWhatCameSinceTheLastOne) {
   TraceConfig config = config_named("run");
   config.snapshot_mode = true;
   tracer->start(config);
-  EXPECT_THAT(run_command({"lttng", "list", "run"}).out,
-              testing::AllOf(testing::HasSubstr("Event-loss mode:  overwrite"), testing::HasSubstr("Sub-buffer count: 4")));
+  EXPECT_THAT(
+      run_command({"lttng", "list", "run"}).out,
+      testing::AllOf(testing::HasSubstr("Event-loss mode:  overwrite"), testing::HasSubstr("Sub-buffer count: 4")));
   TracedApp app(10, 10);
   EXPECT_FALSE(std::filesystem::exists(config.trace_directory()));
   tracer->record_snapshot("run");
@@ -338,7 +342,9 @@ TEST_F(LttngTracer, SnapshotOfAnOrdinarySessionIsAnError) {
     tracer->record_snapshot("run");
     FAIL() << "no error";
   } catch (const TraceError& error) {
-    EXPECT_STREQ(error.what(), "cannot record a snapshot of session 'run': Snapshot command can't be applied to a non-snapshot session");
+    EXPECT_STREQ(
+        error.what(),
+        "cannot record a snapshot of session 'run': Snapshot command can't be applied to a non-snapshot session");
   }
   tracer->finish(config_named("run"), never);
 }
