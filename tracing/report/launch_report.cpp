@@ -31,7 +31,8 @@ int print_summary(const Arguments& arguments) {
 
 int print_report(const Arguments& arguments) {
   tracing::TraceAnalysis analysis;
-  tracing::Report report{arguments.directory, {}, ""};
+  // The paths of the streams are of this form, so that they can be shown relative to it.
+  tracing::Report report{std::filesystem::weakly_canonical(arguments.directory), {}, ""};
   tracing::TraceReader reader(arguments.directory);
   ExitCode exit_code = kSuccess;
   try {

@@ -9,7 +9,7 @@
 namespace tracing {
 
 struct Report {
-  std::filesystem::path directory;  // of the trace, as it was given
+  std::filesystem::path directory;  // of the trace, absolute
   TraceResults results;
   std::string error;                // why reading stopped early; empty when all was read
 };

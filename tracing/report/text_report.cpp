@@ -118,7 +118,8 @@ std::string callback_section(const TraceResults& results) {
     const DurationSummary& took = callback.durations;
     std::vector<std::string> cells{fmt::format("{}", took.count)};
     if (took.count > 0) {
-      for (const double value : {took.mean_ns, took.stddev_ns}) cells.push_back(format_duration(value));
+      cells.push_back(format_duration(took.mean_ns));
+      cells.push_back(took.count == 1 ? "-" : format_duration(took.stddev_ns));
       for (const std::int64_t value : {took.min_ns, took.p50_ns, took.p90_ns, took.p99_ns, took.max_ns}) {
         cells.push_back(format_duration(static_cast<double>(value)));
       }
@@ -133,7 +134,7 @@ std::string callback_section(const TraceResults& results) {
 
 std::string topic_section(const Ros2Results& ros2) {
   constexpr std::size_t kDuration = 8;
-  const TextTable table(25, {10, 9, 8, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
+  const TextTable table(23, {10, 9, 9, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
   std::string text;
   std::size_t silent = 0;
   for (const TopicResult& topic : ros2.topics) {
@@ -157,11 +158,13 @@ std::string topic_section(const Ros2Results& ros2) {
     }
   }
   if (!text.empty()) {
-    text = "\n" + table.row("Topics, publish to callback", {"published", "received", "unseen", "mean", "min", "p50", "p90", "p99", "max"}) + text;
-    text += "  (unseen: published, but taken by no subscription in the trace)\n";
+    const std::string header =
+        table.row("Topics", {"published", "received", "untaken", "mean", "min", "p50", "p90", "p99", "max"});
+    text = "\n" + header + text +
+           "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n";
   }
-  if (silent > 0) text += fmt::format("{}Topics without messages: {}\n", text.empty() ? "\n" : "  ", silent);
-  return text;
+  if (silent == 0) return text;
+  return text + fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
 }
 
 std::string notes(const TraceResults& results) {

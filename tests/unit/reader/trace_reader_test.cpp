@@ -198,7 +198,7 @@ TEST(TraceReader, SaysThatADirectoryDoesNotExist) {
   RecordingSink sink;
   const TraceReadError error = error_of("/nonexistent/trace", sink);
   EXPECT_STREQ(error.what(), "cannot read the trace '/nonexistent/trace': no such directory");
-  EXPECT_EQ(error.remedy(), "give the directory that the launcher or 'lttng' printed when it ended the session");
+  EXPECT_EQ(error.remedy(), "give the directory that the launcher printed when it ended the session");
 }
 
 TEST(TraceReader, SaysThatADirectoryIsNoTrace) {
