@@ -39,6 +39,6 @@ INSTANTIATE_TEST_SUITE_P(
                         Example{"05_processes", {}, {"[greeter-1] hello", "[greeter-1] world", "[clock-2] tick", "that was it", "sending signal 'SIGINT' to process[waiter-3]"}},
                         Example{"06_trace_options", {}, {"trace written to: "}}),
         testing::Values("xml", "yaml")),
-    [](const auto& info) { return std::string(std::get<0>(info.param).name + 3) + "_" + std::get<1>(info.param); });
+    [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 
 }  // namespace

@@ -210,7 +210,7 @@ class PingPong : public testing::TestWithParam<const char*> {
   Sandbox sandbox_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Formats, PingPong, testing::Values("xml", "yaml"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Formats, PingPong, testing::Values("xml", "yaml"), [](const auto& row) { return std::string(row.param); });
 
 TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, file(), "period_ms:=20"});
