@@ -13,6 +13,8 @@
 #include <exception>
 #include <fstream>
 #include <map>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -78,17 +80,21 @@ launch::ProcessSpec sleeper() {
   return spec;
 }
 
-Times run_supervised(std::size_t count) {
-  const auto loop = launch::make_sd_event_loop();
-  const auto runner = launch::make_posix_process_runner();
-  launch::OutputRouter output({});
-  launch::ProcessSupervisor supervisor(*loop, *runner, output);
+// What a launcher has once.
+struct Launcher {
+  std::unique_ptr<launch::EventLoop> loop = launch::make_sd_event_loop();
+  std::unique_ptr<launch::ProcessRunner> runner = launch::make_posix_process_runner();
+  launch::OutputRouter output{{}};
+};
+
+Times run_supervised(Launcher& launcher, std::size_t count) {
+  launch::ProcessSupervisor supervisor(*launcher.loop, *launcher.runner, launcher.output);
   std::vector<pid_t> pids;
   supervisor.observe([&](const launch::ProcessEvent& event) {
     if (const auto* started = std::get_if<launch::ProcessStarted>(&event.what)) {
       pids.push_back(started->pid);
     } else if (std::holds_alternative<launch::ProcessDone>(event.what) && supervisor.active() == 0) {
-      loop->quit();
+      launcher.loop->quit();
     }
   });
   const launch::ProcessSpec spec = sleeper();
@@ -101,7 +107,7 @@ Times run_supervised(std::size_t count) {
   std::for_each(pids.begin(), pids.end(), wait_until_asleep);
   const auto stop = Clock::now();
   supervisor.shutdown();
-  loop->run();
+  launcher.loop->run();
   times.stop = Microseconds(Clock::now() - stop).count();
   return times;
 }
@@ -111,13 +117,13 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void measure(std::size_t count, std::size_t rounds) {
+void measure(Launcher& launcher, std::size_t count, std::size_t rounds) {
   std::array<std::vector<double>, 2> start;
   std::array<std::vector<double>, 2> stop;
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t turn = 0; turn < 2; ++turn) {
       const std::size_t which = (round + turn) % 2;  // neither has the warmer machine
-      const Times times = which == 0 ? run_bare(count) : run_supervised(count);
+      const Times times = which == 0 ? run_bare(count) : run_supervised(launcher, count);
       start[which].push_back(times.start / static_cast<double>(count));
       stop[which].push_back(times.stop / static_cast<double>(count));
     }
@@ -135,15 +141,16 @@ void measure(std::size_t count, std::size_t rounds) {
 
 int main() {
   try {
-    run_supervised(1);  // raises the limit of descriptors, loads what is loaded lazily
+    Launcher launcher;
+    run_supervised(launcher, 1);  // sets up what is set up on first need
     fmt::print("microseconds for each child; ratio = supervised / bare\n");
     fmt::print("{:>9} | {:^29} | {:^29}\n", "", "start", "stop (SIGINT)");
     fmt::print("{:>9} | {:>9} {:>11} {:>7} | {:>9} {:>11} {:>7}\n", "children", "bare", "supervised", "ratio", "bare",
                "supervised", "ratio");
-    measure(1, 101);
-    measure(10, 31);
-    measure(100, 11);
-    measure(500, 7);
+    measure(launcher, 1, 101);
+    measure(launcher, 10, 31);
+    measure(launcher, 100, 15);
+    measure(launcher, 500, 7);
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_spawn: {}\n", error.what());
     return EXIT_FAILURE;
