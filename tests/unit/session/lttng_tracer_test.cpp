@@ -1,8 +1,11 @@
 // The real tracer on a session daemon of the test's own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/mount.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -55,6 +58,11 @@ struct LttngTracer : testing::Test {
   Sandbox sandbox;
   std::unique_ptr<tracing::Tracer> tracer = make_lttng_tracer();
 };
+
+std::string daemon_pid_file() {
+  const std::string home = std::string(getenv("LTTNG_HOME")) + "/.lttng";
+  return (geteuid() == 0 ? "/run/lttng" : home) + "/lttng-sessiond.pid";
+}
 
 std::vector<std::string> step_names(const SetupReport& report) {
   std::vector<std::string> names;
@@ -196,12 +204,9 @@ TEST_F(LttngTracer, DaemonThatDoesNotStartIsAnErrorWithItsOwnWords) {
 
 TEST_F(LttngTracer, StoppedDaemonIsAnErrorAndDoesNotBlock) {
   ASSERT_TRUE(tracing::ensure_session_daemon());
-  const std::string home = std::string(getenv("LTTNG_HOME")) + "/.lttng";
-  const std::string pid_file = (geteuid() == 0 ? "/run/lttng" : home) + "/lttng-sessiond.pid";
-  const pid_t pid = std::stoi(read_file(pid_file));
+  const pid_t pid = std::stoi(read_file(daemon_pid_file()));
   kill(pid, SIGSTOP);
-  while (read_file("/proc/" + std::to_string(pid) + "/stat").find(") T ") == std::string::npos) {
-  }
+  ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);  // an orphan by now, so it is the sandbox's child
   EXPECT_EQ(start_error(config_named("run")), "the LTTng session daemon (process " + std::to_string(pid) +
                                                   ") is stopped and answers nobody\ncontinue it with `kill -CONT " +
                                                   std::to_string(pid) + "`");
@@ -294,6 +299,26 @@ TEST_F(LttngTracer, FinishOfASessionThatSomebodyDestroyedIsAnError) {
   } catch (const TraceError& error) {
     EXPECT_STREQ(error.what(), "cannot stop trace session 'run': Session name not found");
     EXPECT_EQ(error.remedy(), "`lttng list` shows the sessions that exist");
+  }
+}
+
+TEST_F(LttngTracer, FinishAfterTheDaemonWasKilledIsAnErrorAndDoesNotBlock) {
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  const pid_t pid = std::stoi(read_file(daemon_pid_file()));
+  const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+  kill(pid, SIGKILL);
+  pollfd death{pidfd, POLLIN, 0};
+  ASSERT_EQ(poll(&death, 1, 10000), 1);
+  close(pidfd);
+  try {
+    tracer->finish(config, never);
+    FAIL() << "no error";
+  } catch (const TraceError& error) {
+    EXPECT_STREQ(error.what(), "cannot stop trace session 'run': No session daemon is available");
+    EXPECT_EQ(error.remedy(),
+              "no LTTng session daemon runs for this user any more: its sessions are gone, their traces end where they "
+              "are");
   }
 }
 
