@@ -222,12 +222,13 @@ TEST(TraceReader, SaysThatAFileIsNoTrace) {
 
 TEST(TraceReader, NamesTheTraceWhoseMetadataAreDamaged) {
   const TemporaryDirectory directory;
-  std::ofstream(directory.path() / "metadata") << "/* CTF 1.8 */ trace { major = ";
+  std::ofstream(directory.path() / "metadata") << "/* CTF 1.8 */ trace { major = 2; minor = 0; byte_order = le; };";
   ::testing::internal::CaptureStderr();
   RecordingSink sink;
   const TraceReadError error = error_of(directory.path(), sink);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_THAT(error.what(), ::testing::StartsWith("cannot read the trace '" + directory.path().string() + "': "));
+  EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': Cannot create trace for `" +
+                              directory.path().string() + "`.");
   EXPECT_EQ(error.remedy(), 
             "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon leaves such a trace");
   EXPECT_NE(error.details(), "");
