@@ -38,7 +38,8 @@
     (subscription_handle, node_handle, rmw_subscription_handle, topic_name, queue_depth)) \
   EVENT(rclcpp_subscription_init, \
     (const void * subscription_handle, const void * subscription), (subscription_handle, subscription)) \
-  EVENT(rclcpp_subscription_callback_added, (const void * subscription, const void * callback), (subscription, callback)) \
+  EVENT(rclcpp_subscription_callback_added, \
+    (const void * subscription, const void * callback), (subscription, callback)) \
   EVENT(rmw_take, \
     (const void * rmw_subscription_handle, const void * message, int64_t source_timestamp, const bool taken), \
     (rmw_subscription_handle, message, source_timestamp, taken)) \
@@ -50,7 +51,8 @@
     (const void * service_handle, const void * node_handle, const void * rmw_service_handle, \
      const char * service_name), \
     (service_handle, node_handle, rmw_service_handle, service_name)) \
-  EVENT(rclcpp_service_callback_added, (const void * service_handle, const void * callback), (service_handle, callback)) \
+  EVENT(rclcpp_service_callback_added, \
+    (const void * service_handle, const void * callback), (service_handle, callback)) \
   EVENT(rmw_take_request, \
     (const void * rmw_service_handle, const void * request, const uint8_t * client_gid, int64_t sequence_number, \
      const bool taken), \
