@@ -34,9 +34,8 @@ class InstalledStack : public testing::Test {
 
 TEST_F(InstalledStack, ServesAProjectWithItsOwnMessages) {
   const fs::path build = sandbox_.directory() / "build";
-  run({CMAKE, "-S", OUTSIDE_PROJECT, "-B", build.string(), "-G", GENERATOR,
-       "-DCMAKE_PREFIX_PATH=" + prefix_.string(), "-DCMAKE_CXX_COMPILER=" COMPILER,
-       "-DCMAKE_CXX_COMPILER_LAUNCHER=" COMPILER_LAUNCHER});
+  run({CMAKE, "-S", OUTSIDE_PROJECT, "-B", build.string(), "-G", GENERATOR, "-DCMAKE_PREFIX_PATH=" + prefix_.string(),
+       "-DCMAKE_CXX_COMPILER=" COMPILER, "-DCMAKE_CXX_COMPILER_LAUNCHER=" COMPILER_LAUNCHER});
   run({CMAKE, "--build", build.string()});
   const CommandResult result = run({(build / "print_report").string()});
   EXPECT_EQ(result.out,
@@ -45,9 +44,9 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessages) {
   // What the project installs is a package of the same shape.
   const fs::path other = sandbox_.directory() / "other";
   run({CMAKE, "--install", build.string(), "--prefix", other.string()});
-  for (const char* file : {"lib/libweather.so", "include/weather/weather/msg/report.hpp", "share/weather/msg/Report.msg",
-                           "share/weather/cmake/weatherConfig.cmake",
-                           "share/ament_index/resource_index/packages/weather"}) {
+  for (const char* file :
+       {"lib/libweather.so", "include/weather/weather/msg/report.hpp", "share/weather/msg/Report.msg",
+        "share/weather/cmake/weatherConfig.cmake", "share/ament_index/resource_index/packages/weather"}) {
     EXPECT_TRUE(fs::exists(other / file)) << file;
   }
 }
