@@ -181,7 +181,7 @@ TEST_P(MalformedFiles, AreErrorsAtTheirPlaceAndStartNothing) {
 INSTANTIATE_TEST_SUITE_P(
     Ten, MalformedFiles,
     testing::Values(
-        Malformed{"UnclosedTag", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<group>\n</launch>\n", "4:"},
+        Malformed{"UnclosedTag", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<group>\n</launch>\n", "3:1: error: <group> is never closed\n"},
         Malformed{"TwoRoots", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n</launch>\n<launch/>\n", "4:"},
         Malformed{"WrongRoot", "a.launch.xml", "<lunch>\n<executable cmd='touch $(var witness)'/>\n</lunch>\n", "1:2: error: "},
         Malformed{"DuplicateAttribute", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='a' message='b'/>\n</launch>\n", "3:18: error: "},

@@ -25,7 +25,7 @@ class Supervision : public testing::Test {
 TEST_F(Supervision, ANodeThatIgnoresSigintIsTerminatedThenKilled) {
   const std::string file = write(R"xml(
     <executable name="stubborn" shell="true" output="screen" sigterm_timeout="0.2" sigkill_timeout="0.2"
-                cmd="trap '' INT TERM; echo ready; while :; do read x; done"/>)xml");
+                cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
   run.send_signal(SIGINT);
@@ -41,7 +41,7 @@ TEST_F(Supervision, ANodeThatIgnoresSigintIsTerminatedThenKilled) {
 TEST_F(Supervision, TwoCtrlCsEndAtOnceAndStillDestroyTheSession) {
   const std::string file = write(R"xml(
     <trace session-name="hurry"/>
-    <executable name="stubborn" shell="true" output="screen" cmd="trap '' INT TERM; echo ready; while :; do read x; done"/>)xml");
+    <executable name="stubborn" shell="true" output="screen" cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
   run.send_signal(SIGINT);
@@ -95,7 +95,8 @@ TEST_F(Supervision, SigtermToTheLauncherEndsItsProcesses) {
 
 TEST_F(Supervision, DescendantsDontSurvive) {
   const std::string file = write(R"xml(
-    <executable name="parent" shell="true" output="screen" cmd="trap 'exit 0' INT; (trap '' INT TERM; echo ready; exec cat) &amp; wait"/>)xml");
+    <executable name="parent" shell="true" output="screen" sigterm_timeout="0.1" sigkill_timeout="0.1"
+                cmd="trap exit INT; (trap : INT TERM; echo ready; while :; do read x; done) &amp; wait"/>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[parent-1] ready"));
   run.send_signal(SIGINT);
