@@ -1,8 +1,8 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
-#include <regex>
 
 #include "launcher/process/output_router.hpp"
 #include "temporary_directory.hpp"
@@ -18,8 +18,9 @@ TEST(LogDirectory, IsNamedAfterTimeHostAndProcess) {
   const fs::path path = log.path;
   EXPECT_EQ(path.parent_path(), base.path());
   EXPECT_TRUE(fs::is_directory(path));
-  const std::regex pattern(R"(\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d-\d{6}-.+-)" + std::to_string(::getpid()));
-  EXPECT_TRUE(std::regex_match(path.filename().string(), pattern)) << path;
+  EXPECT_THAT(path.filename().string(),
+              testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}-[0-9]{2}-[0-9]{2}-[0-9]{2}-[0-9]{6}-.+-" +
+                                    std::to_string(::getpid())));
   EXPECT_EQ(log.warning, "");
 }
 
