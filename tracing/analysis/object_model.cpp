@@ -57,8 +57,7 @@ void ObjectModel::on(const Origin& origin, const ros2::RmwPublisherInit& event) 
 void ObjectModel::on(const Origin& origin, const ros2::RclPublisherInit& event) {
   const ObjectId topic_id = topic(event.topic_name);
   ++topics_[topic_id].publishers;
-  const ObjectId id =
-      append(publishers_, EndpointObject{find(node_index_, origin.vpid, event.node_handle), topic_id});
+  const ObjectId id = append(publishers_, EndpointObject{find(node_index_, origin.vpid, event.node_handle), topic_id});
   publisher_index_[{origin.vpid, event.publisher_handle}] = id;
   rmw_publisher_index_[{origin.vpid, event.rmw_publisher_handle}] = id;
 }
@@ -99,8 +98,8 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionCallbac
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclServiceInit& event) {
-  service_index_[{origin.vpid, event.service_handle}] =
-      append(services_, ServiceObject{find(node_index_, origin.vpid, event.node_handle), std::string(event.service_name)});
+  service_index_[{origin.vpid, event.service_handle}] = append(
+      services_, ServiceObject{find(node_index_, origin.vpid, event.node_handle), std::string(event.service_name)});
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppServiceCallbackAdded& event) {

@@ -46,8 +46,8 @@ class OverviewCounter : public TraceSink {
   std::optional<std::size_t> without_vpid_;
   std::optional<std::int64_t> last_vpid_;  // events come in runs of one process
   std::size_t last_process_ = 0;
-  std::vector<CountedClass> classes_;            // by EventClass::id
-  std::map<std::string, CountedLoss> losses_;    // by stream
+  std::vector<CountedClass> classes_;          // by EventClass::id
+  std::map<std::string, CountedLoss> losses_;  // by stream
 };
 
 }  // namespace tracing

@@ -10,7 +10,9 @@ void TraceAnalysis::on_event(const Event& event) {
   ros2_.on_event({event.timestamp_ns, event.vpid.value_or(0), event.vtid.value_or(0)}, *decoded);
 }
 
-void TraceAnalysis::on_loss(const Loss& loss) { overview_.on_loss(loss); }
+void TraceAnalysis::on_loss(const Loss& loss) {
+  overview_.on_loss(loss);
+}
 
 TraceResults TraceAnalysis::finish() {
   TraceResults results{overview_.overview(), ros2_.finish(), warnings_};

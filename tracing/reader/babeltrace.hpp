@@ -20,8 +20,7 @@ using ConstValue = std::unique_ptr<const bt_value, PutReference<bt_value, bt_val
 using QueryExecutor = std::unique_ptr<bt_query_executor, PutReference<bt_query_executor, bt_query_executor_put_ref>>;
 using Message = std::unique_ptr<const bt_message, PutReference<bt_message, bt_message_put_ref>>;
 using StreamReference = std::unique_ptr<const bt_stream, PutReference<bt_stream, bt_stream_put_ref>>;
-using EventClassReference =
-    std::unique_ptr<const bt_event_class, PutReference<bt_event_class, bt_event_class_put_ref>>;
+using EventClassReference = std::unique_ptr<const bt_event_class, PutReference<bt_event_class, bt_event_class_put_ref>>;
 
 // Throws TraceReadError from the causes that the library has noted for this thread, and clears them.
 // `what` is the message up to the library's own innermost reason, which is appended.

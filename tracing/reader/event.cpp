@@ -54,7 +54,9 @@ bool FieldValue::is_array() const {
   return bt_field_class_type_is(bt_field_get_class_type(field_), BT_FIELD_CLASS_TYPE_ARRAY);
 }
 
-std::size_t FieldValue::size() const { return is_array() ? bt_field_array_get_length(field_) : 0; }
+std::size_t FieldValue::size() const {
+  return is_array() ? bt_field_array_get_length(field_) : 0;
+}
 
 FieldValue FieldValue::operator[](std::size_t index) const {
   return FieldValue(bt_field_array_borrow_element_field_by_index_const(field_, index));

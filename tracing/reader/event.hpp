@@ -17,9 +17,9 @@ namespace tracing {
 
 // One data stream of a trace: in LTTng, the buffers of one channel on one CPU.
 struct Stream {
-  std::string name;                 // path of the stream file
-  std::size_t trace = 0;            // which trace below the directory, counted from 0
-  std::optional<std::int64_t> vpid; // only with buffers per process (PER_PID): the process that wrote it
+  std::string name;                  // path of the stream file
+  std::size_t trace = 0;             // which trace below the directory, counted from 0
+  std::optional<std::int64_t> vpid;  // only with buffers per process (PER_PID): the process that wrote it
 };
 
 // What all events of one name in one trace have in common.
@@ -43,7 +43,7 @@ class FieldValue {
   std::optional<std::string_view> string() const;
 
   bool is_array() const;
-  std::size_t size() const;                     // elements of an array or sequence, 0 of anything else
+  std::size_t size() const;                        // elements of an array or sequence, 0 of anything else
   FieldValue operator[](std::size_t index) const;  // of an array; index < size()
 
  private:
@@ -77,7 +77,7 @@ struct Loss {
   const Stream* stream = nullptr;
   std::optional<std::int64_t> begin_ns;  // the loss lies within this time range, if the trace tells it
   std::optional<std::int64_t> end_ns;
-  std::optional<std::uint64_t> count;    // nullopt: some
+  std::optional<std::uint64_t> count;  // nullopt: some
 };
 
 }  // namespace tracing

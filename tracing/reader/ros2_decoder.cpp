@@ -9,7 +9,6 @@ namespace tracing::ros2 {
 
 namespace {
 
-constexpr std::size_t kMostFields = 5;   // of any of the 42 events
 constexpr std::uint8_t kMissing = 0xff;
 
 // Each gives false, and leaves the member alone, when the recorded field has another type.
@@ -47,13 +46,20 @@ bool read_field(FieldValue field, Member& member) {
 
 constexpr std::string_view type_name(FieldType type) {
   switch (type) {
-    case FieldType::kPointer: return "a pointer";
-    case FieldType::kString: return "a string";
-    case FieldType::kUint64: return "an unsigned integer";
-    case FieldType::kInt64: return "an integer";
-    case FieldType::kBool: return "a boolean";
-    case FieldType::kGid: return "an array of bytes";
-    case FieldType::kPointers: return "a sequence of pointers";
+    case FieldType::kPointer:
+      return "a pointer";
+    case FieldType::kString:
+      return "a string";
+    case FieldType::kUint64:
+      return "an unsigned integer";
+    case FieldType::kInt64:
+      return "an integer";
+    case FieldType::kBool:
+      return "a boolean";
+    case FieldType::kGid:
+      return "an array of bytes";
+    case FieldType::kPointers:
+      return "a sequence of pointers";
   }
   return "";
 }
@@ -62,7 +68,7 @@ constexpr std::string_view type_name(FieldType type) {
 
 struct Decoder::Plan {
   void (*decode)(const Plan&, const Event&, AnyEvent&) = nullptr;  // null: not an event of ros2_tracing
-  std::array<std::uint8_t, kMostFields> index{};  // in the recorded payload, of the struct's fields in order
+  std::vector<std::uint8_t> index;  // in the recorded payload, of the struct's fields in order
 };
 
 namespace {
@@ -82,15 +88,14 @@ void decode_as(const Decoder::Plan& plan, const Event& event, AnyEvent& decoded)
 template <class Struct>
 Problems make_plan(const Event& event, Decoder::Plan& plan) {
   Problems problems;
-  std::uint8_t* index = plan.index.data();
   Struct example;
   Struct::for_each_field(example, [&]<FieldType type>(std::string_view name, auto& member) {
     const std::optional<std::size_t> found = event.event_class->index_of(name);
     if (found && *found < kMissing && read_field<type>(event.field(*found), member)) {
-      *index++ = static_cast<std::uint8_t>(*found);
+      plan.index.push_back(static_cast<std::uint8_t>(*found));
       return;
     }
-    *index++ = kMissing;
+    plan.index.push_back(kMissing);
     problems.push_back(found ? fmt::format("{}: field {} is not {}", Struct::kName, name, type_name(type))
                              : fmt::format("{} has no field {}", Struct::kName, name));
   });

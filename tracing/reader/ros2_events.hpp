@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -26,29 +27,17 @@ struct Gid {
   bool operator==(const Gid&) const = default;
 };
 
+// The C++ types of the fields, in the order of FieldType.
+using FieldMembers = std::tuple<Handle, std::string_view, std::uint64_t, std::int64_t, bool, Gid, std::vector<Handle>>;
 template <FieldType type>
-struct FieldMember;
-template <>
-struct FieldMember<FieldType::kPointer> { using type = Handle; };
-template <>
-struct FieldMember<FieldType::kString> { using type = std::string_view; };
-template <>
-struct FieldMember<FieldType::kUint64> { using type = std::uint64_t; };
-template <>
-struct FieldMember<FieldType::kInt64> { using type = std::int64_t; };
-template <>
-struct FieldMember<FieldType::kBool> { using type = bool; };
-template <>
-struct FieldMember<FieldType::kGid> { using type = Gid; };
-template <>
-struct FieldMember<FieldType::kPointers> { using type = std::vector<Handle>; };
+using FieldMember = std::tuple_element_t<static_cast<std::size_t>(type), FieldMembers>;
 
 // The name of a field in the trace, from its name in the table.
 constexpr std::string_view field_name(std::string_view member) {
   return member.ends_with('_') ? member.substr(0, member.size() - 1) : member;
 }
 
-#define TRACING_DECLARE_MEMBER(type_, name_) FieldMember<FieldType::type_>::type name_{};
+#define TRACING_DECLARE_MEMBER(type_, name_) FieldMember<FieldType::type_> name_{};
 #define TRACING_VISIT_MEMBER(type_, name_) visit.template operator()<FieldType::type_>(field_name(#name_), event.name_);
 
 // Each struct has `kName`, the full event name, and `for_each_field(event, visit)`, which calls
@@ -64,10 +53,10 @@ TRACING_ROS2_EVENTS(TRACING_DECLARE_EVENT, TRACING_DECLARE_MEMBER)
 #undef TRACING_DECLARE_EVENT
 #undef TRACING_DECLARE_MEMBER
 
-#define TRACING_DEFINE_FOR_EACH_FIELD(struct_, name_, fields_)                                                    \
-  template <class Event, class Visit>                                                                            \
-  constexpr void struct_::for_each_field([[maybe_unused]] Event& event, [[maybe_unused]] Visit&& visit) {        \
-    fields_                                                                                                      \
+#define TRACING_DEFINE_FOR_EACH_FIELD(struct_, name_, fields_)                                            \
+  template <class Event, class Visit>                                                                     \
+  constexpr void struct_::for_each_field([[maybe_unused]] Event& event, [[maybe_unused]] Visit&& visit) { \
+    fields_                                                                                               \
   }
 TRACING_ROS2_EVENTS(TRACING_DEFINE_FOR_EACH_FIELD, TRACING_VISIT_MEMBER)
 #undef TRACING_DEFINE_FOR_EACH_FIELD

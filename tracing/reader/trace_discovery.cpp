@@ -16,7 +16,9 @@ namespace {
 // A directory is a CTF trace when it holds a file of this name.
 constexpr const char* kMetadata = "metadata";
 
-bool is_trace(const fs::path& directory) { return fs::is_regular_file(directory / kMetadata); }
+bool is_trace(const fs::path& directory) {
+  return fs::is_regular_file(directory / kMetadata);
+}
 
 std::vector<fs::path> trace_directories(const fs::path& directory) {
   std::vector<fs::path> found;
@@ -37,9 +39,8 @@ std::string identity(const bt_component_class_source* ctf_fs, const fs::path& di
   babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "type", "directory"), "bt_value_map_insert");
   babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "input", directory.c_str()),
                     "bt_value_map_insert");
-  const babeltrace::QueryExecutor query(
-      bt_query_executor_create(bt_component_class_source_as_component_class_const(ctf_fs), "babeltrace.support-info",
-                               parameters.get()));
+  const babeltrace::QueryExecutor query(bt_query_executor_create(
+      bt_component_class_source_as_component_class_const(ctf_fs), "babeltrace.support-info", parameters.get()));
   const bt_value* answer = nullptr;
   if (bt_query_executor_query(query.get(), &answer) != BT_QUERY_EXECUTOR_QUERY_STATUS_OK) {
     bt_current_thread_clear_error();
@@ -68,8 +69,8 @@ std::vector<TraceDirectories> find_traces(const bt_component_class_source* ctf_f
   try {
     directories = trace_directories(directory);
   } catch (const fs::filesystem_error& failure) {
-    throw TraceReadError(fmt::format("cannot read the trace '{}': {}: {}", directory.string(),
-                                     failure.path1().string(), failure.code().message()),
+    throw TraceReadError(fmt::format("cannot read the trace '{}': {}: {}", directory.string(), failure.path1().string(),
+                                     failure.code().message()),
                          "check the permissions of the directories below it");
   }
   if (directories.empty()) {

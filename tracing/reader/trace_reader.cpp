@@ -65,8 +65,8 @@ const bt_component_source* add_source(bt_graph* graph, const bt_component_class_
     babeltrace::check(bt_value_array_append_string_element(inputs, directory.c_str()), "bt_value_array_append");
   }
   const bt_component_source* source = nullptr;
-  if (bt_graph_add_source_component(graph, ctf_fs, directories.front().c_str(), parameters.get(),
-                                    BT_LOGGING_LEVEL_NONE, &source) != BT_GRAPH_ADD_COMPONENT_STATUS_OK) {
+  if (bt_graph_add_source_component(graph, ctf_fs, directories.front().c_str(), parameters.get(), BT_LOGGING_LEVEL_NONE,
+                                    &source) != BT_GRAPH_ADD_COMPONENT_STATUS_OK) {
     babeltrace::throw_noted_error(fmt::format("cannot read the trace '{}'", directories.front().string()),
                                   "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon "
                                   "leaves such a trace");
@@ -78,8 +78,8 @@ const bt_component_source* add_source(bt_graph* graph, const bt_component_class_
 
 TraceReader::TraceReader(const fs::path& directory) : implementation_(std::make_unique<Implementation>()) {
   implementation_->directory = directory;
-  implementation_->traces = find_traces(
-      bt_plugin_borrow_source_component_class_by_name_const(implementation_->ctf.get(), "fs"), directory);
+  implementation_->traces =
+      find_traces(bt_plugin_borrow_source_component_class_by_name_const(implementation_->ctf.get(), "fs"), directory);
 }
 
 TraceReader::~TraceReader() = default;
@@ -108,13 +108,12 @@ void TraceReader::read(TraceSink& sink) {
   if (next_input == 0) return;  // metadata without a stream: a session in which nothing happened
 
   const bt_component_sink* end = nullptr;
-  babeltrace::check(bt_graph_add_simple_sink_component(graph.get(), "sink", start_consuming, consume, nullptr,
-                                                       &consumer, &end),
-                    "bt_graph_add_simple_sink_component");
   babeltrace::check(
-      bt_graph_connect_ports(graph.get(), bt_component_filter_borrow_output_port_by_index_const(muxer, 0),
-                             bt_component_sink_borrow_input_port_by_index_const(end, 0), nullptr),
-      "bt_graph_connect_ports");
+      bt_graph_add_simple_sink_component(graph.get(), "sink", start_consuming, consume, nullptr, &consumer, &end),
+      "bt_graph_add_simple_sink_component");
+  babeltrace::check(bt_graph_connect_ports(graph.get(), bt_component_filter_borrow_output_port_by_index_const(muxer, 0),
+                                           bt_component_sink_borrow_input_port_by_index_const(end, 0), nullptr),
+                    "bt_graph_connect_ports");
 
   if (bt_graph_run(graph.get()) != BT_GRAPH_RUN_STATUS_OK) {
     if (consumer.failure) {

@@ -29,10 +29,14 @@ Json durations(const DurationSummary& summary) {
 
 const char* owner_name(CallbackResult::Owner owner) {
   switch (owner) {
-    case CallbackResult::Owner::kSubscription: return "subscription";
-    case CallbackResult::Owner::kTimer: return "timer";
-    case CallbackResult::Owner::kService: return "service";
-    case CallbackResult::Owner::kUnknown: return "unknown";
+    case CallbackResult::Owner::kSubscription:
+      return "subscription";
+    case CallbackResult::Owner::kTimer:
+      return "timer";
+    case CallbackResult::Owner::kService:
+      return "service";
+    case CallbackResult::Owner::kUnknown:
+      return "unknown";
   }
   return "";
 }

@@ -11,7 +11,7 @@ namespace tracing {
 struct Report {
   std::filesystem::path directory;  // of the trace, absolute
   TraceResults results;
-  std::string error;                // why reading stopped early; empty when all was read
+  std::string error;  // why reading stopped early; empty when all was read
 };
 
 // Sections: trace, losses (when there are any), events, callbacks, topics, notes. At most kReportWidth columns, except

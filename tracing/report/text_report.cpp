@@ -108,8 +108,7 @@ std::string callback_section(const TraceResults& results) {
   if (results.ros2.callbacks.empty()) return "";
   constexpr std::size_t kDuration = 8;
   const TextTable table(36, {8, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
-  std::string text =
-      "\n" + table.row("Callbacks", {"count", "mean", "stddev", "min", "p50", "p90", "p99", "max"});
+  std::string text = "\n" + table.row("Callbacks", {"count", "mean", "stddev", "min", "p50", "p90", "p99", "max"});
   std::string last_node;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     const std::string node = node_label(callback, results.overview);
@@ -164,7 +163,8 @@ std::string topic_section(const Ros2Results& ros2) {
            "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n";
   }
   if (silent == 0) return text;
-  return text + fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
+  return text +
+         fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
 }
 
 std::string notes(const TraceResults& results) {

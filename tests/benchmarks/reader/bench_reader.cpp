@@ -3,8 +3,8 @@
 //
 // Each reader is a process of its own; its CPU time counts, so that other work on the machine disturbs little. Usage:
 //   bench_reader [EVENTS]
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

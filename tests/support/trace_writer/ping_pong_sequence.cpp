@@ -4,11 +4,13 @@ namespace tracing::testing {
 
 namespace {
 
+// clang-format off
 enum : ros2::Handle {
   kC1 = 0x100, kN1, kRmwN1, kS1, kRmwS1, kP1, kRmwP1, kT1, kO1, kCallbackA, kCallbackT, kDiscovery1,
   kC2 = 0x200, kN2, kRmwN2, kS2, kRmwS2, kP2, kRmwP2, kO2, kCallbackB, kDiscovery2,
   kM1 = 0x300, kM2, kM3, kM4,
 };
+// clang-format on
 
 constexpr std::int64_t us(double microseconds) {
   return kPingPongBegin + static_cast<std::int64_t>(microseconds * 1000);
@@ -30,7 +32,11 @@ std::vector<SequenceEvent> ping_pong_sequence() {
       {us(6100), kPing, RclSubscriptionInit{kS1, kN1, kRmwS1, "/pong", 10}},
       {us(6110), kPing, RclcppSubscriptionInit{kS1, kO1}},
       {us(6120), kPing, RclcppSubscriptionCallbackAdded{kO1, kCallbackA}},
-      {us(6130), kPing, RclcppCallbackRegister{kCallbackA, "std::_Bind<void (Ping::*(Ping*, std::_Placeholder<1>))(std::shared_ptr<std_msgs::msg::String_<std::allocator<void> > >)>"}},
+      {us(6130), kPing,
+       RclcppCallbackRegister{
+           kCallbackA,
+           "std::_Bind<void (Ping::*(Ping*, "
+           "std::_Placeholder<1>))(std::shared_ptr<std_msgs::msg::String_<std::allocator<void> > >)>"}},
       {us(6500), kPing, RmwPublisherInit{kRmwP1, {}}},
       {us(6600), kPing, RclPublisherInit{kP1, kN1, kRmwP1, "/ping", 10}},
       {us(6800), kPing, RclTimerInit{kT1, 500'000'000}},
@@ -46,7 +52,8 @@ std::vector<SequenceEvent> ping_pong_sequence() {
       {us(26100), kPong, RclSubscriptionInit{kS2, kN2, kRmwS2, "/ping", 10}},
       {us(26110), kPong, RclcppSubscriptionInit{kS2, kO2}},
       {us(26120), kPong, RclcppSubscriptionCallbackAdded{kO2, kCallbackB}},
-      {us(26130), kPong, RclcppCallbackRegister{kCallbackB, "Pong::on_ping(std_msgs::msg::String_<std::allocator<void> > const&)"}},
+      {us(26130), kPong,
+       RclcppCallbackRegister{kCallbackB, "Pong::on_ping(std_msgs::msg::String_<std::allocator<void> > const&)"}},
       {us(26500), kPong, RmwPublisherInit{kRmwP2, {}}},
       {us(26600), kPong, RclPublisherInit{kP2, kN2, kRmwP2, "/pong", 10}},
       {us(27000), kPong, RclcppExecutorGetNextReady{}},

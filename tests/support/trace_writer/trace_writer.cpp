@@ -30,12 +30,18 @@ std::string detail::describe_field(ros2::FieldType type, std::string_view name) 
                        is_signed ? 1 : 0, base);
   };
   switch (type) {
-    case ros2::FieldType::kPointer: return fmt::format("\t\t{} _{};\n", integer(64, false, 16), name);
-    case ros2::FieldType::kString: return fmt::format("\t\tstring _{};\n", name);
-    case ros2::FieldType::kUint64: return fmt::format("\t\t{} _{};\n", integer(64, false, 10), name);
-    case ros2::FieldType::kInt64: return fmt::format("\t\t{} _{};\n", integer(64, true, 10), name);
-    case ros2::FieldType::kBool: return fmt::format("\t\t{} _{};\n", integer(32, true, 10), name);
-    case ros2::FieldType::kGid: return fmt::format("\t\t{} _{}[16];\n", integer(8, false, 10), name);
+    case ros2::FieldType::kPointer:
+      return fmt::format("\t\t{} _{};\n", integer(64, false, 16), name);
+    case ros2::FieldType::kString:
+      return fmt::format("\t\tstring _{};\n", name);
+    case ros2::FieldType::kUint64:
+      return fmt::format("\t\t{} _{};\n", integer(64, false, 10), name);
+    case ros2::FieldType::kInt64:
+      return fmt::format("\t\t{} _{};\n", integer(64, true, 10), name);
+    case ros2::FieldType::kBool:
+      return fmt::format("\t\t{} _{};\n", integer(32, true, 10), name);
+    case ros2::FieldType::kGid:
+      return fmt::format("\t\t{} _{}[16];\n", integer(8, false, 10), name);
     case ros2::FieldType::kPointers:
       return fmt::format("\t\t{0} __{1}_length;\n\t\t{2} _{1}[ __{1}_length ];\n", integer(64, false, 10), name,
                          integer(64, false, 16));
@@ -62,7 +68,8 @@ std::uint16_t TraceWriter::declare(std::string_view name, const std::string& fie
   const auto id = static_cast<std::uint16_t>(ids_.size());
   ids_.emplace(name, id);
   event_descriptions_ += fmt::format(
-      "event {{\n\tname = \"{}\";\n\tid = {};\n\tstream_id = 0;\n\tloglevel = 13;\n\tfields := struct {{\n{}\t}};\n}};\n\n",
+      "event {{\n\tname = \"{}\";\n\tid = {};\n\tstream_id = 0;\n\tloglevel = 13;\n\tfields := struct "
+      "{{\n{}\t}};\n}};\n\n",
       name, id, fields);
   return id;
 }
@@ -107,9 +114,13 @@ void TraceWriter::end_packet(unsigned cpu) {
   stream.begin_ns = stream.end_ns;
 }
 
-void TraceWriter::discard_events(unsigned cpu, std::uint32_t count) { cpus_[cpu].discarded += count; }
+void TraceWriter::discard_events(unsigned cpu, std::uint32_t count) {
+  cpus_[cpu].discarded += count;
+}
 
-void TraceWriter::lose_packets(unsigned cpu, std::uint64_t count) { cpus_[cpu].sequence_number += count; }
+void TraceWriter::lose_packets(unsigned cpu, std::uint64_t count) {
+  cpus_[cpu].sequence_number += count;
+}
 
 void TraceWriter::finish() {
   for (auto& [cpu, stream] : cpus_) {
@@ -121,11 +132,12 @@ void TraceWriter::finish() {
 std::string TraceWriter::metadata() const {
   const std::string context =
       options_.contexts
-          ? fmt::format("\tevent.context := struct {{\n"
-                        "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vpid;\n"
-                        "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vtid;\n"
-                        "\t\tinteger {{ size = 8; align = 8; signed = 0; encoding = UTF8; }} _procname[{}];\n\t}};\n",
-                        kProcnameSize)
+          ? fmt::format(
+                "\tevent.context := struct {{\n"
+                "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vpid;\n"
+                "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vtid;\n"
+                "\t\tinteger {{ size = 8; align = 8; signed = 0; encoding = UTF8; }} _procname[{}];\n\t}};\n",
+                kProcnameSize)
           : "";
   const std::string process =
       options_.per_process_vpid ? fmt::format("\tvpid = {};\n\tprocname = \"p\";\n", *options_.per_process_vpid) : "";

@@ -23,10 +23,10 @@ struct Thread {
 class TraceWriter {
  public:
   struct Options {
-    bool contexts = true;                          // vpid, vtid, procname of every event
+    bool contexts = true;                            // vpid, vtid, procname of every event
     std::optional<std::int64_t> per_process_vpid{};  // as with buffers per process
-    std::uint8_t identity = 1;                     // traces with the same identity are parts of one
-    std::size_t packet_size = 1 << 16;             // bytes; a packet ends when it holds more
+    std::uint8_t identity = 1;                       // traces with the same identity are parts of one
+    std::size_t packet_size = 1 << 16;               // bytes; a packet ends when it holds more
   };
 
   // Creates the directory.

@@ -15,9 +15,11 @@ TEST(CallbackSymbol, NamesTheClassOfABoundMethod) {
 }
 
 TEST(CallbackSymbol, ShortensLibraryNames) {
-  EXPECT_EQ(readable_symbol("f(std::__cxx11::basic_string<char, std::char_traits<char>, std::allocator<char> > const&)"),
-            "f(std::string const&)");
-  EXPECT_EQ(readable_symbol("f(std::unique_ptr<M_<std::allocator<void> >, std::default_delete<M_<std::allocator<void> > > >)"),
+  EXPECT_EQ(
+      readable_symbol("f(std::__cxx11::basic_string<char, std::char_traits<char>, std::allocator<char> > const&)"),
+      "f(std::string const&)");
+  EXPECT_EQ(readable_symbol(
+                "f(std::unique_ptr<M_<std::allocator<void> >, std::default_delete<M_<std::allocator<void> > > >)"),
             "f(std::unique_ptr<M>)");
   EXPECT_EQ(readable_symbol("f(std::vector<int, std::allocator<int> >)"), "f(std::vector<int>)");
 }

@@ -5,7 +5,9 @@
 namespace tracing {
 namespace {
 
-TEST(DurationStatistics, OfNothingHasCountZero) { EXPECT_EQ(DurationStatistics().summary().count, 0u); }
+TEST(DurationStatistics, OfNothingHasCountZero) {
+  EXPECT_EQ(DurationStatistics().summary().count, 0u);
+}
 
 TEST(DurationStatistics, OfOneValueIsThatValue) {
   DurationStatistics statistics;

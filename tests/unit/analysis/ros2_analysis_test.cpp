@@ -112,9 +112,11 @@ TEST(Ros2Analysis, KeepsAReentrantCallbackInTwoThreadsApart) {
 
 TEST(Ros2Analysis, GivesAReusedAddressToTheNewestObject) {
   Feed feed;
-  feed(ros2::RclTimerInit{1, 100})(ros2::RclcppTimerCallbackAdded{1, 0xcb})(ros2::RclcppCallbackRegister{0xcb, "first"});
+  feed(ros2::RclTimerInit{1, 100})(ros2::RclcppTimerCallbackAdded{1, 0xcb})(
+      ros2::RclcppCallbackRegister{0xcb, "first"});
   feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
-  feed(ros2::RclTimerInit{1, 200})(ros2::RclcppTimerCallbackAdded{1, 0xcb})(ros2::RclcppCallbackRegister{0xcb, "second"});
+  feed(ros2::RclTimerInit{1, 200})(ros2::RclcppTimerCallbackAdded{1, 0xcb})(
+      ros2::RclcppCallbackRegister{0xcb, "second"});
   feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
   feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
 

@@ -15,8 +15,8 @@ namespace tracing {
 namespace {
 
 using test_support::run_command;
-using testing::RecordingSink;
 using ::testing::IsEmpty;
+using testing::RecordingSink;
 
 class RecordedTrace : public ::testing::Test {
  protected:
@@ -98,7 +98,8 @@ TEST_F(RecordedTrace, DecodesEveryEventOfTracetools) {
 
 TEST_F(RecordedTrace, CountsEveryEventThatLttngDiscarded) {
   constexpr std::uint64_t kFired = 20'000;
-  ASSERT_NO_FATAL_FAILURE(record({"--subbuf-size=4096", "--num-subbuf=2"}, {TRACED_APP, std::to_string(kFired), "200"}));
+  ASSERT_NO_FATAL_FAILURE(
+      record({"--subbuf-size=4096", "--num-subbuf=2"}, {TRACED_APP, std::to_string(kFired), "200"}));
 
   RecordingSink sink;
   TraceReader(trace_).read(sink);
@@ -115,7 +116,8 @@ TEST_F(RecordedTrace, CountsEveryEventThatLttngDiscarded) {
 }
 
 TEST_F(RecordedTrace, KnowsTheProcessOfItsOwnBuffers) {
-  ASSERT_NO_FATAL_FAILURE(record({"--buffers-pid", "--subbuf-size=4096", "--num-subbuf=2"}, {TRACED_APP, "20000", "200"}));
+  ASSERT_NO_FATAL_FAILURE(
+      record({"--buffers-pid", "--subbuf-size=4096", "--num-subbuf=2"}, {TRACED_APP, "20000", "200"}));
 
   RecordingSink sink;
   TraceReader(trace_).read(sink);

@@ -12,11 +12,11 @@
 namespace tracing {
 namespace {
 
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using testing::TemporaryDirectory;
 using testing::Thread;
 using testing::TraceWriter;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 constexpr Thread kThread{71, 71, "ping"};
 
@@ -152,10 +152,10 @@ TEST(Ros2Decoder, ReportsAFieldOfAnotherType) {
 TEST(Ros2Decoder, IgnoresExtraFieldsAndTheirOrder) {
   const TemporaryDirectory directory;
   TraceWriter writer(directory.path());
-  const std::uint16_t id =
-      writer.declare("ros2:callback_start", testing::detail::describe_field(ros2::FieldType::kUint64, "executor") +
-                                                testing::detail::describe_field(ros2::FieldType::kBool, "is_intra_process") +
-                                                testing::detail::describe_field(ros2::FieldType::kPointer, "callback"));
+  const std::uint16_t id = writer.declare(
+      "ros2:callback_start", testing::detail::describe_field(ros2::FieldType::kUint64, "executor") +
+                                 testing::detail::describe_field(ros2::FieldType::kBool, "is_intra_process") +
+                                 testing::detail::describe_field(ros2::FieldType::kPointer, "callback"));
   std::string payload = bytes({7});
   testing::detail::append(payload, std::int32_t{1});
   payload += bytes({0xcb});
@@ -175,9 +175,9 @@ TEST(Ros2Decoder, IgnoresExtraFieldsAndTheirOrder) {
 TEST(Ros2Decoder, ReadsTheLongerGidOfOlderVersions) {
   const TemporaryDirectory directory;
   TraceWriter writer(directory.path());
-  const std::uint16_t id = writer.declare("ros2:rmw_client_init",
-                                          testing::detail::describe_field(ros2::FieldType::kPointer, "rmw_client_handle") +
-                                              "\t\tinteger { size = 8; align = 8; signed = 0; } _gid[24];\n");
+  const std::uint16_t id = writer.declare(
+      "ros2:rmw_client_init", testing::detail::describe_field(ros2::FieldType::kPointer, "rmw_client_handle") +
+                                  "\t\tinteger { size = 8; align = 8; signed = 0; } _gid[24];\n");
   writer.write_raw(0, 1, kThread, id, bytes({1}) + std::string(23, 'a') + 'b');
   writer.finish();
 

@@ -13,11 +13,11 @@ namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using testing::RecordingSink;
 using testing::TemporaryDirectory;
 using testing::Thread;
 using testing::TraceWriter;
-using ::testing::ElementsAre;
 
 constexpr Thread kPing{71, 71, "ping"};
 constexpr Thread kPong{72, 720, "pong"};
@@ -229,7 +229,7 @@ TEST(TraceReader, NamesTheTraceWhoseMetadataAreDamaged) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': Cannot create trace for `" +
                               directory.path().string() + "`.");
-  EXPECT_EQ(error.remedy(), 
+  EXPECT_EQ(error.remedy(),
             "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon leaves such a trace");
   EXPECT_NE(error.details(), "");
 }

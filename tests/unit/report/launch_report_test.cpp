@@ -16,10 +16,10 @@ namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::TemporaryDirectory;
-using testing::TraceWriter;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using testing::TemporaryDirectory;
+using testing::TraceWriter;
 
 struct Outcome {
   int exit_code;
@@ -37,8 +37,7 @@ Outcome launch_report(const std::string& arguments) {
   const TemporaryDirectory directory;
   const fs::path out = directory.path() / "out";
   const fs::path err = directory.path() / "err";
-  const std::string command =
-      std::string(LAUNCH_REPORT) + " " + arguments + " >" + out.string() + " 2>" + err.string();
+  const std::string command = std::string(LAUNCH_REPORT) + " " + arguments + " >" + out.string() + " 2>" + err.string();
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }

@@ -23,8 +23,13 @@ TraceOverview overview_of(std::uint64_t events, std::vector<ProcessResult> proce
 }
 
 LossResult loss_of(std::uint64_t events, std::uint64_t packets, bool uncounted) {
-  return {"/traces/run/ust/uid/0/64-bit/ros2_0", events, packets, uncounted, kBegin + 500'000'000,
-          kBegin + 1'500'000'000, {0}};
+  return {"/traces/run/ust/uid/0/64-bit/ros2_0",
+          events,
+          packets,
+          uncounted,
+          kBegin + 500'000'000,
+          kBegin + 1'500'000'000,
+          {0}};
 }
 
 TEST(SummaryLine, SaysWhetherEventsWereLost) {
@@ -76,8 +81,9 @@ Events by process                              total  ping [71]  pong [72]  talk
 
 TEST(TextReport, PutsProcessesThatDontFitBelow) {
   Report report{"/traces/run", {}, ""};
-  report.results.overview.processes = {
-      {100001, "first_component", 1, false}, {100002, "second_componen", 1, false}, {100003, "third_component", 1, false}};
+  report.results.overview.processes = {{100001, "first_component", 1, false},
+                                       {100002, "second_componen", 1, false},
+                                       {100003, "third_component", 1, false}};
   report.results.overview.events = 6;
   report.results.overview.event_counts = {{"ros2:rcl_take", 6, {1, 2, 3}}};
   EXPECT_EQ(text_report(report),
@@ -177,14 +183,14 @@ TEST(JsonReport, HoldsEverything) {
   EXPECT_EQ(json["error"], "damaged");
   EXPECT_EQ(json["begin_ns"], kBegin);
   EXPECT_EQ(json["events"], 10);
-  EXPECT_EQ(json["processes"], nlohmann::json::parse(R"json([{"vpid":71,"name":"ping","events":10,"doubtful":false}])json"));
+  EXPECT_EQ(json["processes"],
+            nlohmann::json::parse(R"json([{"vpid":71,"name":"ping","events":10,"doubtful":false}])json"));
   EXPECT_EQ(json["losses"], nlohmann::json::parse(R"json([{"stream":"/traces/run/ust/uid/0/64-bit/ros2_0","events":37,
       "packets":3,"uncounted":true,"begin_ns":1767225600500000000,"end_ns":1767225601500000000,"processes":[0]}])json"));
   EXPECT_EQ(json["callbacks"][0],
             nlohmann::json::parse(R"json({"vpid":71,"node":"","owner":"unknown","address":203,"symbol":"",
       "duration":{"count":0},"intra_process":0,"unfinished":1})json"));
-  EXPECT_EQ(json["callbacks"][1],
-            nlohmann::json::parse(R"json({"vpid":71,"node":"/ns/node","owner":"subscription",
+  EXPECT_EQ(json["callbacks"][1], nlohmann::json::parse(R"json({"vpid":71,"node":"/ns/node","owner":"subscription",
       "topic":"/camera/front/image_raw/compressed","address":203,"symbol":"Node::on_image(Image const&)",
       "duration":{"count":70000,"mean_ns":1500.0,"stddev_ns":250.0,"min_ns":1000,"p50_ns":1400,"p90_ns":2000,
       "p99_ns":3000,"max_ns":99000000,"percentiles_are_exact":false},"intra_process":5,"unfinished":0})json"));
