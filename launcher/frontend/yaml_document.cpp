@@ -6,7 +6,6 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,30 +25,6 @@ constexpr std::size_t kMaximumNodes = 1'000'000;
 
 constexpr std::string_view kStandardTag = "tag:yaml.org,2002:";
 
-// What yaml-cpp says, what we say, and what to do about it.
-struct Explanation {
-  std::string_view original;
-  std::string_view message;
-  std::string_view help;
-};
-const std::array<Explanation, 12> kExplanations = {{
-    {YAML::ErrorMsg::MAP_VALUE, "a mapping can't start here",
-     "align the key with its neighbours; quote a text that has ': ' in it"},
-    {YAML::ErrorMsg::MAP_KEY, "a mapping key can't stand here", "align it with its neighbours"},
-    {YAML::ErrorMsg::BLOCK_ENTRY, "a list item can't start here", "align the '-' with those of its neighbours"},
-    {YAML::ErrorMsg::END_OF_MAP, "this line does not fit the indentation of the mapping that it is part of",
-     "align it with the keys above"},
-    {YAML::ErrorMsg::END_OF_SEQ, "this line does not fit the indentation of the list that it is part of",
-     "align it with the '-' above"},
-    {YAML::ErrorMsg::END_OF_MAP_FLOW, "the '{' is not closed", "add '}', or ',' between two entries"},
-    {YAML::ErrorMsg::END_OF_SEQ_FLOW, "the '[' is not closed", "add ']', or ',' between two items"},
-    {YAML::ErrorMsg::FLOW_END, "a closing bracket without an opening one", ""},
-    {YAML::ErrorMsg::EOF_IN_SCALAR, "the quoted text is not closed", "add the missing quote"},
-    {YAML::ErrorMsg::UNKNOWN_TOKEN, "a text can't start with this character", "quote the text"},
-    {YAML::ErrorMsg::UNKNOWN_ANCHOR, "the alias refers to no anchor that stands before it", "define it with &name"},
-    {YAML::ErrorMsg::INVALID_ALIAS, "the alias refers to no anchor that stands before it", "define it with &name"},
-}};
-
 // Builds the tree from yaml-cpp's events.
 class TreeBuilder : public YAML::EventHandler {
  public:
@@ -57,6 +32,11 @@ class TreeBuilder : public YAML::EventHandler {
       : source_(source), offset_(offset), errors_(errors) {}
 
   YamlNode take_root() { return std::move(root_); }
+
+  // Where the innermost '[' or '{' that is still open stands.
+  std::optional<std::size_t> open_bracket() const {
+    return open_.empty() || !open_.back().is_flow ? std::nullopt : std::optional(open_.back().begin);
+  }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -73,13 +53,21 @@ class TreeBuilder : public YAML::EventHandler {
     }
     node.where = node.scalar.text.text().empty() ? source_.range(at, 0) : node.scalar.text.range();
     node.scalar.type = Scalar::Type::kNull;
+    check_colon(node);
     add(std::move(node), anchor);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     YamlNode node;
-    LocatedText text = locate_yaml_scalar(source_, position(mark), value);
+    scalar_begin_ = position(mark);
+    auto [text, end, closed] = locate_yaml_scalar(source_, scalar_begin_, value);
+    scalar_end_ = end;
+    if (!closed) {
+      const SourceRange begin = text.range();
+      throw LaunchError("the quoted text is not closed", {begin.file, begin.begin - 1, begin.begin},
+                        "add the missing quote");
+    }
     node.where = text.range();
     node.is_plain = tag == "?";
     if (node.is_plain) {
@@ -100,18 +88,20 @@ class TreeBuilder : public YAML::EventHandler {
       throw LaunchError(fmt::format("the aliases expand to more than {} nodes", kMaximumNodes),
                         source_.range(position(mark), 1));
     }
+    scalar_begin_ = position(mark);
+    scalar_end_ = std::min(source_.text().find_first_of(" :", scalar_begin_), source_.text().size());
     add(YamlNode(found->second.node), YAML::NullAnchor);
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    open(YamlNode::Kind::kSequence, mark, anchor);
+                       YAML::EmitterStyle::value style) override {
+    open(YamlNode::Kind::kSequence, mark, anchor, style);
   }
   void OnSequenceEnd() override { close(); }
 
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    open(YamlNode::Kind::kMapping, mark, anchor);
+                  YAML::EmitterStyle::value style) override {
+    open(YamlNode::Kind::kMapping, mark, anchor, style);
   }
   void OnMapEnd() override {
     merge(open_.back().node);
@@ -123,6 +113,8 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node;
     YAML::anchor_t anchor;
     std::size_t nodes_before;
+    std::size_t begin;
+    bool is_flow;
     std::optional<YamlNode> key;
   };
   struct Anchored {
@@ -134,11 +126,26 @@ class TreeBuilder : public YAML::EventHandler {
     return std::min(static_cast<std::size_t>(std::max(mark.pos, 0)) + offset_, source_.text().size());
   }
 
-  void open(YamlNode::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+  void open(YamlNode::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
     YamlNode node;
     node.kind = kind;
     node.where = source_.range(position(mark), 1);
-    open_.push_back({std::move(node), anchor, nodes_, std::nullopt});
+    open_.push_back(
+        {std::move(node), anchor, nodes_, position(mark), style == YAML::EmitterStyle::Flow, std::nullopt});
+  }
+
+  // yaml-cpp takes a line without a colon for a key without a value.
+  void check_colon(const YamlNode& value) const {
+    if (!value.scalar.text.text().empty() || open_.empty() || open_.back().is_flow || !open_.back().key ||
+        open_.back().key->kind != YamlNode::Kind::kScalar) {
+      return;
+    }
+    const std::string_view text = source_.text();
+    const bool explicit_key = text.substr(0, scalar_begin_).ends_with("? ");
+    const std::size_t next = text.find_first_not_of(' ', scalar_end_);
+    if (!explicit_key && (next == std::string_view::npos || text[next] != ':')) {
+      throw LaunchError("expected 'KEY: VALUE'", open_.back().key->where, "a ':' with a space after it is missing");
+    }
   }
 
   void close() {
@@ -248,6 +255,9 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
+  // The scalar read last: the key, when the value of a key follows.
+  std::size_t scalar_begin_ = 0;
+  std::size_t scalar_end_ = 0;
 };
 
 // A tab in the indentation of the line at `at`, or of the line before: the cause of most errors there.
@@ -267,22 +277,101 @@ std::optional<std::size_t> find_indenting_tab(std::string_view text, std::size_t
   return std::nullopt;
 }
 
-YamlSyntaxError syntax_error(const YAML::ParserException& error, const LocatedText& source, std::size_t offset) {
+// The line before the one that begins at `line_begin`, when it should be an entry of a mapping and lacks its ':'. The
+// parser then takes both lines for one text, and complains about the ':' of the second.
+std::optional<SourceRange> find_line_without_colon(const LocatedText& source, std::size_t line_begin) {
+  const std::string_view text = source.text();
+  // Bytes [first, last) of the next line above `end` that is not blank; list dashes count as indentation.
+  struct Line {
+    std::size_t begin, first, last;
+  };
+  const auto line_above = [&](std::size_t end) -> std::optional<Line> {
+    const std::size_t last = end == 0 ? std::string_view::npos : text.find_last_not_of(" \r\n", end - 1);
+    if (last == std::string_view::npos) {
+      return std::nullopt;
+    }
+    const std::size_t begin = text.rfind('\n', last) + 1;
+    return Line{begin, text.find_first_not_of(" -", begin), last + 1};
+  };
+  const auto has_colon = [&](const Line& line) {
+    const std::string_view content = text.substr(line.begin, line.last - line.begin);
+    return content.find(": ") != std::string_view::npos || content.ends_with(':');
+  };
+  const std::optional<Line> line = line_above(line_begin);
+  if (!line || has_colon(*line) || line->first >= line->last) {
+    return std::nullopt;
+  }
+  const std::optional<Line> above = line_above(line->begin);
+  // Deeper than a line with a value: the second line of that value.
+  const bool continues = above && has_colon(*above) && text[above->last - 1] != ':' &&
+                         line->first - line->begin > above->first - above->begin;
+  return continues ? std::nullopt : std::optional(source.range(line->first, line->last - line->first));
+}
+
+// What is wrong at byte `at`, in the words of a launch file. yaml-cpp tells which rule was broken, not why.
+Diagnostic explain(const std::string& rule, std::size_t at, const LocatedText& source,
+                   const std::optional<std::size_t>& open_bracket) {
+  using namespace YAML::ErrorMsg;
+  const std::string_view text = source.text();
+  const std::size_t line_begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+  const std::string_view before = text.substr(line_begin, at - line_begin);
+  const bool starts_line = before.find_first_not_of(" -") == std::string_view::npos;
+  const auto diagnostic = [&](std::string message, std::string help = {}) {
+    return Diagnostic{Severity::kError, std::move(message), source.range(at, 1), std::move(help)};
+  };
+
+  if (open_bracket && (rule == END_OF_MAP_FLOW || rule == END_OF_SEQ_FLOW || rule == FLOW_END)) {
+    const char opening = text[*open_bracket];
+    const char closing = opening == '{' ? '}' : ']';
+    if (line_begin <= *open_bracket) {
+      return diagnostic(fmt::format("expected ',' or '{}'", closing));
+    }
+    return {Severity::kError, fmt::format("the '{}' is not closed", opening), source.range(*open_bracket, 1),
+            fmt::format("add '{}' at its end", closing)};
+  }
+  if (rule == FLOW_END) {
+    return diagnostic("a closing bracket without an opening one");
+  }
+  if (rule == MAP_VALUE) {
+    if (const std::optional<SourceRange> line = find_line_without_colon(source, line_begin)) {
+      return {Severity::kError, "expected 'KEY: VALUE'", *line, "a ':' with a space after it is missing"};
+    }
+    if (before.find(": ") != std::string_view::npos) {
+      return diagnostic("': ' inside a text without quotes", "quote the text");
+    }
+    return diagnostic("a mapping can't start here", "align the key with its neighbours");
+  }
+  if (rule == END_OF_MAP || rule == END_OF_SEQ) {
+    if (!starts_line) {
+      return diagnostic("unexpected text after a value", "quote the whole value");
+    }
+    return diagnostic("the indentation of this line fits none of the lines above", "align it with its neighbours");
+  }
+  if (rule == MAP_KEY || rule == BLOCK_ENTRY) {
+    return diagnostic(rule == MAP_KEY ? "a mapping key can't stand here" : "a list item can't start here",
+                      "align it with its neighbours");
+  }
+  if (rule == UNKNOWN_TOKEN) {
+    return diagnostic(fmt::format("a text can't start with '{}'", text.substr(at, 1)), "quote the text");
+  }
+  if (rule == UNKNOWN_ANCHOR) {
+    return diagnostic("the alias refers to no anchor that stands before it", "define it with &NAME");
+  }
+  return diagnostic(fmt::format("invalid YAML: {}", rule));
+}
+
+Diagnostic syntax_error(const YAML::ParserException& error, const LocatedText& source, std::size_t offset,
+                        const std::optional<std::size_t>& open_bracket) {
   const std::string& text = source.text();
   std::size_t at = std::min(static_cast<std::size_t>(std::max(error.mark.pos, 0)) + offset, text.size());
   if (const std::optional<std::size_t> tab = find_indenting_tab(text, at)) {
-    return {"a tab can't indent YAML", source.range(*tab, 1), "indent with spaces"};
+    return {Severity::kError, "a tab can't indent YAML", source.range(*tab, 1), "indent with spaces"};
   }
   // An error at the end of the text is shown behind its last character.
   while (at == text.size() && at > 0 && (text[at - 1] == '\n' || text[at - 1] == '\r')) {
     --at;
   }
-  const auto* explanation = std::find_if(kExplanations.begin(), kExplanations.end(),
-                                         [&](const Explanation& e) { return error.msg == e.original; });
-  if (explanation == kExplanations.end()) {
-    return {fmt::format("invalid YAML: {}", error.msg), source.range(at, 1)};
-  }
-  return {std::string(explanation->message), source.range(at, 1), std::string(explanation->help)};
+  return explain(error.msg, at, source, open_bracket);
 }
 
 }  // namespace
@@ -323,7 +412,7 @@ YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors) {
       throw LaunchError("a second YAML document", second.take_root().where, "a file holds one document: remove '---'");
     }
   } catch (const YAML::ParserException& error) {
-    throw syntax_error(error, source, offset);
+    throw YamlSyntaxError(std::vector<Diagnostic>{syntax_error(error, source, offset, builder.open_bracket())});
   }
   return builder.take_root();
 }

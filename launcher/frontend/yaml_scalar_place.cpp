@@ -18,13 +18,16 @@ class ScalarLocator {
   ScalarLocator(const LocatedText& source, std::size_t begin, std::string_view decoded)
       : source_(source), raw_(source.text()), position_(begin), rest_(decoded) {}
 
-  LocatedText locate() {
+  YamlScalarPlace locate() {
+    bool closed = true;
     skip_properties();
     const char first = peek();
     if (first == '"' || first == '\'') {
       ++position_;
       result_ = LocatedText({}, source_.range(position_, 0));
       flow(first);
+      closed = !reaches_end();
+      position_ += closed ? 1 : 0;
     } else if (first == '|' || first == '>') {
       block(first == '>');
     } else {
@@ -34,7 +37,7 @@ class ScalarLocator {
     if (!rest_.empty()) {
       take(rest_.size(), 0);
     }
-    return std::move(result_);
+    return {std::move(result_), position_, closed};
   }
 
  private:
@@ -79,6 +82,14 @@ class ScalarLocator {
         return;
       }
     }
+  }
+
+  // After a quoted text: nothing follows but blanks, no closing quote.
+  bool reaches_end() {
+    while (is_blank(peek()) || is_break(peek()) || (peek() == '\\' && is_break(peek(1)))) {
+      ++position_;
+    }
+    return position_ >= raw_.size();
   }
 
   // A run of equal bytes, up to what could need decoding.
@@ -159,7 +170,7 @@ class ScalarLocator {
 
 }  // namespace
 
-LocatedText locate_yaml_scalar(const LocatedText& source, std::size_t begin, std::string_view decoded) {
+YamlScalarPlace locate_yaml_scalar(const LocatedText& source, std::size_t begin, std::string_view decoded) {
   return ScalarLocator(source, begin, decoded).locate();
 }
 

@@ -18,6 +18,10 @@ namespace tracing {
 
 class Ros2Analysis {
  public:
+  Ros2Analysis() = default;
+  Ros2Analysis(Ros2Analysis&&) = default;  // not copyable: last_thread_ points into threads_
+  Ros2Analysis& operator=(Ros2Analysis&&) = default;
+
   void on_event(const Origin& origin, const ros2::AnyEvent& event);
   Ros2Results finish();
 

@@ -58,7 +58,7 @@ std::vector<TraceDirectories> find_traces(const bt_component_class_source* ctf_f
   std::error_code error;
   if (!fs::exists(directory, error)) {
     throw TraceReadError(fmt::format("cannot read the trace '{}': no such directory", directory.string()),
-                         "give the directory that the launcher or 'lttng' printed when it ended the session");
+                         "give the directory that the launcher printed when it ended the session");
   }
   if (!fs::is_directory(directory, error)) {
     throw TraceReadError(fmt::format("cannot read the trace '{}': not a directory", directory.string()),

@@ -70,7 +70,7 @@ TEST(Node, InvalidNamesAreErrorsAtTheirPlace) {
             "/test/system.launch.xml:2:25: error: invalid node name 'a/b'\n"
             "    2 | <node exec=\"prog\" name=\"a/b\"/>\n"
             "      |                         ^~~\n"
-            "      = help: use letters, digits and underscores, not starting with a digit\n");
+            "      = help: use letters, digits and underscores, not starting with a digit");
   EXPECT_THAT(plan_actions(R"xml(<node exec="prog" namespace="/a//b"/>)xml").error,
               HasSubstr("the resulting namespace is invalid: '/a//b'"));
   EXPECT_THAT(plan_actions(R"xml(<node exec="prog" namespace="1a"/>)xml").error,
@@ -100,7 +100,7 @@ TEST(Node, MisspeltAttributeGetsASuggestion) {
             "/test/system.launch.xml:2:2: error: attribute 'exec' not found in entity 'node'\n"
             "    2 | <node pkg=\"demo\" exce=\"talker\"/>\n"
             "      |  ^~~~\n"
-            "      = help: exec: the program, looked up in the package\n");
+            "      = help: exec: the program, looked up in the package");
 }
 
 class NodeInPackage : public testing::Test {

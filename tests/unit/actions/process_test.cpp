@@ -88,7 +88,7 @@ TEST(Executable, WrongValuesAreErrorsAtTheirPlace) {
             "or full\n"
             "    2 | <executable cmd=\"prog\" output=\"scren\"/>\n"
             "      |                                ^~~~~\n"
-            "      = help: did you mean 'screen'?\n");
+            "      = help: did you mean 'screen'?");
   EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" on_exit="restart"/>)xml").error,
               HasSubstr(":2:33: error: on_exit can only be 'shutdown', got 'restart'"));
   EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" respawn="maybe"/>)xml").error,

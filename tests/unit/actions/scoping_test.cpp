@@ -67,7 +67,7 @@ TEST(Scoping, RequiredArgumentIsNamedWithItsPlace) {
             "/test/system.launch.xml:2:2: error: required launch argument \"robot\" was not provided\n"
             "    2 | <arg name=\"robot\"/>\n"
             "      |  ^~~\n"
-            "      = help: give it on the command line: robot:=…\n");
+            "      = help: give it on the command line: robot:=…");
 }
 
 TEST(Scoping, ChoicesAreCheckedForDefaultsToo) {
@@ -76,7 +76,7 @@ TEST(Scoping, ChoicesAreCheckedForDefaultsToo) {
             "/test/system.launch.xml:2:2: error: argument \"c\" provided value \"z\" is not valid. Valid options are: "
             "['a', 'b']\n"
             "    2 | <arg name=\"c\" default=\"z\"><choice value=\"a\"/><choice value=\"b\"/></arg>\n"
-            "      |  ^~~\n");
+            "      |  ^~~");
   EXPECT_EQ(plan_actions(text, {.arguments = {{"c", "b"}}}).error, "");
 }
 
@@ -95,7 +95,7 @@ TEST(Conditions, OtherWordsAreErrors) {
             "/test/system.launch.xml:2:10: error: invalid condition expression, expected one of [true, 1, false, 0] but "
             "got 'yes'\n"
             "    2 | <log if=\"yes\" message=\"x\"/>\n"
-            "      |          ^~~\n");
+            "      |          ^~~");
 }
 
 TEST(Conditions, IfAndUnlessExcludeEachOther) {

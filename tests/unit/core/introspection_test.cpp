@@ -92,14 +92,14 @@ TEST_F(LaunchFiles, AnIncludeMustGiveRequiredArgumentsItself) {
   const std::string child = write("child.launch.xml", "<arg name=\"req\" description=\"what for\"/>");
   const std::string with_let = write("main.launch.xml", "<let name=\"req\" value=\"1\"/><include file=\"" + child + "\"/>");
   EXPECT_EQ(visit(with_let),
-            with_let + ":2:31: error: included launch description missing required argument 'req' (description: 'what for'), "
+            with_let + ":2:29: error: included launch description missing required argument 'req' (description: 'what for'), "
                        "given: []\n"
                        "    2 | <let name=\"req\" value=\"1\"/><include file=\"" +
                 child +
                 "\"/>\n"
-                "      |                               ^~~~~~~\n"
+                "      |                             ^~~~~~~\n"
                 "      = help: it is declared without a default at " +
-                child + ":2:2; give it in the include itself: <arg name=\"req\" value=\"…\"/>\n");
+                child + ":2:2; add an arg of that name to the include");
   EXPECT_EQ(visit(write("good.launch.xml", "<include file=\"" + child + "\"><arg name=\"req\" value=\"1\"/></include>")), "");
 }
 

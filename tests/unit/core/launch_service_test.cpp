@@ -126,7 +126,7 @@ TEST_F(LaunchServiceTest, ScopesBeginBeforeAndEndAfterEveryProcessWhereverTheySt
 TEST_F(LaunchServiceTest, AFailingScopeStartsNothingAndEndsTheOthers) {
   EXPECT_EQ(run(R"xml(<scope name="x"/><scope name="y" fails="true"/><scope name="z"/><executable cmd="a"/>)xml"), 1);
   EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "begin y", "failed y", "end x", "ended x"));
-  EXPECT_THAT(errors_, ElementsAre(HasSubstr("/test/system.launch.xml:2:18: error: no tracer")));
+  EXPECT_THAT(errors_, ElementsAre(HasSubstr("/test/system.launch.xml:2:19: error: no tracer")));
 }
 
 TEST_F(LaunchServiceTest, AnErrorOfTheFirstVisitStartsNothing) {

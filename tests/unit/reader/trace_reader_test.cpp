@@ -198,7 +198,7 @@ TEST(TraceReader, SaysThatADirectoryDoesNotExist) {
   RecordingSink sink;
   const TraceReadError error = error_of("/nonexistent/trace", sink);
   EXPECT_STREQ(error.what(), "cannot read the trace '/nonexistent/trace': no such directory");
-  EXPECT_EQ(error.remedy(), "give the directory that the launcher or 'lttng' printed when it ended the session");
+  EXPECT_EQ(error.remedy(), "give the directory that the launcher printed when it ended the session");
 }
 
 TEST(TraceReader, SaysThatADirectoryIsNoTrace) {
@@ -222,12 +222,13 @@ TEST(TraceReader, SaysThatAFileIsNoTrace) {
 
 TEST(TraceReader, NamesTheTraceWhoseMetadataAreDamaged) {
   const TemporaryDirectory directory;
-  std::ofstream(directory.path() / "metadata") << "/* CTF 1.8 */ trace { major = ";
+  std::ofstream(directory.path() / "metadata") << "/* CTF 1.8 */ trace { major = 2; minor = 0; byte_order = le; };";
   ::testing::internal::CaptureStderr();
   RecordingSink sink;
   const TraceReadError error = error_of(directory.path(), sink);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_THAT(error.what(), ::testing::StartsWith("cannot read the trace '" + directory.path().string() + "': "));
+  EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': Cannot create trace for `" +
+                              directory.path().string() + "`.");
   EXPECT_EQ(error.remedy(), 
             "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon leaves such a trace");
   EXPECT_NE(error.details(), "");

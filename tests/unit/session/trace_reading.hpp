@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tests/support/command.hpp"
-#include "tracing/session/trace_config.hpp"
 
 namespace trace_test {
 
