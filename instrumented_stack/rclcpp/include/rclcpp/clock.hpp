@@ -39,7 +39,6 @@ class Clock {
   std::mutex& get_clock_mutex() noexcept;
 
  private:
-  friend class TimerBase;  // an rcl timer refers to its rcl clock: it keeps impl_ alive
   struct Impl;
   std::shared_ptr<Impl> impl_;
 };

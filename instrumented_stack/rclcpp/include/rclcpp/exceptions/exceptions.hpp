@@ -147,13 +147,6 @@ class ParameterModifiedInCallbackException : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A parameter was declared without a default value and nobody gave it one.
-class NoParameterOverrideProvided : public std::runtime_error {
- public:
-  explicit NoParameterOverrideProvided(const std::string& name)
-      : std::runtime_error("parameter '" + name + "' has no default value and no override") {}
-};
-
 // Throws the exception that stands for `ret`: RCLBadAlloc, RCLInvalidArgument, RCLInvalidROSArgsError, else RCLError.
 // `error_state` defaults to the error of this thread, which is then cleared by `reset_error`, and before that copied.
 [[noreturn]] void throw_from_rcl_error(rcl_ret_t ret, const std::string& prefix = "",
