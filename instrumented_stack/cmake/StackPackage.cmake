@@ -10,16 +10,18 @@ include_guard(GLOBAL)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# stack_library(<pkg> [SOURCES <file>...] [PUBLIC <target>...] [PRIVATE <target>...] [INCLUDE <dir>...])
+# stack_library(<pkg> [SOURCES <file>...] [PUBLIC <target>...] [PRIVATE <target>...] [INCLUDE <dir>...]
+#               [CONFIG_EXTRAS <file>...])
 #
 # A shared library (without SOURCES: headers only) with the alias <pkg>::<pkg>. Its headers are those under each
-# <dir>, include/ unless told otherwise. Targets named without "::" may be packages of the stack.
+# <dir>, include/ unless told otherwise. CONFIG_EXTRAS are CMake files that
+# find_package(<pkg>) runs.
 function(stack_library pkg)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;PUBLIC;PRIVATE;INCLUDE")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS")
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "stack_library(${pkg}): unexpected ${ARG_UNPARSED_ARGUMENTS}")
   endif()
-  if(NOT ARG_INCLUDE)
+  if(NOT ARG_INCLUDE AND EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
     set(ARG_INCLUDE ${CMAKE_CURRENT_SOURCE_DIR}/include)
   endif()
 
@@ -33,16 +35,18 @@ function(stack_library pkg)
     add_library(${pkg} INTERFACE)
   endif()
   add_library(${pkg}::${pkg} ALIAS ${pkg})
-  target_include_directories(${pkg} ${scope}
-    "$<BUILD_INTERFACE:${ARG_INCLUDE}>" $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/${pkg}>)
+  if(ARG_INCLUDE)
+    target_include_directories(${pkg} ${scope}
+      "$<BUILD_INTERFACE:${ARG_INCLUDE}>" $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/${pkg}>)
+    list(TRANSFORM ARG_INCLUDE APPEND "/")
+    install(DIRECTORY ${ARG_INCLUDE} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${pkg})
+  endif()
   target_link_libraries(${pkg} ${scope} ${ARG_PUBLIC})
   target_compile_features(${pkg} ${scope} cxx_std_17)
 
   install(TARGETS ${pkg} EXPORT ${pkg} LIBRARY DESTINATION lib)
-  list(TRANSFORM ARG_INCLUDE APPEND "/")
-  install(DIRECTORY ${ARG_INCLUDE} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${pkg})
   stack_package(${pkg})
-  _stack_export(${pkg} ${ARG_PUBLIC} ${ARG_PRIVATE})
+  _stack_export(${pkg} DEPENDENCIES ${ARG_PUBLIC} ${ARG_PRIVATE} EXTRAS ${ARG_CONFIG_EXTRAS})
 endfunction()
 
 # stack_node(<pkg> <executable> SOURCES <file>... LINK <target>...)
@@ -94,12 +98,14 @@ function(_stack_place target place rpath)
   endif()
 endfunction()
 
-# Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of the given targets that are packages.
+# Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of DEPENDENCIES that are packages and last runs
+# EXTRAS.
 function(_stack_export pkg)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "DEPENDENCIES;EXTRAS")
   set_target_properties(${pkg} PROPERTIES STACK_PACKAGE ${pkg})
   set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES STACK_PACKAGE)
   set(config "include(CMakeFindDependencyMacro)\n")
-  foreach(dependency IN LISTS ARGN)
+  foreach(dependency IN LISTS ARG_DEPENDENCIES)
     if(TARGET ${dependency})
       get_target_property(package ${dependency} STACK_PACKAGE)
       if(package)
@@ -108,9 +114,10 @@ function(_stack_export pkg)
     endif()
   endforeach()
   string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Targets.cmake)\n")
-  get_property(extras TARGET ${pkg} PROPERTY STACK_CONFIG_EXTRAS)
-  foreach(extra IN LISTS extras)
-    string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${extra})\n")
+  foreach(extra IN LISTS ARG_EXTRAS)
+    get_filename_component(name ${extra} NAME)
+    string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${name})\n")
+    install(FILES ${extra} DESTINATION share/${pkg}/cmake)
   endforeach()
 
   set(config_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}Config.cmake)

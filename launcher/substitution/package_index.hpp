@@ -26,6 +26,8 @@ class PackageIndex {
 
   // Names of all packages that can be found, for suggestions.
   std::vector<std::string> packages(const Environment& environment) const;
+  // Names of all programs of a package, for suggestions. Throws as prefix() does.
+  std::vector<std::string> executables(const std::string& package, const Environment& environment);
 
   // Program on PATH of the environment; a name with a slash is taken as a path. Empty when there is none.
   static std::string find_on_path(const std::string& name, const Environment& environment);

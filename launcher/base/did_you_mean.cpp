@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+#include "launcher/base/diagnostic.hpp"
+
+namespace launch {
+
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+// Number of insertions, deletions, replacements and swaps of neighbours that lead from `from` to `to` (restricted
+// Damerau-Levenshtein distance).
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> before_last;
+  std::vector<std::size_t> last(to.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    std::vector<std::size_t> row(to.size() + 1);
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t replaced = last[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1]) {
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+      }
+    }
+    before_last = std::move(last);
+    last = std::move(row);
+  }
+  return last.back();
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+  // A third of the name may differ: enough for a slip of the fingers, too little for an unrelated word.
+  const std::size_t allowed = std::max<std::size_t>(1, name.size() / 3);
+  const std::string wanted = lower(name);
+  const std::string* nearest = nullptr;
+  std::size_t nearest_distance = allowed + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t size_difference =
+        candidate.size() > name.size() ? candidate.size() - name.size() : name.size() - candidate.size();
+    if (size_difference >= nearest_distance || candidate == name) {
+      continue;
+    }
+    const std::size_t distance = edit_distance(wanted, lower(candidate));
+    // A candidate that shares no character with a short name is no suggestion.
+    if (distance < nearest_distance && distance < std::max(name.size(), candidate.size())) {
+      nearest = &candidate;
+      nearest_distance = distance;
+    }
+  }
+  return nearest == nullptr ? std::string() : fmt::format("did you mean '{}'?", *nearest);
+}
+
+}  // namespace launch

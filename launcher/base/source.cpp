@@ -1,0 +1,89 @@
+#include "launcher/base/source.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/unique_fd.hpp"
+
+namespace launch {
+
+namespace {
+
+bool is_continuation_byte(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
+}  // namespace
+
+SourceFile::SourceFile(std::string path, std::string text, SourceRange included_from)
+    : path_(std::move(path)), text_(std::move(text)), included_from_(std::move(included_from)) {
+  if (text_.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw LaunchError(fmt::format("'{}' is larger than 4 GiB", path_), included_from_);
+  }
+  line_starts_.push_back(0);
+  for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', end + 1)) {
+    line_starts_.push_back(static_cast<std::uint32_t>(end + 1));
+  }
+}
+
+std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path, SourceRange included_from) {
+  const auto fail = [&](int error) {
+    throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from);
+  };
+  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!fd) {
+    fail(errno);
+  }
+  std::string text;
+  constexpr std::size_t kChunk = 64 * 1024;
+  while (true) {
+    const std::size_t size = text.size();
+    text.resize(size + kChunk);
+    const ssize_t count = ::read(fd.get(), text.data() + size, kChunk);
+    const int error = errno;
+    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (count == 0) {
+      break;
+    }
+    if (count < 0 && error != EINTR) {
+      fail(error);
+    }
+  }
+  return std::make_shared<const SourceFile>(path, std::move(text), std::move(included_from));
+}
+
+SourceFile::Position SourceFile::position(std::size_t offset) const {
+  offset = std::min(offset, text_.size());
+  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  const std::uint32_t start = *std::prev(next);
+  const auto characters = std::count_if(text_.begin() + start, text_.begin() + static_cast<std::ptrdiff_t>(offset),
+                                        [](char byte) { return !is_continuation_byte(byte); });
+  return {static_cast<std::uint32_t>(next - line_starts_.begin()), static_cast<std::uint32_t>(characters) + 1};
+}
+
+std::string_view SourceFile::line(std::uint32_t number) const {
+  if (number == 0 || number > line_starts_.size()) {
+    return {};
+  }
+  const std::uint32_t begin = line_starts_[number - 1];
+  std::size_t end = number < line_starts_.size() ? line_starts_[number] - 1 : text_.size();
+  if (end > begin && text_[end - 1] == '\r') {
+    --end;
+  }
+  return std::string_view(text_).substr(begin, end - begin);
+}
+
+std::string to_string(const SourceRange& range) {
+  if (!range) {
+    return "command line";
+  }
+  const SourceFile::Position position = range.file->position(range.begin);
+  return fmt::format("{}:{}:{}", range.file->path(), position.line, position.column);
+}
+
+}  // namespace launch
