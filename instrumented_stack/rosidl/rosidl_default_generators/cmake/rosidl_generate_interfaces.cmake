@@ -3,7 +3,7 @@
 # Makes a package of messages and services: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the headers
 # <pkg>/msg/<name>.hpp and <pkg>/srv/<name>.hpp. Files are given as "msg/<Name>.msg" or "srv/<Name>.srv", relative to the
 # current folder. DEPENDENCIES are the packages whose messages they use; outside the stack find_package them first.
-# Options of ROS 2's function that concern linters and groups are accepted and have no effect here.
+# SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
 include_guard(GLOBAL)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
 include(StackPackage)
@@ -64,7 +64,10 @@ function(rosidl_generate_interfaces pkg)
     COMMENT "Generating the C++ of ${pkg}"
     VERBATIM)
 
-  stack_library(${pkg}
+  if(ARG_SKIP_INSTALL)
+    set(skip_install SKIP_INSTALL)
+  endif()
+  stack_library(${pkg} ${skip_install}
     SOURCES ${source} ${headers}
     PUBLIC rosidl_runtime_cpp::rosidl_runtime_cpp rosidl_typesupport_cpp::rosidl_typesupport_cpp
            rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp ${libraries}
