@@ -100,9 +100,8 @@ std::map<pid_t, ProcessInfo> descendants() {
   return below;
 }
 
-bool is_lttng_daemon(const ProcessInfo& process) {
-  return process.name == "lttng-sessiond" || process.name.starts_with("lttng-consumer") || process.name == "lttng-relayd";
-}
+// lttng-sessiond, its lttng-runas helpers, lttng-consumerd, lttng-relayd: meant to survive who started them.
+bool is_lttng_daemon(const ProcessInfo& process) { return process.name.starts_with("lttng-"); }
 
 fs::path make_directory() {
   const char* parent = std::getenv("TMPDIR");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -57,12 +58,25 @@ bool session_exists(const std::string& name) {
   return found;
 }
 
+// Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the first
+// one, so each further one gets a directory of its own inside: whoever reads the trace directory reads all of them.
+std::string recording_directory(const TraceConfig& config) {
+  const std::filesystem::path directory = config.trace_directory();
+  if (!std::filesystem::exists(directory / "ust") && !std::filesystem::exists(directory / "kernel")) {
+    return directory.string();
+  }
+  for (int number = 1;; ++number) {
+    const std::filesystem::path appended = directory / fmt::format("appended-{}", number);
+    if (!std::filesystem::exists(appended)) return appended.string();
+  }
+}
+
 // A session that is destroyed again unless its set-up succeeds.
 class NewSession {
  public:
   explicit NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
     const int result = config.records_snapshots() ? lttng_create_session_snapshot(name_.c_str(), nullptr)
-                                                  : lttng_create_session(name_.c_str(), config.trace_directory().c_str());
+                                                  : lttng_create_session(name_.c_str(), recording_directory(config).c_str());
     if (result == -LTTNG_ERR_EXIST_SESS) {
       throw TraceError(fmt::format("trace session '{}' exists already", name_),
                        fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));

@@ -80,11 +80,11 @@ class DaemonOutput {
   int fd_;
 };
 
-TraceError spawn_error(int error) {
+[[noreturn]] void throw_spawn_error(int error) {
   if (error == ENOENT) {
-    return SessionDaemonMissing(fmt::format("cannot trace: {} is not installed or not in PATH", kDaemon), kInstallRemedy);
+    throw SessionDaemonMissing(fmt::format("cannot trace: {} is not installed or not in PATH", kDaemon), kInstallRemedy);
   }
-  return TraceError(fmt::format("cannot start {}: {}", kDaemon, std::strerror(error)), kInstallRemedy);
+  throw TraceError(fmt::format("cannot start {}: {}", kDaemon, std::strerror(error)), kInstallRemedy);
 }
 
 pid_t spawn_daemon(const DaemonOutput& output) {
@@ -112,7 +112,7 @@ pid_t spawn_daemon(const DaemonOutput& output) {
   const int error = posix_spawnp(&pid, kDaemon, &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw spawn_error(error);
+  if (error != 0) throw_spawn_error(error);
   return pid;
 }
 
