@@ -59,7 +59,7 @@ bool Node::get_parameters(const std::string& prefix, std::map<std::string, Param
     return false;
   }
   for (const auto& [name, parameter] : found) {
-    values[name] = parameter.get_value<ParameterT>();
+    values[name] = parameter.template get_value<ParameterT>();
   }
   return true;
 }

@@ -62,7 +62,7 @@ struct KeepAll : QoSInitialization {
 };
 
 struct KeepLast : QoSInitialization {
-  explicit KeepLast(size_t depth) : QoSInitialization(RMW_QOS_POLICY_HISTORY_KEEP_LAST, depth) {}
+  explicit KeepLast(size_t history_depth) : QoSInitialization(RMW_QOS_POLICY_HISTORY_KEEP_LAST, history_depth) {}
 };
 
 class QoS {
