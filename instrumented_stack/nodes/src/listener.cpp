@@ -10,8 +10,8 @@
 class Listener : public rclcpp::Node {
  public:
   Listener() : Node("listener") {
-    subscription_ = create_subscription<std_msgs::msg::String>(
-        "chatter", 10, [this](const std_msgs::msg::String& message) {
+    subscription_ =
+        create_subscription<std_msgs::msg::String>("chatter", 10, [this](const std_msgs::msg::String& message) {
           RCLCPP_INFO(get_logger(), "I heard: [%s]", message.data.c_str());
         });
   }

@@ -1,9 +1,9 @@
 #include "rclcpp/detail/callback_symbol.hpp"
 
 #include <tracetools/tracetools.h>
-#include <tracetools/utils.hpp>
 
 #include <cstdlib>
+#include <tracetools/utils.hpp>
 
 namespace rclcpp::detail {
 

@@ -73,8 +73,14 @@ bool Clock::ros_time_is_active() const {
   return active;
 }
 
-rcl_clock_type_t Clock::get_clock_type() const noexcept { return impl_->rcl_clock.type; }
-rcl_clock_t* Clock::get_clock_handle() noexcept { return &impl_->rcl_clock; }
-std::mutex& Clock::get_clock_mutex() noexcept { return impl_->mutex; }
+rcl_clock_type_t Clock::get_clock_type() const noexcept {
+  return impl_->rcl_clock.type;
+}
+rcl_clock_t* Clock::get_clock_handle() noexcept {
+  return &impl_->rcl_clock;
+}
+std::mutex& Clock::get_clock_mutex() noexcept {
+  return impl_->mutex;
+}
 
 }  // namespace rclcpp

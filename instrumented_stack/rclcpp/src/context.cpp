@@ -173,8 +173,7 @@ bool Context::sleep_for(const std::chrono::nanoseconds& nanoseconds) {
   const auto until = std::chrono::steady_clock::now() + nanoseconds;
   std::unique_lock lock(interrupt_mutex_);
   const size_t interruptions = interruptions_;
-  interrupt_condition_variable_.wait_until(lock, until,
-                                           [&] { return interruptions_ != interruptions || !is_valid(); });
+  interrupt_condition_variable_.wait_until(lock, until, [&] { return interruptions_ != interruptions || !is_valid(); });
   return is_valid();
 }
 

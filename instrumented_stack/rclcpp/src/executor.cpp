@@ -68,16 +68,28 @@ Executor::~Executor() {
   entities_->remove_all();
 }
 
-void Executor::add_node(const NodePtr& node) { entities_->add_node(node); }
-void Executor::add_node(const std::shared_ptr<Node>& node) { add_node(node->get_node_base_interface()); }
-void Executor::remove_node(const NodePtr& node) { entities_->remove_node(node); }
-void Executor::remove_node(const std::shared_ptr<Node>& node) { remove_node(node->get_node_base_interface()); }
+void Executor::add_node(const NodePtr& node) {
+  entities_->add_node(node);
+}
+void Executor::add_node(const std::shared_ptr<Node>& node) {
+  add_node(node->get_node_base_interface());
+}
+void Executor::remove_node(const NodePtr& node) {
+  entities_->remove_node(node);
+}
+void Executor::remove_node(const std::shared_ptr<Node>& node) {
+  remove_node(node->get_node_base_interface());
+}
 
 void Executor::add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node) {
   entities_->add_group(group, node);
 }
-void Executor::remove_callback_group(const CallbackGroup::SharedPtr& group) { entities_->remove_group(group); }
-std::vector<CallbackGroup::WeakPtr> Executor::get_all_callback_groups() { return entities_->groups(); }
+void Executor::remove_callback_group(const CallbackGroup::SharedPtr& group) {
+  entities_->remove_group(group);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_all_callback_groups() {
+  return entities_->groups();
+}
 
 void Executor::spin_once(nanoseconds timeout) {
   const SpinningScope scope(*this, "spin_once()");
@@ -87,7 +99,9 @@ void Executor::spin_once(nanoseconds timeout) {
   }
 }
 
-void Executor::spin_some(nanoseconds max_duration) { spin_some_impl(max_duration, false); }
+void Executor::spin_some(nanoseconds max_duration) {
+  spin_some_impl(max_duration, false);
+}
 
 void Executor::spin_all(nanoseconds max_duration) {
   if (max_duration < nanoseconds::zero()) {
@@ -123,7 +137,9 @@ void Executor::spin_node_some(const NodePtr& node) {
   const Membership membership(*this, node);
   spin_some();
 }
-void Executor::spin_node_some(const std::shared_ptr<Node>& node) { spin_node_some(node->get_node_base_interface()); }
+void Executor::spin_node_some(const std::shared_ptr<Node>& node) {
+  spin_node_some(node->get_node_base_interface());
+}
 
 void Executor::spin_node_once(const NodePtr& node, nanoseconds timeout) {
   const Membership membership(*this, node);

@@ -60,8 +60,8 @@ void ExecutorEntities::add_node(const NodePtr& node) {
 void ExecutorEntities::remove_node(const NodePtr& node) {
   Owners owners;
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(nodes_.begin(), nodes_.end(),
-                                  [&node](const auto& weak) { return refers_to(weak, node); });
+  const auto found =
+      std::find_if(nodes_.begin(), nodes_.end(), [&node](const auto& weak) { return refers_to(weak, node); });
   if (found == nodes_.end()) {
     throw std::runtime_error("Node needs to be associated with this executor.");
   }

@@ -20,14 +20,18 @@ void spin(node_interfaces::NodeBaseInterface::SharedPtr node) {
   executor.spin();
 }
 
-void spin(Node::SharedPtr node) { spin(node->get_node_base_interface()); }
+void spin(Node::SharedPtr node) {
+  spin(node->get_node_base_interface());
+}
 
 void spin_some(node_interfaces::NodeBaseInterface::SharedPtr node) {
   executors::SingleThreadedExecutor executor(options_for(*node));
   executor.spin_node_some(node);
 }
 
-void spin_some(Node::SharedPtr node) { spin_some(node->get_node_base_interface()); }
+void spin_some(Node::SharedPtr node) {
+  spin_some(node->get_node_base_interface());
+}
 
 void spin_all(node_interfaces::NodeBaseInterface::SharedPtr node, std::chrono::nanoseconds max_duration) {
   executors::SingleThreadedExecutor executor(options_for(*node));

@@ -13,8 +13,8 @@ GuardCondition::GuardCondition(const Context::SharedPtr& context)
   if (!rcl_context_) {
     throw std::invalid_argument("context argument unexpectedly nullptr, or rclcpp::init() was not called");
   }
-  const rcl_ret_t ret = rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(),
-                                                 rcl_guard_condition_get_default_options());
+  const rcl_ret_t ret =
+      rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(), rcl_guard_condition_get_default_options());
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "failed to create guard condition");
   }

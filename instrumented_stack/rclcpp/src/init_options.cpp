@@ -63,7 +63,9 @@ void InitOptions::set_domain_id(size_t domain_id) {
   }
 }
 
-void InitOptions::use_default_domain_id() { set_domain_id(RCL_DEFAULT_DOMAIN_ID); }
+void InitOptions::use_default_domain_id() {
+  set_domain_id(RCL_DEFAULT_DOMAIN_ID);
+}
 
 size_t InitOptions::get_domain_id() const {
   size_t domain_id = 0;

@@ -6,7 +6,9 @@
 
 namespace rclcpp {
 
-Logger get_logger(const std::string& name) { return Logger(name); }
+Logger get_logger(const std::string& name) {
+  return Logger(name);
+}
 
 Logger Logger::get_child(const std::string& suffix) const {
   return Logger(*name_ + RCUTILS_LOGGING_SEPARATOR_STRING + suffix);

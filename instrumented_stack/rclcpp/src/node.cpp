@@ -45,9 +45,13 @@ const ParameterValue& Node::declare_parameter(const std::string& name, Parameter
   return node_parameters_->declare_parameter(name, type, descriptor, ignore_override);
 }
 
-void Node::undeclare_parameter(const std::string& name) { node_parameters_->undeclare_parameter(name); }
+void Node::undeclare_parameter(const std::string& name) {
+  node_parameters_->undeclare_parameter(name);
+}
 
-bool Node::has_parameter(const std::string& name) const { return node_parameters_->has_parameter(name); }
+bool Node::has_parameter(const std::string& name) const {
+  return node_parameters_->has_parameter(name);
+}
 
 Node::SetParametersResult Node::set_parameter(const Parameter& parameter) {
   return set_parameters_atomically({parameter});
@@ -61,7 +65,9 @@ Node::SetParametersResult Node::set_parameters_atomically(const std::vector<Para
   return node_parameters_->set_parameters_atomically(parameters);
 }
 
-Parameter Node::get_parameter(const std::string& name) const { return node_parameters_->get_parameter(name); }
+Parameter Node::get_parameter(const std::string& name) const {
+  return node_parameters_->get_parameter(name);
+}
 
 std::vector<Parameter> Node::get_parameters(const std::vector<std::string>& names) const {
   return node_parameters_->get_parameters(names);

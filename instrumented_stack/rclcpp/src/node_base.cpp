@@ -68,7 +68,9 @@ NodeBase::NodeBase(const std::string& node_name, const std::string& node_namespa
   default_callback_group_ = create_callback_group(CallbackGroupType::MutuallyExclusive);
 }
 
-NodeBase::~NodeBase() { notify(); }
+NodeBase::~NodeBase() {
+  notify();
+}
 
 CallbackGroup::SharedPtr NodeBase::create_callback_group(CallbackGroupType group_type,
                                                          bool automatically_add_to_executor_with_node) {

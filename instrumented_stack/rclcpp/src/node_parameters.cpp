@@ -67,7 +67,9 @@ void remove_handle(std::list<std::weak_ptr<HandleT>>& handles, const HandleT* ha
   handles.erase(found);
 }
 
-std::string in_quotes(const std::string& name) { return "parameter '" + name + "'"; }
+std::string in_quotes(const std::string& name) {
+  return "parameter '" + name + "'";
+}
 
 }  // namespace
 

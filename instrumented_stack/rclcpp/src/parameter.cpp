@@ -18,6 +18,8 @@ std::string to_string(const Parameter& parameter) {
          parameter.value_to_string() + "\"}";
 }
 
-std::ostream& operator<<(std::ostream& stream, const Parameter& parameter) { return stream << to_string(parameter); }
+std::ostream& operator<<(std::ostream& stream, const Parameter& parameter) {
+  return stream << to_string(parameter);
+}
 
 }  // namespace rclcpp

@@ -62,12 +62,10 @@ std::string wrong_type_reason(const std::string& name, ParameterType expected, P
 
 SetParametersResult check_constraints(const ParameterDescriptor& descriptor, const ParameterValue& value) {
   if (!descriptor.dynamic_typing && descriptor.type != PARAMETER_NOT_SET && descriptor.type != value.get_type()) {
-    return failure(
-        wrong_type_reason(descriptor.name, static_cast<ParameterType>(descriptor.type), value.get_type()));
+    return failure(wrong_type_reason(descriptor.name, static_cast<ParameterType>(descriptor.type), value.get_type()));
   }
-  const bool out_of_integer_range =
-      !descriptor.integer_range.empty() && value.get_type() == PARAMETER_INTEGER &&
-      !in_range(descriptor.integer_range.front(), value.to_value_msg().integer_value);
+  const bool out_of_integer_range = !descriptor.integer_range.empty() && value.get_type() == PARAMETER_INTEGER &&
+                                    !in_range(descriptor.integer_range.front(), value.to_value_msg().integer_value);
   const bool out_of_floating_point_range =
       !descriptor.floating_point_range.empty() && value.get_type() == PARAMETER_DOUBLE &&
       !in_range(descriptor.floating_point_range.front(), value.to_value_msg().double_value);

@@ -10,9 +10,15 @@ template <typename T>
 void write(std::ostream& stream, const T& value) {
   stream << value;
 }
-void write(std::ostream& stream, uint8_t value) { stream << "0x" << std::hex << static_cast<int>(value) << std::dec; }
-void write(std::ostream& stream, bool value) { stream << (value ? "true" : "false"); }
-void write(std::ostream& stream, const std::string& value) { stream << '"' << value << '"'; }
+void write(std::ostream& stream, uint8_t value) {
+  stream << "0x" << std::hex << static_cast<int>(value) << std::dec;
+}
+void write(std::ostream& stream, bool value) {
+  stream << (value ? "true" : "false");
+}
+void write(std::ostream& stream, const std::string& value) {
+  stream << '"' << value << '"';
+}
 
 template <typename ContainerT>
 std::string list(const ContainerT& values) {
@@ -56,7 +62,9 @@ std::string to_string(ParameterType type) {
   return "unknown type";
 }
 
-std::ostream& operator<<(std::ostream& stream, ParameterType type) { return stream << to_string(type); }
+std::ostream& operator<<(std::ostream& stream, ParameterType type) {
+  return stream << to_string(type);
+}
 
 std::string to_string(const ParameterValue& value) {
   const rcl_interfaces::msg::ParameterValue& message = value.to_value_msg();

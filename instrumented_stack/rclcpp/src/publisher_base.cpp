@@ -41,7 +41,9 @@ PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, cons
 
 PublisherBase::~PublisherBase() = default;
 
-const char* PublisherBase::get_topic_name() const { return rcl_publisher_get_topic_name(publisher_handle_.get()); }
+const char* PublisherBase::get_topic_name() const {
+  return rcl_publisher_get_topic_name(publisher_handle_.get());
+}
 
 size_t PublisherBase::get_queue_size() const {
   const rcl_publisher_options_t* options = rcl_publisher_get_options(publisher_handle_.get());

@@ -6,7 +6,9 @@ namespace rclcpp {
 
 namespace {
 
-bool equal(const rmw_time_t& left, const rmw_time_t& right) { return left.sec == right.sec && left.nsec == right.nsec; }
+bool equal(const rmw_time_t& left, const rmw_time_t& right) {
+  return left.sec == right.sec && left.nsec == right.nsec;
+}
 
 rmw_qos_profile_t best_available_profile() {
   rmw_qos_profile_t profile = rmw_qos_profile_default;
@@ -26,7 +28,9 @@ QoS::QoS(const QoSInitialization& qos_initialization, const rmw_qos_profile_t& i
   profile_.depth = qos_initialization.depth;
 }
 
-QoS& QoS::history(HistoryPolicy history) { return this->history(static_cast<rmw_qos_history_policy_t>(history)); }
+QoS& QoS::history(HistoryPolicy history) {
+  return this->history(static_cast<rmw_qos_history_policy_t>(history));
+}
 
 QoS& QoS::history(rmw_qos_history_policy_t history) {
   profile_.history = history;
@@ -101,9 +105,13 @@ bool operator==(const QoS& left, const QoS& right) {
          l.avoid_ros_namespace_conventions == r.avoid_ros_namespace_conventions;
 }
 
-bool operator!=(const QoS& left, const QoS& right) { return !(left == right); }
+bool operator!=(const QoS& left, const QoS& right) {
+  return !(left == right);
+}
 
-ClockQoS::ClockQoS(const QoSInitialization& history) : QoS(history) { best_effort(); }
+ClockQoS::ClockQoS(const QoSInitialization& history) : QoS(history) {
+  best_effort();
+}
 SensorDataQoS::SensorDataQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_sensor_data) {}
 ParametersQoS::ParametersQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_parameters) {}
 ServicesQoS::ServicesQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_services_default) {}

@@ -41,6 +41,8 @@ bool Rate::sleep() {
   return clock_->sleep_for(next_interval - now);
 }
 
-void Rate::reset() { last_interval_ = clock_->now(); }
+void Rate::reset() {
+  last_interval_ = clock_->now();
+}
 
 }  // namespace rclcpp

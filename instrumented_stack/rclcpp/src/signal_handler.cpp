@@ -124,8 +124,7 @@ void SignalHandler::handle(int signal_number, siginfo_t* /*info*/, void* /*conte
   const int saved_errno = errno;
   last_signal = signal_number;
   wake_thread();
-  const auto previous =
-      signal_number == SIGINT ? previous_sigint_function.load() : previous_sigterm_function.load();
+  const auto previous = signal_number == SIGINT ? previous_sigint_function.load() : previous_sigterm_function.load();
   if (previous) {
     previous(signal_number);
   }

@@ -66,17 +66,25 @@ Duration Duration::from_seconds(double seconds) {
   return from_nanoseconds(static_cast<rcl_duration_value_t>(seconds * static_cast<double>(kNanosecondsPerSecond)));
 }
 
-Duration Duration::from_rmw_time(rmw_time_t duration) { return from_nanoseconds(rmw_time_total_nsec(duration)); }
+Duration Duration::from_rmw_time(rmw_time_t duration) {
+  return from_nanoseconds(rmw_time_total_nsec(duration));
+}
 
-Duration Duration::max() { return from_nanoseconds(std::numeric_limits<rcl_duration_value_t>::max()); }
+Duration Duration::max() {
+  return from_nanoseconds(std::numeric_limits<rcl_duration_value_t>::max());
+}
 
-Duration& Duration::operator=(const builtin_interfaces::msg::Duration& message) { return *this = Duration(message); }
+Duration& Duration::operator=(const builtin_interfaces::msg::Duration& message) {
+  return *this = Duration(message);
+}
 
 Duration::operator builtin_interfaces::msg::Duration() const {
   return to_message<builtin_interfaces::msg::Duration>(nanoseconds_);
 }
 
-double Duration::seconds() const { return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond); }
+double Duration::seconds() const {
+  return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond);
+}
 
 rmw_time_t Duration::to_rmw_time() const {
   if (nanoseconds_ < 0) {
@@ -116,15 +124,24 @@ Time::Time(int64_t nanoseconds, rcl_clock_type_t clock_type) : nanoseconds_(nano
 Time::Time(const builtin_interfaces::msg::Time& message, rcl_clock_type_t clock_type)
     : Time(message.sec, message.nanosec, clock_type) {}
 
-Time::Time(const rcl_time_point_t& time_point) : nanoseconds_(time_point.nanoseconds), clock_type_(time_point.clock_type) {}
+Time::Time(const rcl_time_point_t& time_point)
+    : nanoseconds_(time_point.nanoseconds), clock_type_(time_point.clock_type) {}
 
-Time Time::max(rcl_clock_type_t clock_type) { return Time(std::numeric_limits<int64_t>::max(), clock_type); }
+Time Time::max(rcl_clock_type_t clock_type) {
+  return Time(std::numeric_limits<int64_t>::max(), clock_type);
+}
 
-Time& Time::operator=(const builtin_interfaces::msg::Time& message) { return *this = Time(message); }
+Time& Time::operator=(const builtin_interfaces::msg::Time& message) {
+  return *this = Time(message);
+}
 
-Time::operator builtin_interfaces::msg::Time() const { return to_message<builtin_interfaces::msg::Time>(nanoseconds_); }
+Time::operator builtin_interfaces::msg::Time() const {
+  return to_message<builtin_interfaces::msg::Time>(nanoseconds_);
+}
 
-double Time::seconds() const { return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond); }
+double Time::seconds() const {
+  return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond);
+}
 
 void Time::require_same_clock(const Time& other, const char* operation) const {
   if (clock_type_ != other.clock_type_) {

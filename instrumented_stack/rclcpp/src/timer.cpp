@@ -47,7 +47,9 @@ TimerBase::~TimerBase() {
   }
 }
 
-void TimerBase::cancel() { require_ok(rcl_timer_cancel(timer_handle_.get()), "couldn't cancel timer"); }
+void TimerBase::cancel() {
+  require_ok(rcl_timer_cancel(timer_handle_.get()), "couldn't cancel timer");
+}
 
 bool TimerBase::is_canceled() {
   bool canceled = false;
@@ -55,7 +57,9 @@ bool TimerBase::is_canceled() {
   return canceled;
 }
 
-void TimerBase::reset() { require_ok(rcl_timer_reset(timer_handle_.get()), "couldn't reset timer"); }
+void TimerBase::reset() {
+  require_ok(rcl_timer_reset(timer_handle_.get()), "couldn't reset timer");
+}
 
 std::chrono::nanoseconds TimerBase::time_until_trigger() {
   int64_t time_until_next_call = 0;

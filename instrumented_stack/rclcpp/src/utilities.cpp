@@ -25,11 +25,17 @@ bool install_signal_handlers(SignalHandlerOptions signal_handler_options) {
   return SignalHandler::instance().install(signal_handler_options);
 }
 
-bool signal_handlers_installed() { return SignalHandler::instance().is_installed(); }
+bool signal_handlers_installed() {
+  return SignalHandler::instance().is_installed();
+}
 
-SignalHandlerOptions get_current_signal_handler_options() { return SignalHandler::instance().current_options(); }
+SignalHandlerOptions get_current_signal_handler_options() {
+  return SignalHandler::instance().current_options();
+}
 
-bool uninstall_signal_handlers() { return SignalHandler::instance().uninstall(); }
+bool uninstall_signal_handlers() {
+  return SignalHandler::instance().uninstall();
+}
 
 std::vector<std::string> init_and_remove_ros_arguments(int argc, char const* const* argv,
                                                        const InitOptions& init_options) {

@@ -45,7 +45,8 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   void collect(Entities& entities) const;
   size_t size() const;
 
-  // What happens after an entity was added or destroyed, and when the group is: the executor's business. Called under no lock.
+  // What happens after an entity was added or destroyed, and when the group is: the executor's business. Called under
+  // no lock.
   void set_on_change(std::function<void()> on_change);
 
   // Entities call it when they are destroyed.

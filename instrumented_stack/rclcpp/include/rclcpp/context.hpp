@@ -53,8 +53,8 @@ class Context : public std::enable_shared_from_this<Context> {
   // Empty until the context was shut down.
   std::string shutdown_reason() const;
 
-  // Runs the pre-shutdown callbacks, invalidates the context, runs the on-shutdown callbacks and ends every sleep_for().
-  // Callable from any thread, not from a signal handler. False when the context was not valid.
+  // Runs the pre-shutdown callbacks, invalidates the context, runs the on-shutdown callbacks and ends every
+  // sleep_for(). Callable from any thread, not from a signal handler. False when the context was not valid.
   virtual bool shutdown(const std::string& reason);
 
   // On-shutdown callbacks run in the thread that calls shutdown(), in the order of their registration.

@@ -1,10 +1,10 @@
 // A length of time in nanoseconds.
 #pragma once
 
-#include <builtin_interfaces/msg/duration.hpp>
 #include <rcl/time.h>
 #include <rmw/time.h>
 
+#include <builtin_interfaces/msg/duration.hpp>
 #include <chrono>
 #include <cstdint>
 

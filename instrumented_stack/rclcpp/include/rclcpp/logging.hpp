@@ -11,8 +11,8 @@
 //   _SKIPFIRST(logger, …)                      from the second time on
 //   _THROTTLE(logger, clock, duration_ms, …)   if duration_ms have passed on the clock since the last line
 //   _SKIPFIRST_THROTTLE(logger, clock, duration_ms, …)
-// and each of these with _STREAM. A condition with a memory counts only lines that the level lets pass, per place in the
-// source.
+// and each of these with _STREAM. A condition with a memory counts only lines that the level lets pass, per place in
+// the source.
 #pragma once
 
 #include <rcutils/logging.h>
@@ -51,46 +51,45 @@ struct LogThrottle {
 
 }  // namespace rclcpp::detail
 
-#define RCLCPP_LOG_IF_(severity, logger, condition, ...)                                                          \
-  do {                                                                                                            \
-    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                               \
-                  "First argument to logging macros must be an rclcpp::Logger");                                  \
-    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};                    \
-    const auto& rclcpp_log_logger_ = logger;                                                                      \
-    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) {          \
-      rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), __VA_ARGS__);          \
-    }                                                                                                             \
+#define RCLCPP_LOG_IF_(severity, logger, condition, ...)                                                 \
+  do {                                                                                                   \
+    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                      \
+                  "First argument to logging macros must be an rclcpp::Logger");                         \
+    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};           \
+    const auto& rclcpp_log_logger_ = logger;                                                             \
+    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) { \
+      rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), __VA_ARGS__); \
+    }                                                                                                    \
   } while (0)
 
-#define RCLCPP_LOG_STREAM_IF_(severity, logger, condition, stream_arg)                                            \
-  do {                                                                                                            \
-    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                               \
-                  "First argument to logging macros must be an rclcpp::Logger");                                  \
-    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};                    \
-    const auto& rclcpp_log_logger_ = logger;                                                                      \
-    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) {          \
-      std::ostringstream rclcpp_log_stream_;                                                                      \
-      rclcpp_log_stream_ << stream_arg;                                                                           \
-      rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), "%s",                  \
-                           rclcpp_log_stream_.str().c_str());                                                     \
-    }                                                                                                             \
+#define RCLCPP_LOG_STREAM_IF_(severity, logger, condition, stream_arg)                                   \
+  do {                                                                                                   \
+    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                      \
+                  "First argument to logging macros must be an rclcpp::Logger");                         \
+    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};           \
+    const auto& rclcpp_log_logger_ = logger;                                                             \
+    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) { \
+      std::ostringstream rclcpp_log_stream_;                                                             \
+      rclcpp_log_stream_ << stream_arg;                                                                  \
+      rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), "%s",         \
+                           rclcpp_log_stream_.str().c_str());                                            \
+    }                                                                                                    \
   } while (0)
 
 // One memory per place in the source: a lambda's local static.
-#define RCLCPP_LOG_ONCE_CONDITION_                       \
-  ([]() -> ::rclcpp::detail::LogOnce& {                  \
-    static ::rclcpp::detail::LogOnce once;               \
-    return once;                                         \
+#define RCLCPP_LOG_ONCE_CONDITION_         \
+  ([]() -> ::rclcpp::detail::LogOnce& {    \
+    static ::rclcpp::detail::LogOnce once; \
+    return once;                           \
   }()())
 #define RCLCPP_LOG_SKIPFIRST_CONDITION_ (!RCLCPP_LOG_ONCE_CONDITION_)
-#define RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration)  \
-  ([]() -> ::rclcpp::detail::LogThrottle& {              \
-    static ::rclcpp::detail::LogThrottle throttle;       \
-    return throttle;                                     \
+#define RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration) \
+  ([]() -> ::rclcpp::detail::LogThrottle& {             \
+    static ::rclcpp::detail::LogThrottle throttle;      \
+    return throttle;                                    \
   }()((clock).now().nanoseconds(), static_cast<int64_t>(duration)))
 
-#define RCLCPP_DEBUG(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, true, __VA_ARGS__)
+#define RCLCPP_DEBUG(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, true, __VA_ARGS__)
 #define RCLCPP_DEBUG_STREAM(logger, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, true, stream_arg)
 #define RCLCPP_DEBUG_ONCE(logger, ...) \
@@ -114,12 +113,13 @@ struct LogThrottle {
 #define RCLCPP_DEBUG_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 #define RCLCPP_DEBUG_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
+  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger,                  \
+                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
 #define RCLCPP_DEBUG_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger,                         \
+                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 
-#define RCLCPP_INFO(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, true, __VA_ARGS__)
+#define RCLCPP_INFO(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, true, __VA_ARGS__)
 #define RCLCPP_INFO_STREAM(logger, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, true, stream_arg)
 #define RCLCPP_INFO_ONCE(logger, ...) \
@@ -143,12 +143,13 @@ struct LogThrottle {
 #define RCLCPP_INFO_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 #define RCLCPP_INFO_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
+  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger,                  \
+                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
 #define RCLCPP_INFO_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger,                         \
+                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 
-#define RCLCPP_WARN(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, true, __VA_ARGS__)
+#define RCLCPP_WARN(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, true, __VA_ARGS__)
 #define RCLCPP_WARN_STREAM(logger, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, true, stream_arg)
 #define RCLCPP_WARN_ONCE(logger, ...) \
@@ -172,12 +173,13 @@ struct LogThrottle {
 #define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 #define RCLCPP_WARN_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
+  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger,                  \
+                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
 #define RCLCPP_WARN_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger,                         \
+                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 
-#define RCLCPP_ERROR(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, true, __VA_ARGS__)
+#define RCLCPP_ERROR(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, true, __VA_ARGS__)
 #define RCLCPP_ERROR_STREAM(logger, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, true, stream_arg)
 #define RCLCPP_ERROR_ONCE(logger, ...) \
@@ -201,12 +203,13 @@ struct LogThrottle {
 #define RCLCPP_ERROR_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 #define RCLCPP_ERROR_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
+  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger,                  \
+                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
 #define RCLCPP_ERROR_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger,                         \
+                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 
-#define RCLCPP_FATAL(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, true, __VA_ARGS__)
+#define RCLCPP_FATAL(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, true, __VA_ARGS__)
 #define RCLCPP_FATAL_STREAM(logger, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, true, stream_arg)
 #define RCLCPP_FATAL_ONCE(logger, ...) \
@@ -230,7 +233,8 @@ struct LogThrottle {
 #define RCLCPP_FATAL_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
   RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
 #define RCLCPP_FATAL_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
+  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger,                  \
+                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
 #define RCLCPP_FATAL_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_ && RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
-
+  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger,                         \
+                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)

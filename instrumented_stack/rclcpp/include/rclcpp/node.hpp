@@ -82,9 +82,10 @@ class Node : public std::enable_shared_from_this<Node> {
   // On the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative
   // period.
   template <typename RepT, typename RatioT, typename CallbackT>
-  typename WallTimer<std::decay_t<CallbackT>>::SharedPtr create_wall_timer(
-      std::chrono::duration<RepT, RatioT> period, CallbackT&& callback, CallbackGroup::SharedPtr group = nullptr,
-      bool autostart = true) {
+  typename WallTimer<std::decay_t<CallbackT>>::SharedPtr create_wall_timer(std::chrono::duration<RepT, RatioT> period,
+                                                                           CallbackT&& callback,
+                                                                           CallbackGroup::SharedPtr group = nullptr,
+                                                                           bool autostart = true) {
     return rclcpp::create_wall_timer(period, std::forward<CallbackT>(callback), std::move(group), node_base_.get(),
                                      node_timers_.get(), autostart);
   }

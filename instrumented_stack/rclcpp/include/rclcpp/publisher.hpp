@@ -2,9 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <string>
-
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <string>
 
 #include "rclcpp/publisher_base.hpp"
 

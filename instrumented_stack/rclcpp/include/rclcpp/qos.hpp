@@ -101,9 +101,7 @@ class QoS {
 
   QoS& liveliness(LivelinessPolicy liveliness);
   QoS& liveliness(rmw_qos_liveliness_policy_t liveliness);
-  QoS& liveliness_lease_duration(const Duration& duration) {
-    return liveliness_lease_duration(duration.to_rmw_time());
-  }
+  QoS& liveliness_lease_duration(const Duration& duration) { return liveliness_lease_duration(duration.to_rmw_time()); }
   QoS& liveliness_lease_duration(rmw_time_t duration);
 
   QoS& avoid_ros_namespace_conventions(bool avoid);
@@ -159,8 +157,8 @@ class RosoutQoS : public QoS {
 // Whatever the middleware has by default.
 class SystemDefaultsQoS : public QoS {
  public:
-  explicit SystemDefaultsQoS(const QoSInitialization& history = QoSInitialization(
-                                 RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT, RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT));
+  explicit SystemDefaultsQoS(const QoSInitialization& history = QoSInitialization(RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT,
+                                                                                  RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT));
 };
 
 // Adapts to the endpoints found at creation.

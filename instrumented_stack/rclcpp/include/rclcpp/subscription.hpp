@@ -2,10 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <rosidl_typesupport_cpp/message_type_support.hpp>
 #include <string>
 #include <utility>
-
-#include <rosidl_typesupport_cpp/message_type_support.hpp>
 
 #include "rclcpp/subscription_base.hpp"
 

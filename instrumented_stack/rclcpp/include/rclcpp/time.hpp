@@ -1,9 +1,9 @@
 // A moment on a clock. Times of different clocks cannot be compared or subtracted: that throws std::runtime_error.
 #pragma once
 
-#include <builtin_interfaces/msg/time.hpp>
 #include <rcl/time.h>
 
+#include <builtin_interfaces/msg/time.hpp>
 #include <cstdint>
 
 #include "rclcpp/duration.hpp"
@@ -48,6 +48,8 @@ class Time {
   rcl_clock_type_t clock_type_;
 };
 
-inline Time operator+(const Duration& duration, const Time& time) { return time + duration; }
+inline Time operator+(const Duration& duration, const Time& time) {
+  return time + duration;
+}
 
 }  // namespace rclcpp

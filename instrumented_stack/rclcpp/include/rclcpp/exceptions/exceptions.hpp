@@ -18,8 +18,7 @@ class NameValidationError : public std::invalid_argument {
  public:
   NameValidationError(const char* name_type, const char* name, const char* error_msg, size_t invalid_index);
 
-  static std::string format_error(const char* name_type, const char* name, const char* error_msg,
-                                  size_t invalid_index);
+  static std::string format_error(const char* name_type, const char* name, const char* error_msg, size_t invalid_index);
 
   const std::string name_type;
   const std::string name;
