@@ -64,7 +64,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
   ProcessSupervisor supervisor(*loop, *runner, output);
-  report_process_messages(supervisor, output);
+  supervisor.observe(process_messages(output));
 
   LaunchContext context(registry, environment, own_install_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {

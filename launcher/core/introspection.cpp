@@ -107,9 +107,8 @@ void check_required_arguments(const LaunchDescription& description, const Regist
                                           "given: {}",
                                           declaration.name, declaration.description, quoted_list(listed)),
                               where,
-                              fmt::format("it is declared without a default at {}; give it in the include itself: "
-                                          "<arg name=\"{}\" value=\"…\"/>",
-                                          to_string(declaration.where), declaration.name));
+                              fmt::format("it is declared without a default at {}; add an arg of that name to the include",
+                                          to_string(declaration.where)));
             });
   walk.description(description, std::set<std::string>(given.begin(), given.end()), false, 0);
   if (missing) {

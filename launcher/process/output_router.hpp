@@ -19,16 +19,20 @@ enum class LogLevel { kDebug, kInfo, kWarning, kError, kCritical };
 // One run's log directory BASE/YYYY-MM-DD-HH-MM-SS-ffffff-HOST-PID with launch.log, and BASE/latest as a link to it.
 struct LogDirectory {
   std::string path;
+  std::string warning;  // why BASE/latest was not updated; empty when it was
 
   // BASE by ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log. Throws std::system_error.
   static LogDirectory create(const std::map<std::string, std::string>& environment);
 };
 
+// Single-threaded. Lines are handed to the kernel before a call returns, all lines of one write() with one system call
+// for each destination. A screen that blocks (a paused terminal) blocks the caller; one that is gone is given up, while
+// the logs go on. Ignores SIGPIPE in this process unless a handler is installed.
 class OutputRouter {
  public:
   struct Options {
-    int screen_fd = 1;               // children's lines and launcher messages, as ROS 2 does
-    std::string log_directory;       // empty: no files are written
+    int screen_fd = 1;            // children's lines and launcher messages, as ROS 2 does
+    std::string log_directory{};  // empty: no files are written
     LogLevel screen_level = LogLevel::kInfo;
     bool colour = false;
   };
@@ -38,7 +42,8 @@ class OutputRouter {
 
   // Bytes read from a child. Complete lines are written at once; a rest waits for its end or for close_stream().
   // Invalid UTF-8 becomes U+FFFD. Never blocks the caller for a slow screen longer than a write does.
-  void write(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets, std::string_view bytes);
+  void write(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets,
+             std::string_view bytes);
   // The stream has ended: writes the rest as a line.
   void close_stream(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets);
 

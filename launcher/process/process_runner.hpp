@@ -18,11 +18,19 @@ class ProcessRunner {
   // Sends a signal to every process of the group of `process`. A group that is gone is not an error.
   virtual void signal_group(const Process& process, int signal) = 0;
 
+  // How an exited process ended, without reaping it: its number, and with it the number of its group, stays reserved,
+  // so that signal_group() can't hit strangers. Must only be called once its pidfd is readable.
+  virtual ProcessExit outcome(const Process& process) = 0;
+
   // Reaps an exited process. Must only be called once its pidfd is readable. Sets code and usage.
   virtual ProcessExit reap(const Process& process) = 0;
 };
 
-// posix_spawn and pidfds.
+// posix_spawn(3) and pidfds. Prepares the launcher itself: SIGCHLD gets its default disposition (else children would be
+// reaped by the kernel), closed standard descriptors become /dev/null, and the soft limit of open descriptors is raised
+// to the hard one. Children get the old limit, right after their start: a program that reads it in its first
+// instructions can still see the raised one. Any descriptor of the launcher but the standard ones is marked
+// close-on-exec before each start.
 std::unique_ptr<ProcessRunner> make_posix_process_runner();
 
 }  // namespace launch

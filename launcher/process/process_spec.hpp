@@ -23,9 +23,9 @@ using ProcessId = std::uint32_t;
 
 // Where a stream's lines go; combine freely.
 struct OutputTargets {
-  bool screen = false;    // launcher's standard output, "[LABEL] text"
-  bool log = false;       // launch.log
-  bool own_log = false;   // LABEL-stdout.log or LABEL-stderr.log, and LABEL.log
+  bool screen = false;   // launcher's standard output, "[LABEL] text"
+  bool log = false;      // launch.log
+  bool own_log = false;  // LABEL-stdout.log or LABEL-stderr.log, and LABEL.log
   bool operator==(const OutputTargets&) const = default;
 };
 
@@ -48,7 +48,7 @@ struct RespawnPolicy {
 // its path put in place of argv[argument], removed when the launch ends.
 struct GeneratedFile {
   std::size_t argument = 0;
-  std::string name;     // file name hint, "talker-params.yaml"
+  std::string name;  // file name hint, "talker-params.yaml"
   std::string content;
 };
 
@@ -57,16 +57,16 @@ struct ProcessSpec {
   std::string name;               // label without its number; the supervisor appends "-N"
   std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
   std::map<std::string, std::string> environment;  // complete, not a difference
-  std::string working_directory;  // empty: the launcher's
-  bool shell = false;             // run argv joined with spaces through /bin/sh -c
-  bool emulate_tty = false;       // stdout and stderr are pseudo-terminals
+  std::string working_directory;                   // empty: the launcher's
+  bool shell = false;                              // run argv joined with spaces through /bin/sh -c
+  bool emulate_tty = false;                        // stdout and stderr are pseudo-terminals
   OutputRouting output;
   RespawnPolicy respawn;
   bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
-  SourceRange origin;             // the launch-file line that asked for it
+  SourceRange origin;  // the launch-file line that asked for it
 };
 
 // Invocation: one running process. The group of the process has the number `pid`.
@@ -75,12 +75,12 @@ struct Process {
   UniqueFd pidfd;
   UniqueFd out;  // read end of standard output
   UniqueFd err;
-  UniqueFd in;   // write end of standard input, kept open, never written
+  UniqueFd in;  // write end of standard input, kept open, never written
 };
 
 // Outcome.
 struct ProcessExit {
-  int code = 0;    // exit code; -N when ended by signal N, 127 when it could not be started
+  int code = 0;  // exit code; -N when ended by signal N, 127 when it could not be started
   Duration ran_for{0};
   rusage usage{};
 };

@@ -2,6 +2,15 @@
 //
 // A process is a row of the State x Event table in process_supervisor.cpp. Whoever wants to know (console, logs, launch
 // events) observes transitions. The work per event does not depend on the number of processes.
+//
+// A process is supervised together with its group, so descendants count too unless they leave the group:
+// - Signals go to the group. When a process that was signalled exits before its descendants have closed its output,
+//   they get SIGTERM, and SIGKILL after sigkill_timeout; ProcessDone waits for them, ProcessExited does not.
+// - When a process exits on its own, ProcessDone follows at once. Descendants that hold its output open go on, and
+// their
+//   output is shown; they get SIGINT at shutdown and SIGKILL when the supervisor is destroyed. A respawn kills them
+//   first.
+// - Descendants that have closed the output are killed with a signalled process, and are no concern of ours else.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +34,8 @@ struct ProcessStarted {
   pid_t pid;
 };
 struct ProcessStartFailed {
-  std::string reason;  // "No such file or directory"
+  std::string reason;  // "no program 'talkr' on PATH: No such file or directory"
+  bool will_respawn = false;
 };
 struct ProcessExited {
   pid_t pid;
@@ -50,6 +60,10 @@ struct ProcessEvent {
 
 class ProcessSupervisor {
  public:
+  // Least time between a failed start and the next try: with a respawn delay of 0 a missing program would otherwise
+  // keep the launcher busy and flood the screen.
+  static constexpr Duration kFailedStartDelay = std::chrono::seconds(1);
+
   using Observer = std::function<void(const ProcessEvent&)>;
 
   // All references must outlive the supervisor.
@@ -60,14 +74,20 @@ class ProcessSupervisor {
   void observe(Observer observer);
 
   // Takes a process over and starts it now. A failing start is an event (then ProcessExited is not sent, but respawn
-  // applies as to an exit with code 127), not an exception. After shutdown() new requests are ignored: returns 0.
+  // applies as to an exit with code 127, but not sooner than kFailedStartDelay), not an exception. Called by an
+  // observer, it starts the process after the event that is being observed. After shutdown() new requests are ignored:
+  // returns 0.
   ProcessId start(ProcessSpec spec);
 
   // Ends everything: SIGINT now, SIGTERM and SIGKILL after the timeouts of each spec; pending respawns are dropped.
   // A process that is being started is interrupted after its start. Later calls have no effect.
   void shutdown();
 
-  // Sends SIGKILL to everything that is alive, now.
+  // Sends a signal to the group of a running process (a SignalSent event follows). Nothing escalates. Ignored for a
+  // process that does not run.
+  void signal(ProcessId id, int signal);
+
+  // Sends SIGKILL to everything that is alive, now. Respawns go on unless shutdown() was called before.
   void kill_all();
 
   // Processes that are not yet kDone.

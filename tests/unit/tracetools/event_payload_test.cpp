@@ -157,13 +157,13 @@ EventTable printed_events(const std::string& text) {
 class RecordedEvents : public testing::Test {
  protected:
   void SetUp() override {
-    for (const std::vector<std::string>& argv : std::vector<std::vector<std::string>>{
-             {"lttng-sessiond", "--daemonize"},
-             {"lttng", "create", "payload", "--output=" + trace_.string()},
-             {"lttng", "enable-event", "--userspace", "ros2:*"},
-             {"lttng", "start"},
-             {FIRE_ALL_EVENTS},
-             {"lttng", "destroy"}}) {
+    for (const std::vector<std::string>& argv :
+         std::vector<std::vector<std::string>>{{"lttng-sessiond", "--daemonize"},
+                                               {"lttng", "create", "payload", "--output=" + trace_.string()},
+                                               {"lttng", "enable-event", "--userspace", "ros2:*"},
+                                               {"lttng", "start"},
+                                               {FIRE_ALL_EVENTS},
+                                               {"lttng", "destroy"}}) {
       const auto result = run_command(argv);
       ASSERT_EQ(result.exit_code, 0) << argv[0] << ' ' << result.err;
     }
@@ -204,7 +204,7 @@ const std::set<std::string> kDeclaredNames = {TRACETOOLS_EVENTS(EVENT_NAME)};
 
 TEST(EventFunctions, AreThoseOfTheEvents) {
   std::set<std::string> names;
-  for (const auto& [name, fields] : expected([](const auto& name, const auto&, const auto&) { return name; })) {
+  for (const auto& [name, fields] : expected([](const auto&name, const auto&, const auto&) { return name; })) {
     names.insert(name);
   }
   EXPECT_EQ(kDeclaredNames, names);

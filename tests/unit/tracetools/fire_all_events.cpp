@@ -8,7 +8,9 @@
 
 namespace {
 
-const void* at(uintptr_t address) { return reinterpret_cast<const void*>(address); }
+const void* at(uintptr_t address) {
+  return reinterpret_cast<const void*>(address);
+}
 
 }  // namespace
 

@@ -42,10 +42,10 @@ TEST(Provider, OtherValuesDoNotDisableTracing) {
 TEST(Provider, ProcessGoesOnUntracedWhenItIsMissing) {
   test_support::Sandbox sandbox;
   fs::copy(TRACETOOLS_LIBRARY, sandbox.directory() / "libtracetools.so");
-  expect_result(run_command(Command{{STATUS}, {{"LD_LIBRARY_PATH", sandbox.directory().string()}}}), 1,
-                "Tracing disabled\n",
-                "tracetools: tracing is disabled, the provider cannot be loaded: libtracetools_provider.so: cannot open "
-                "shared object file: No such file or directory\n");
+  expect_result(
+      run_command(Command{{STATUS}, {{"LD_LIBRARY_PATH", sandbox.directory().string()}}}), 1, "Tracing disabled\n",
+      "tracetools: tracing is disabled, the provider cannot be loaded: libtracetools_provider.so: cannot open "
+      "shared object file: No such file or directory\n");
 }
 
 }  // namespace

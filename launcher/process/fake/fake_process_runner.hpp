@@ -1,0 +1,85 @@
+// A ProcessRunner for tests: processes that follow a script, on the virtual time of a FakeEventLoop.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "launcher/process/fake/fake_event_loop.hpp"
+#include "launcher/process/process_runner.hpp"
+
+namespace launch {
+
+// One run of a process. By default it runs until it is signalled and dies of the first SIGINT, SIGTERM or SIGKILL.
+struct FakeScript {
+  struct Output {
+    Duration at{0};  // after the start
+    std::string text{};
+    bool to_err = false;
+  };
+
+  std::optional<Duration> exits_after{};     // by itself
+  int exit_code = 0;                         // then; -N: killed by signal N
+  std::set<int> ignores{};                   // signals without effect (not SIGKILL)
+  Duration dies_after{0};                    // time from a deadly signal to the exit
+  std::optional<int> exit_code_on_signal{};  // for a process that handles signals; else it dies of the signal
+  std::vector<Output> output{};
+  // Descendants hold its output open after its exit, for this long or until SIGKILL. They ignore `ignores` as well.
+  std::optional<Duration> descendants_for{};
+  std::optional<int> spawn_error{};  // errno of a start that fails
+};
+
+// Records what it is asked for. The processes are no real ones, so their pids (from 1,000,001 on) must not be
+// signalled.
+class FakeProcessRunner final : public ProcessRunner {
+ public:
+  struct Spawned {
+    ProcessSpec spec;
+    pid_t pid;  // -1: failed
+    Duration at;
+  };
+  struct Signalled {
+    pid_t pid;
+    int signal;
+    Duration at;
+  };
+
+  explicit FakeProcessRunner(FakeEventLoop& loop);
+  ~FakeProcessRunner() override;
+
+  // The runs of processes with this ProcessSpec::name, one after the other; the last script serves all later runs.
+  void script(const std::string& name, std::vector<FakeScript> runs);
+  // For all names without a script.
+  void default_script(FakeScript run);
+
+  Process spawn(const ProcessSpec& spec) override;
+  void signal_group(const Process& process, int signal) override;
+  ProcessExit outcome(const Process& process) override;
+  ProcessExit reap(const Process& process) override;
+
+  const std::vector<Spawned>& spawned() const { return spawned_; }
+  const std::vector<Signalled>& signals() const { return signals_; }
+  std::vector<int> signals_of(pid_t pid) const;
+  // Started and not yet reaped.
+  std::size_t unreaped() const;
+
+ private:
+  struct Running;
+
+  const FakeScript& next_script(const std::string& name);
+  Running& find(const Process& process) const;
+  void exit(Running& process, int code);
+
+  FakeEventLoop& loop_;
+  FakeScript default_;
+  std::map<std::string, std::vector<FakeScript>> scripts_;
+  std::map<std::string, std::size_t> runs_;
+  std::map<pid_t, std::unique_ptr<Running>> running_;
+  pid_t last_pid_ = 1'000'000;
+  std::vector<Spawned> spawned_;
+  std::vector<Signalled> signals_;
+};
+
+}  // namespace launch

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+#include <pwd.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+
+#include "launcher/process/output_router.hpp"
+
+namespace launch {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string value_of(const std::map<std::string, std::string>& environment, const char* name) {
+  const auto variable = environment.find(name);
+  return variable == environment.end() ? std::string() : variable->second;
+}
+
+std::string home(const std::map<std::string, std::string>& environment) {
+  std::string directory = value_of(environment, "HOME");
+  if (directory.empty()) {
+    const passwd* user = ::getpwuid(::getuid());
+    directory = user == nullptr ? "/" : user->pw_dir;
+  }
+  return directory;
+}
+
+fs::path base_directory(const std::map<std::string, std::string>& environment) {
+  std::string base = value_of(environment, "ROS_LOG_DIR");
+  if (base.empty()) {
+    const std::string ros_home = value_of(environment, "ROS_HOME");
+    base = (ros_home.empty() ? "~/.ros" : ros_home) + "/log";
+  }
+  if (base == "~" || base.starts_with("~/")) {
+    base.replace(0, 1, home(environment));
+  }
+  return fs::absolute(base);
+}
+
+// YYYY-MM-DD-HH-MM-SS-ffffff-HOST-PID, local time.
+std::string run_name() {
+  const auto now = std::chrono::system_clock::now();
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+  const auto since_epoch = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
+  tm local{};
+  ::localtime_r(&seconds, &local);
+  std::array<char, 32> date{};
+  std::strftime(date.data(), date.size(), "%Y-%m-%d-%H-%M-%S", &local);
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("{}-{:06}-{}-{}", date.data(), since_epoch.count() % 1'000'000, host.data(), ::getpid());
+}
+
+// Replaces the link in one step, so that nobody ever finds it missing. Returns a warning, or "".
+std::string renew_latest(const fs::path& base, const std::string& name) {
+  const fs::path latest = base / "latest";
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(latest, error);
+  if (fs::exists(status) && !fs::is_symlink(status)) {
+    return fmt::format("'{}' is not a symbolic link: it is left as it is", latest.string());
+  }
+  const fs::path fresh = base / fmt::format(".latest-{}", ::getpid());
+  fs::remove(fresh, error);
+  fs::create_directory_symlink(name, fresh, error);
+  if (!error) {
+    fs::rename(fresh, latest, error);
+  }
+  return error ? fmt::format("cannot update the link '{}': {}", latest.string(), error.message()) : std::string();
+}
+
+}  // namespace
+
+LogDirectory LogDirectory::create(const std::map<std::string, std::string>& environment) {
+  const fs::path base = base_directory(environment);
+  fs::create_directories(base);
+  while (true) {
+    const std::string name = run_name();
+    const fs::path directory = base / name;
+    if (::mkdir(directory.c_str(), 0777) == 0) {
+      return {directory.string(), renew_latest(base, name)};
+    }
+    if (errno != EEXIST) {  // else another run began in the same microsecond
+      throw std::system_error(errno, std::system_category(), fmt::format("cannot create '{}'", directory.string()));
+    }
+  }
+}
+
+}  // namespace launch

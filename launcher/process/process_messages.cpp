@@ -1,0 +1,84 @@
+#include "launcher/process/process_messages.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <signal.h>
+#include <string.h>
+
+#include <chrono>
+#include <string>
+
+namespace launch {
+namespace {
+
+std::string signal_name(int signal) {
+  const char* name = ::sigabbrev_np(signal);
+  return name == nullptr ? fmt::format("{}", signal) : fmt::format("SIG{}", name);
+}
+
+double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+// " (system.launch.xml:4:3)", or nothing for a process that no file asked for.
+std::string place(const ProcessSpec& spec) {
+  return spec.origin ? fmt::format(" ({})", to_string(spec.origin)) : std::string();
+}
+
+class Messages {
+ public:
+  Messages(OutputRouter& output, const ProcessEvent& event) : output_(output), event_(event) {}
+
+  void operator()(const ProcessStarted& started) const {
+    say(LogLevel::kInfo, fmt::format("process started with pid [{}]", started.pid));
+  }
+
+  void operator()(const ProcessStartFailed& failed) const {
+    say(LogLevel::kError,
+        fmt::format("exception occurred while executing process: {}{}", failed.reason, place(event_.spec)));
+  }
+
+  void operator()(const ProcessExited& exited) const {
+    if (exited.exit.code == 0) {
+      say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", exited.pid));
+    } else {
+      say(LogLevel::kError, fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", exited.pid,
+                                        exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
+    }
+  }
+
+  void operator()(const SignalSent& sent) const {
+    if (sent.escalated_from != 0) {
+      say(LogLevel::kError,
+          fmt::format("process[{}] failed to terminate '{}' seconds after receiving '{}', "
+                      "escalating to '{}'",
+                      event_.label, waited(sent), signal_name(sent.escalated_from), signal_name(sent.signal)));
+    }
+    say(LogLevel::kInfo, fmt::format("sending signal '{}' to process[{}]", signal_name(sent.signal), event_.label));
+  }
+
+  void operator()(const ProcessDone&) const {}
+
+ private:
+  // ROS 2 counts the time before SIGKILL from the first signal on, and prints it as Python prints a float.
+  std::string waited(const SignalSent& sent) const {
+    if (sent.signal != SIGKILL) {
+      return fmt::format("{}", seconds(sent.waited));
+    }
+    const std::string sum = fmt::format("{}", seconds(event_.spec.sigterm_timeout + event_.spec.sigkill_timeout));
+    return sum.find_first_of(".e") == std::string::npos ? sum + ".0" : sum;
+  }
+
+  void say(LogLevel level, const std::string& text) const { output_.message(level, event_.label, text); }
+
+  OutputRouter& output_;
+  const ProcessEvent& event_;
+};
+
+}  // namespace
+
+ProcessSupervisor::Observer process_messages(OutputRouter& output) {
+  return [&output](const ProcessEvent& event) { std::visit(Messages(output, event), event.what); };
+}
+
+}  // namespace launch

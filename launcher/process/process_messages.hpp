@@ -1,0 +1,13 @@
+// Says what happens to processes, in the words of ROS 2 launch.
+#pragma once
+
+#include "launcher/process/output_router.hpp"
+#include "launcher/process/process_supervisor.hpp"
+
+namespace launch {
+
+// An observer that writes a launcher message for each event of a process; the logger is the label of the process.
+// Failures end with the place in the launch file that asked for the process. `output` must outlive the supervisor.
+ProcessSupervisor::Observer process_messages(OutputRouter& output);
+
+}  // namespace launch

@@ -1,0 +1,491 @@
+#include "launcher/process/process_supervisor.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <deque>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "launcher/process/generated_files.hpp"
+
+namespace launch {
+namespace {
+
+constexpr std::size_t kReadSize = 64 * 1024;  // capacity of a pipe
+// What is read at most from a stream of a process that has exited, while descendants may go on writing into it.
+constexpr std::size_t kDrainLimit = 1024 * 1024;
+// How long the destructor waits for a process that it has killed. Only a process that hangs in the kernel takes so
+// long.
+constexpr int kReapTimeoutMilliseconds = 1000;
+
+enum class Event { kStart, kExit, kOutputClosed, kTimeout, kSignal, kShutdown, kKill };
+constexpr std::size_t kEvents = 7;
+constexpr std::size_t kStates = 7;
+
+bool asks_to_end(int signal) {
+  return signal == SIGINT || signal == SIGTERM || signal == SIGKILL || signal == SIGQUIT || signal == SIGHUP;
+}
+
+struct Stream {
+  OutputStream which;
+  UniqueFd fd;
+  EventLoop::SourcePtr source;
+
+  bool open() const { return static_cast<bool>(fd); }
+};
+
+struct Supervised {
+  ProcessId id = 0;
+  std::string label;
+  ProcessSpec spec;
+  ProcessState state = ProcessState::kStarting;
+  std::int64_t retries = 0;
+  int requested_signal = 0;  // of the kSignal event being handled
+
+  // Of the current or last run.
+  Process process;
+  bool unreaped = false;  // `process` names a process, alive or a zombie, so its group may be signalled
+  bool exited = false;    // a zombie, kept because descendants hold its output open
+  bool signalled = false;
+  Duration started{0};
+  Stream out{OutputStream::kOut, {}, {}};
+  Stream err{OutputStream::kErr, {}, {}};
+  EventLoop::SourcePtr exit_source;
+  EventLoop::SourcePtr timer;
+
+  bool output_open() const { return out.open() || err.open(); }
+};
+
+}  // namespace
+
+struct ProcessSupervisor::Impl {
+  using Handler = void (Impl::*)(Supervised&);
+  struct Pending {
+    Supervised* process;
+    Event event;
+    int signal;  // of kSignal
+  };
+
+  Impl(EventLoop& event_loop, ProcessRunner& process_runner, OutputRouter& router)
+      : loop(event_loop), runner(process_runner), output(router), buffer(kReadSize) {}
+
+  // Runs the handler of the table. An event raised meanwhile, by a handler or by an observer, waits until it is done:
+  // observers see the events of a process in order, and handlers run on a settled state.
+  void handle(Supervised& process, Event event, int signal = 0);
+  void notify(Supervised& process, decltype(ProcessEvent::what) what);
+
+  // Handlers: what happens to a process in one state on one event.
+  void ignore(Supervised&) {}
+  void spawn(Supervised& process);
+  void interrupt(Supervised& process);
+  void terminate(Supervised& process);
+  void kill_at_last(Supervised& process);
+  void kill_now(Supervised& process);
+  void send_requested(Supervised& process);
+  void end_unasked(Supervised& process);
+  void end_signalled(Supervised& process);
+  void remains_ended(Supervised& process);
+  void release_remains(Supervised& process);
+  void interrupt_remains(Supervised& process);
+  void kill_remains(Supervised& process);
+  void finish(Supervised& process);
+
+  bool respawns(const Supervised& process) const;
+  void conclude(Supervised& process);
+  void wait_for_respawn(Supervised& process, Duration delay);
+  void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
+  void send(Supervised& process, int signal, int escalated_from, Duration waited);
+  void start_timer(Supervised& process, Duration delay);
+  void reap_after_kill(Supervised& process);
+
+  void watch(Supervised& process, Stream& stream);
+  void read_available(Supervised& process, Stream& stream, std::size_t limit);
+  void drain(Supervised& process);
+  void close(Supervised& process, Stream& stream);
+  void close_output(Supervised& process);
+
+  static const std::array<std::array<Handler, kEvents>, kStates> kTable;
+
+  EventLoop& loop;
+  ProcessRunner& runner;
+  OutputRouter& output;
+  std::vector<Observer> observers;
+  std::vector<std::unique_ptr<Supervised>> processes;  // of id N at N - 1
+  std::size_t active = 0;
+  bool shutting_down = false;
+  std::deque<Pending> pending;
+  bool handling = false;
+  GeneratedFiles files;
+  std::vector<char> buffer;
+};
+
+// clang-format off
+const std::array<std::array<ProcessSupervisor::Impl::Handler, kEvents>, kStates> ProcessSupervisor::Impl::kTable{{
+  //                  kStart         kExit                 kOutputClosed           kTimeout             kSignal                kShutdown                 kKill
+  /* kStarting     */ {&Impl::spawn,  &Impl::ignore,        &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::ignore},
+  /* kRunning      */ {&Impl::ignore, &Impl::end_unasked,   &Impl::ignore,          &Impl::ignore,       &Impl::send_requested, &Impl::interrupt,         &Impl::kill_now},
+  /* kInterrupting */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::terminate,    &Impl::send_requested, &Impl::ignore,            &Impl::kill_now},
+  /* kTerminating  */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::kill_at_last, &Impl::send_requested, &Impl::ignore,            &Impl::kill_now},
+  /* kKilling      */ {&Impl::ignore, &Impl::end_signalled, &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::kill_now},
+  /* kRespawnDelay */ {&Impl::ignore, &Impl::ignore,        &Impl::ignore,          &Impl::spawn,        &Impl::ignore,         &Impl::finish,            &Impl::ignore},
+  /* kDone         */ {&Impl::ignore, &Impl::ignore,        &Impl::release_remains, &Impl::ignore,       &Impl::ignore,         &Impl::interrupt_remains, &Impl::kill_remains},
+}};
+// clang-format on
+
+void ProcessSupervisor::Impl::handle(Supervised& first, Event event, int signal) {
+  pending.push_back({&first, event, signal});
+  if (handling) {
+    return;
+  }
+  handling = true;
+  struct Reset {
+    bool& flag;
+    ~Reset() { flag = false; }
+  } reset{handling};
+  while (!pending.empty()) {
+    const Pending next = pending.front();
+    pending.pop_front();
+    next.process->requested_signal = next.signal;
+    const Handler handler = kTable[static_cast<std::size_t>(next.process->state)][static_cast<std::size_t>(next.event)];
+    (this->*handler)(*next.process);
+  }
+}
+
+void ProcessSupervisor::Impl::notify(Supervised& process, decltype(ProcessEvent::what) what) {
+  const ProcessEvent event{process.id, process.label, process.spec, std::move(what)};
+  // By index: an observer may register another one.
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    observers[i](event);
+  }
+}
+
+void ProcessSupervisor::Impl::spawn(Supervised& process) {
+  process.timer.reset();
+  process.exited = false;
+  process.signalled = false;
+  try {
+    if (process.state == ProcessState::kStarting) {
+      files.write(process.spec, process.id);
+    }
+    process.process = runner.spawn(process.spec);
+  } catch (const std::system_error& error) {
+    const bool again = respawns(process);
+    notify(process, ProcessStartFailed{error.what(), again});
+    if (again) {
+      wait_for_respawn(process, std::max(process.spec.respawn.delay, kFailedStartDelay));
+    } else {
+      finish(process);
+    }
+    return;
+  }
+  process.state = ProcessState::kRunning;
+  process.unreaped = true;
+  process.started = loop.now();
+  process.out.fd = std::move(process.process.out);
+  process.err.fd = std::move(process.process.err);
+  watch(process, process.out);
+  watch(process, process.err);
+  process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
+  notify(process, ProcessStarted{process.process.pid});
+}
+
+void ProcessSupervisor::Impl::interrupt(Supervised& process) {
+  process.state = ProcessState::kInterrupting;
+  start_timer(process, process.spec.sigterm_timeout);
+  send(process, SIGINT, 0, Duration{0});
+}
+
+void ProcessSupervisor::Impl::terminate(Supervised& process) {
+  process.state = ProcessState::kTerminating;
+  start_timer(process, process.spec.sigkill_timeout);
+  send(process, SIGTERM, SIGINT, process.spec.sigterm_timeout);
+}
+
+void ProcessSupervisor::Impl::kill_at_last(Supervised& process) {
+  process.state = ProcessState::kKilling;
+  process.timer.reset();
+  send(process, SIGKILL, SIGTERM, process.spec.sigkill_timeout);
+  if (process.exited) {
+    reap_after_kill(process);
+    conclude(process);
+  }
+}
+
+void ProcessSupervisor::Impl::kill_now(Supervised& process) {
+  process.state = ProcessState::kKilling;
+  process.timer.reset();
+  send(process, SIGKILL, 0, Duration{0});
+  if (process.exited) {
+    reap_after_kill(process);
+    conclude(process);
+  }
+}
+
+void ProcessSupervisor::Impl::send_requested(Supervised& process) {
+  send(process, process.requested_signal, 0, Duration{0});
+}
+
+void ProcessSupervisor::Impl::end_unasked(Supervised& process) {
+  if (process.signalled) {
+    end_signalled(process);
+    return;
+  }
+  process.exit_source.reset();
+  drain(process);
+  const bool again = respawns(process);
+  if (again) {
+    // A wrapper has died and its program lives on: two of it would be worse than none for a moment.
+    runner.signal_group(process.process, SIGKILL);
+    close_output(process);
+  }
+  process.exited = true;
+  if (process.output_open()) {
+    report_exit(process, runner.outcome(process.process), again);
+  } else {
+    process.unreaped = false;
+    report_exit(process, runner.reap(process.process), again);
+  }
+  conclude(process);
+}
+
+void ProcessSupervisor::Impl::end_signalled(Supervised& process) {
+  process.exit_source.reset();
+  drain(process);
+  process.exited = true;
+  const bool again = respawns(process);
+  if (process.output_open() && process.state != ProcessState::kKilling) {
+    report_exit(process, runner.outcome(process.process), again);
+    if (process.state != ProcessState::kTerminating) {
+      process.state = ProcessState::kTerminating;
+      start_timer(process, process.spec.sigkill_timeout);
+      send(process, SIGTERM, 0, Duration{0});
+    }
+    return;
+  }
+  // Before the process is reaped: until then no stranger's group can have its number.
+  runner.signal_group(process.process, SIGKILL);
+  process.unreaped = false;
+  const ProcessExit exit = runner.reap(process.process);
+  close_output(process);
+  process.timer.reset();
+  report_exit(process, exit, again);
+  conclude(process);
+}
+
+void ProcessSupervisor::Impl::remains_ended(Supervised& process) {
+  if (process.exited) {
+    reap_after_kill(process);
+    conclude(process);
+  }
+}
+
+void ProcessSupervisor::Impl::release_remains(Supervised& process) {
+  if (process.unreaped) {
+    process.unreaped = false;
+    runner.reap(process.process);
+    process.process = Process{};
+  }
+}
+
+void ProcessSupervisor::Impl::interrupt_remains(Supervised& process) {
+  if (process.unreaped) {
+    runner.signal_group(process.process, SIGINT);
+  }
+}
+
+void ProcessSupervisor::Impl::kill_remains(Supervised& process) {
+  if (process.unreaped) {
+    reap_after_kill(process);
+  }
+}
+
+void ProcessSupervisor::Impl::finish(Supervised& process) {
+  process.state = ProcessState::kDone;
+  process.timer.reset();
+  --active;
+  notify(process, ProcessDone{});
+}
+
+bool ProcessSupervisor::Impl::respawns(const Supervised& process) const {
+  const RespawnPolicy& policy = process.spec.respawn;
+  return policy.enabled && !shutting_down && (policy.max_retries < 0 || process.retries < policy.max_retries);
+}
+
+// The run is over; what comes next?
+void ProcessSupervisor::Impl::conclude(Supervised& process) {
+  if (!process.unreaped) {
+    process.process = Process{};
+  }
+  if (respawns(process)) {
+    wait_for_respawn(process, process.spec.respawn.delay);
+  } else {
+    finish(process);
+  }
+}
+
+void ProcessSupervisor::Impl::wait_for_respawn(Supervised& process, Duration delay) {
+  process.state = ProcessState::kRespawnDelay;
+  ++process.retries;
+  start_timer(process, delay);
+}
+
+void ProcessSupervisor::Impl::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
+  exit.ran_for = loop.now() - process.started;
+  const bool expected = process.signalled || shutting_down;
+  notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});
+}
+
+void ProcessSupervisor::Impl::send(Supervised& process, int signal, int escalated_from, Duration waited) {
+  process.signalled = process.signalled || asks_to_end(signal);
+  runner.signal_group(process.process, signal);
+  notify(process, SignalSent{signal, escalated_from, waited});
+}
+
+void ProcessSupervisor::Impl::start_timer(Supervised& process, Duration delay) {
+  process.timer = loop.after(delay, [this, &process] { handle(process, Event::kTimeout); });
+}
+
+void ProcessSupervisor::Impl::reap_after_kill(Supervised& process) {
+  runner.signal_group(process.process, SIGKILL);
+  process.unreaped = false;
+  runner.reap(process.process);
+  close_output(process);
+  process.timer.reset();
+}
+
+void ProcessSupervisor::Impl::watch(Supervised& process, Stream& stream) {
+  if (!stream.open()) {
+    return;
+  }
+  stream.source = loop.on_readable(stream.fd.get(), [this, &process, &stream] {
+    read_available(process, stream, kReadSize);
+    if (!process.output_open()) {
+      handle(process, Event::kOutputClosed);
+    }
+  });
+}
+
+void ProcessSupervisor::Impl::read_available(Supervised& process, Stream& stream, std::size_t limit) {
+  const OutputRouting& routing = process.spec.output;
+  const OutputTargets& targets = stream.which == OutputStream::kOut ? routing.out : routing.err;
+  for (std::size_t total = 0; total < limit;) {
+    const ssize_t size = ::read(stream.fd.get(), buffer.data(), buffer.size());
+    if (size > 0) {
+      output.write(process.id, process.label, stream.which, targets, {buffer.data(), static_cast<std::size_t>(size)});
+      total += static_cast<std::size_t>(size);
+    } else if (size < 0 && errno == EINTR) {
+      continue;
+    } else if (size < 0 && errno == EAGAIN) {
+      return;
+    } else {
+      // The end, which is an error (EIO) for a pseudo-terminal.
+      close(process, stream);
+      return;
+    }
+  }
+}
+
+// What a process wrote before its exit is shown before its exit is reported.
+void ProcessSupervisor::Impl::drain(Supervised& process) {
+  for (Stream* stream : {&process.out, &process.err}) {
+    if (stream->open()) {
+      read_available(process, *stream, kDrainLimit);
+    }
+  }
+}
+
+void ProcessSupervisor::Impl::close(Supervised& process, Stream& stream) {
+  if (!stream.open()) {
+    return;
+  }
+  const OutputRouting& routing = process.spec.output;
+  stream.source.reset();
+  stream.fd.reset();
+  output.close_stream(process.id, process.label, stream.which,
+                      stream.which == OutputStream::kOut ? routing.out : routing.err);
+}
+
+void ProcessSupervisor::Impl::close_output(Supervised& process) {
+  close(process, process.out);
+  close(process, process.err);
+}
+
+ProcessSupervisor::ProcessSupervisor(EventLoop& loop, ProcessRunner& runner, OutputRouter& output)
+    : impl_(std::make_unique<Impl>(loop, runner, output)) {}
+
+ProcessSupervisor::~ProcessSupervisor() {
+  try {
+    for (const auto& process : impl_->processes) {
+      if (process->unreaped) {
+        impl_->runner.signal_group(process->process, SIGKILL);
+      }
+    }
+    for (const auto& process : impl_->processes) {
+      if (process->unreaped) {
+        pollfd exited{process->process.pidfd.get(), POLLIN, 0};
+        if (::poll(&exited, 1, kReapTimeoutMilliseconds) == 1) {
+          impl_->runner.reap(process->process);
+        }
+        impl_->close_output(*process);
+      }
+    }
+  } catch (const std::exception&) {
+    // All have been signalled as far as it goes; there is no one left to tell.
+  }
+}
+
+void ProcessSupervisor::observe(Observer observer) {
+  impl_->observers.push_back(std::move(observer));
+}
+
+ProcessId ProcessSupervisor::start(ProcessSpec spec) {
+  if (impl_->shutting_down) {
+    return 0;
+  }
+  auto process = std::make_unique<Supervised>();
+  process->id = static_cast<ProcessId>(impl_->processes.size() + 1);
+  process->label = spec.name + "-" + std::to_string(process->id);
+  process->spec = std::move(spec);
+  impl_->processes.push_back(std::move(process));
+  ++impl_->active;
+  Supervised& added = *impl_->processes.back();
+  impl_->handle(added, Event::kStart);
+  return added.id;
+}
+
+void ProcessSupervisor::shutdown() {
+  if (impl_->shutting_down) {
+    return;
+  }
+  impl_->shutting_down = true;
+  for (const auto& process : impl_->processes) {
+    impl_->handle(*process, Event::kShutdown);
+  }
+}
+
+void ProcessSupervisor::signal(ProcessId id, int signal) {
+  impl_->handle(*impl_->processes.at(id - 1), Event::kSignal, signal);
+}
+
+void ProcessSupervisor::kill_all() {
+  // By index: an observer may start a process.
+  for (std::size_t i = 0; i < impl_->processes.size(); ++i) {
+    impl_->handle(*impl_->processes[i], Event::kKill);
+  }
+}
+
+std::size_t ProcessSupervisor::active() const {
+  return impl_->active;
+}
+
+ProcessState ProcessSupervisor::state(ProcessId id) const {
+  return impl_->processes.at(id - 1)->state;
+}
+
+}  // namespace launch
