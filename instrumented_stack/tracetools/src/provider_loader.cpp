@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 namespace tracetools {
 namespace {
@@ -14,6 +16,18 @@ namespace {
 bool environment_says_yes(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+// The provider stands beside this library. Not left to the run path: under a sanitizer it is that of the sanitizer's
+// library, which intercepts dlopen.
+std::string provider_path() {
+  Dl_info self;
+  std::string folder;
+  if (dladdr(reinterpret_cast<const void*>(&provider_is_loaded), &self) != 0) {
+    const std::string_view path = self.dli_fname;
+    folder = path.substr(0, path.rfind('/') + 1);
+  }
+  return folder + "libtracetools_provider.so";
 }
 
 bool loaded = false;
@@ -28,8 +42,8 @@ bool loaded = false;
     }
     return;
   }
-  // Found next to this library by its run path. Global, for the tracepoints here look the probes' symbols up.
-  loaded = dlopen("libtracetools_provider.so", RTLD_NOW | RTLD_GLOBAL) != nullptr;
+  // Global, for the tracepoints of this library look the probes' symbols up.
+  loaded = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL) != nullptr;
   if (!loaded) {
     std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
   }
