@@ -20,7 +20,7 @@ struct Cell {
 };
 
 constexpr std::size_t kTabWidth = 4;
-constexpr std::size_t kMaximumWidth = 100;      // columns of source text shown
+constexpr std::size_t kMaximumWidth = 100;       // columns of source text shown
 constexpr std::size_t kContextBeforeCaret = 40;  // columns kept before the caret when a line is cut
 constexpr std::string_view kEllipsis = "...";
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD, for bytes that are no UTF-8
@@ -34,12 +34,8 @@ Style style_of(Severity severity, bool colour) {
     return {};
   }
   const bool error = severity == Severity::kError;
-  return {"\x1b[1m",
-          error ? "\x1b[1;31m" : "\x1b[1;35m",
-          "\x1b[1m",
-          "\x1b[34m",
-          error ? "\x1b[1;31m" : "\x1b[1;35m",
-          "\x1b[1;36m",
+  return {"\x1b[1m",  error ? "\x1b[1;31m" : "\x1b[1;35m", "\x1b[1m",
+          "\x1b[34m", error ? "\x1b[1;31m" : "\x1b[1;35m", "\x1b[1;36m",
           "\x1b[0m"};
 }
 
@@ -143,8 +139,7 @@ LaunchError::LaunchError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(plain(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
 LaunchError::LaunchError(std::string message, SourceRange where, std::string help)
-    : LaunchError(std::vector<Diagnostic>{
-          {Severity::kError, std::move(message), std::move(where), std::move(help)}}) {}
+    : LaunchError(std::vector<Diagnostic>{{Severity::kError, std::move(message), std::move(where), std::move(help)}}) {}
 
 std::string render(const Diagnostic& diagnostic, bool colour) {
   const Style style = style_of(diagnostic.severity, colour);
@@ -153,9 +148,9 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   if (where) {
     result += fmt::format("{}{}:{} ", style.place, to_string(where), style.reset);
   }
-  result += fmt::format("{}{}:{} {}{}{}\n", style.severity,
-                        diagnostic.severity == Severity::kError ? "error" : "warning", style.reset, style.message,
-                        diagnostic.message, style.reset);
+  result +=
+      fmt::format("{}{}:{} {}{}{}\n", style.severity, diagnostic.severity == Severity::kError ? "error" : "warning",
+                  style.reset, style.message, diagnostic.message, style.reset);
   if (where) {
     const SourceFile& file = *where.file;
     const std::uint32_t number = file.position(where.begin).line;

@@ -23,7 +23,8 @@ Entity build(const tinyxml2::XMLElement& element, std::vector<XmlTag>::iterator&
     }
     Scalar scalar;
     scalar.text = std::move(attribute.value);
-    entity.attributes.push_back({std::move(attribute.name), std::move(attribute.name_where),
+    entity.attributes.push_back({std::move(attribute.name),
+                                 std::move(attribute.name_where),
                                  {std::move(scalar), std::move(attribute.value_where)}});
   }
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {

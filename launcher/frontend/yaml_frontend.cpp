@@ -77,7 +77,8 @@ class EntityBuilder {
   void actions(const YamlNode& list, std::vector<Entity>& result) {
     for (const YamlNode& item : list.items) {
       if (item.kind != Kind::kMapping || item.entries.empty()) {
-        error(fmt::format("expected an action, found {}", item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
+        error(fmt::format("expected an action, found {}",
+                          item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
               item.where, not_an_action_help(item));
         continue;
       }
@@ -151,8 +152,10 @@ class EntityBuilder {
     if (name == "children") {
       entity.has_children_list = true;
       if (value.kind != Kind::kSequence) {
-        error(fmt::format("expected a list of actions under 'children', found {}", describe(value)),
-              value.is_null() ? key.where : value.where, "write `children: []` when there are none");
+        error(
+            fmt::format("expected a list of actions under 'children', found {}", describe(value)),
+            value.is_null() ? key.where : value.where,
+            value.kind == Kind::kMapping ? "put '- ' before each action" : "write `children: []` when there are none");
         return;
       }
       actions(value, entity.children);
@@ -163,9 +166,9 @@ class EntityBuilder {
             key.where, "put '- ' before its first key");
       return;
     }
-    const bool is_items = value.kind == Kind::kSequence &&
-                          std::any_of(value.items.begin(), value.items.end(),
-                                      [](const YamlNode& item) { return item.kind == Kind::kMapping; });
+    const bool is_items =
+        value.kind == Kind::kSequence && std::any_of(value.items.begin(), value.items.end(),
+                                                     [](const YamlNode& item) { return item.kind == Kind::kMapping; });
     if (is_items) {
       structured_items(entity, key, value);
     } else {

@@ -8,8 +8,12 @@ namespace launch {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-bool is_break(char c) { return c == '\n' || c == '\r'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+bool is_break(char c) {
+  return c == '\n' || c == '\r';
+}
 
 // Walks through the source and the decoded text side by side. Where they differ in a way that it doesn't know, it
 // stops; the rest of the text then stands at the place reached.
@@ -41,9 +45,7 @@ class ScalarLocator {
   }
 
  private:
-  char peek(std::size_t ahead = 0) const {
-    return position_ + ahead < raw_.size() ? raw_[position_ + ahead] : '\0';
-  }
+  char peek(std::size_t ahead = 0) const { return position_ + ahead < raw_.size() ? raw_[position_ + ahead] : '\0'; }
 
   // The next `size` bytes of the decoded text stand for the next `raw_size` bytes of the source.
   void take(std::size_t size, std::size_t raw_size) {

@@ -85,13 +85,15 @@ bool is_close(double left, double right) {
 
 }  // namespace
 
-std::optional<bool> condition_boolean(std::string_view text) { return any_case_boolean(trim(text)); }
+std::optional<bool> condition_boolean(std::string_view text) {
+  return any_case_boolean(trim(text));
+}
 
 std::optional<bool> yaml_boolean(std::string_view text) {
-  constexpr std::array<std::string_view, 10> kTrue = {"1",    "true", "True", "TRUE", "yes",
-                                                      "Yes",  "YES",  "on",   "On",   "ON"};
-  constexpr std::array<std::string_view, 10> kFalse = {"0",   "false", "False", "FALSE", "no",
-                                                       "No",  "NO",    "off",   "Off",   "OFF"};
+  constexpr std::array<std::string_view, 10> kTrue = {"1",   "true", "True", "TRUE", "yes",
+                                                      "Yes", "YES",  "on",   "On",   "ON"};
+  constexpr std::array<std::string_view, 10> kFalse = {"0",  "false", "False", "FALSE", "no",
+                                                       "No", "NO",    "off",   "Off",   "OFF"};
   if (std::find(kTrue.begin(), kTrue.end(), text) != kTrue.end()) {
     return true;
   }

@@ -68,7 +68,9 @@ std::vector<std::string> names_of(const Map& map) {
   return names;
 }
 
-std::string truth(bool value) { return value ? "true" : "false"; }
+std::string truth(bool value) {
+  return value ? "true" : "false";
+}
 
 std::string var(const Call& call) {
   const std::string name = call.text(0);
@@ -109,7 +111,9 @@ std::string filename(const Call& call) {
   return std::filesystem::absolute(call.scope().current_file->path()).lexically_normal().string();
 }
 
-std::string dirname(const Call& call) { return std::filesystem::path(filename(call)).parent_path().string(); }
+std::string dirname(const Call& call) {
+  return std::filesystem::path(filename(call)).parent_path().string();
+}
 
 std::string find_pkg_prefix(const Call& call) {
   const std::string package = call.text(0);
@@ -143,9 +147,13 @@ std::string find_exec(const Call& call) {
   return path;
 }
 
-std::string log_dir(const Call& call) { return call.scope().log_directory; }
+std::string log_dir(const Call& call) {
+  return call.scope().log_directory;
+}
 
-std::string not_(const Call& call) { return truth(!call.boolean(0)); }
+std::string not_(const Call& call) {
+  return truth(!call.boolean(0));
+}
 
 // `and`, `or`, `all` and `any` perform all their arguments, so that a bad one is found whatever the others are.
 std::string all(const Call& call) {
@@ -164,9 +172,13 @@ std::string any(const Call& call) {
   return truth(result);
 }
 
-std::string equals(const Call& call) { return truth(launch_equal(call.text(0), call.text(1))); }
+std::string equals(const Call& call) {
+  return truth(launch_equal(call.text(0), call.text(1)));
+}
 
-std::string not_equals(const Call& call) { return truth(!launch_equal(call.text(0), call.text(1))); }
+std::string not_equals(const Call& call) {
+  return truth(!launch_equal(call.text(0), call.text(1)));
+}
 
 std::string if_(const Call& call) {
   if (call.boolean(0)) {

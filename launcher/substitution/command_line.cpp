@@ -7,7 +7,9 @@ namespace launch {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
 
 // A text split as Python's shlex.split() does.
 struct Words {
@@ -35,8 +37,8 @@ Words split_words(std::string_view text, const SourceRange& where, const std::st
     } else if (c == '\'' || c == '"') {
       std::string& quoted = word();
       for (++i; i < text.size() && text[i] != c; ++i) {
-        const bool escape = c == '"' && text[i] == '\\' && i + 1 < text.size() &&
-                            (text[i + 1] == '"' || text[i + 1] == '\\');
+        const bool escape =
+            c == '"' && text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == '"' || text[i + 1] == '\\');
         i += escape ? 1 : 0;
         quoted += text[i];
       }
@@ -60,9 +62,8 @@ Words split_words(std::string_view text, const SourceRange& where, const std::st
 
 std::vector<Template> split_command_line(const Template& command_line) {
   const std::string quotation_help =
-      command_line.is_literal()
-          ? std::string()
-          : "quotes can't enclose a substitution; its result is never split, so it needs none";
+      command_line.is_literal() ? std::string()
+                                : "quotes can't enclose a substitution; its result is never split, so it needs none";
   std::vector<Template> arguments;
   std::vector<SubstitutionPtr> argument;
   const auto finish = [&] {

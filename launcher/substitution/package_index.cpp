@@ -121,11 +121,9 @@ std::string PackageIndex::executable(const std::string& executable, const std::s
   // As in ROS 2, a name with a slash is a path, not searched in the package.
   std::string path = executable.find('/') == std::string::npos ? fmt::format("{}/{}", libexec, executable) : executable;
   if (executable.empty() || !is_program(path)) {
-    throw std::runtime_error(fmt::format("executable '{}' not found on the libexec directory '{}'{}", executable,
-                                         libexec,
-                                         !executable.empty() && fs::is_regular_file(path, error)
-                                             ? fmt::format(": '{}' is not executable", path)
-                                             : ""));
+    throw std::runtime_error(fmt::format(
+        "executable '{}' not found on the libexec directory '{}'{}", executable, libexec,
+        !executable.empty() && fs::is_regular_file(path, error) ? fmt::format(": '{}' is not executable", path) : ""));
   }
   return path;
 }

@@ -6,7 +6,9 @@
 
 namespace launch {
 
-std::string Text::describe() const { return fmt::format("'{}'", text_); }
+std::string Text::describe() const {
+  return fmt::format("'{}'", text_);
+}
 
 std::string Template::perform(Scope& scope) const {
   std::string result;
@@ -28,9 +30,8 @@ std::string Template::describe() const {
 }
 
 bool Template::is_literal() const {
-  return std::all_of(parts_.begin(), parts_.end(), [](const SubstitutionPtr& part) {
-    return dynamic_cast<const Text*>(part.get()) != nullptr;
-  });
+  return std::all_of(parts_.begin(), parts_.end(),
+                     [](const SubstitutionPtr& part) { return dynamic_cast<const Text*>(part.get()) != nullptr; });
 }
 
 }  // namespace launch

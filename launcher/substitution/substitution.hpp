@@ -46,7 +46,8 @@ class Text : public Substitution {
 class Template {
  public:
   Template() = default;
-  Template(std::vector<SubstitutionPtr> parts, SourceRange where) : parts_(std::move(parts)), where_(std::move(where)) {}
+  Template(std::vector<SubstitutionPtr> parts, SourceRange where)
+      : parts_(std::move(parts)), where_(std::move(where)) {}
 
   std::string perform(Scope& scope) const;
   // The parts joined by " + "; '' when empty.

@@ -25,8 +25,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFormerNa
     {"optenv", "$(env NAME DEFAULT)"},
 }};
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; }
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool is_name_character(char c) {
+  return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
 
 std::string argument_count(const SubstitutionType& type) {
   const int minimum = type.minimum_arguments;
@@ -239,11 +243,10 @@ class TemplateParser {
     const auto count = static_cast<int>(arguments.size());
     const bool too_many = type->maximum_arguments != SubstitutionType::kAnyNumber && count > type->maximum_arguments;
     if (count < type->minimum_arguments || too_many) {
-      throw LaunchError(fmt::format("substitution '{}' takes {}, got {}", name, argument_count(*type), count),
-                        std::move(where),
-                        fmt::format("usage: {}{}", type->usage,
-                                    too_many && type->maximum_arguments > 0 ? "; quote an argument that has spaces"
-                                                                            : ""));
+      throw LaunchError(
+          fmt::format("substitution '{}' takes {}, got {}", name, argument_count(*type), count), std::move(where),
+          fmt::format("usage: {}{}", type->usage,
+                      too_many && type->maximum_arguments > 0 ? "; quote an argument that has spaces" : ""));
     }
     return type->make(std::move(arguments), std::move(where));
   }
@@ -276,7 +279,9 @@ class TemplateParser {
 
 }  // namespace
 
-Template parse_template(const LocatedText& text) { return TemplateParser(text).parse(); }
+Template parse_template(const LocatedText& text) {
+  return TemplateParser(text).parse();
+}
 
 std::string unescape(std::string_view text) {
   std::string result;

@@ -87,16 +87,21 @@ TEST(Diagnostic, CutsALongLineAroundTheCaret) {
   const auto file = std::make_shared<const SourceFile>("a.xml", std::string(500, 'a') + "HERE" + std::string(500, 'b'));
   EXPECT_EQ(render(Diagnostic{Severity::kError, "bad", find(file, "HERE"), {}}),
             "a.xml:1:501: error: bad\n"
-            "    1 | ..." + std::string(40, 'a') + "HERE" + std::string(56, 'b') + "...\n"
-            "      |    " + std::string(40, ' ') + "^~~~\n");
+            "    1 | ..." +
+                std::string(40, 'a') + "HERE" + std::string(56, 'b') +
+                "...\n"
+                "      |    " +
+                std::string(40, ' ') + "^~~~\n");
 }
 
 TEST(Diagnostic, CutsTheEndOfALongLineWhenTheCaretIsAtItsStart) {
   const auto file = std::make_shared<const SourceFile>("a.xml", "HERE" + std::string(500, 'b'));
   EXPECT_EQ(render(Diagnostic{Severity::kError, "bad", find(file, "HERE"), {}}),
             "a.xml:1:1: error: bad\n"
-            "    1 | HERE" + std::string(96, 'b') + "...\n"
-            "      | ^~~~\n");
+            "    1 | HERE" +
+                std::string(96, 'b') +
+                "...\n"
+                "      | ^~~~\n");
 }
 
 TEST(Diagnostic, UnderlinesOnlyTheFirstLineOfALongerRange) {
@@ -122,7 +127,8 @@ TEST(LaunchError, HoldsAllDiagnosticsAndTheirPlainTextWithoutTheLastLineEnd) {
 }
 
 TEST(Utf8, RefusesWhatIsNoCharacter) {
-  for (const char* text : {"\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC3", "\xE2\x82x"}) {
+  for (const char* text :
+       {"\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC3", "\xE2\x82x"}) {
     EXPECT_FALSE(decode_utf8(text).valid);
     EXPECT_EQ(decode_utf8(text).size, 1U);
   }

@@ -12,7 +12,9 @@ TEST(DidYouMean, SuggestsTheNearestName) {
   EXPECT_EQ(did_you_mean("pgk", names), "did you mean 'pkg'?");
 }
 
-TEST(DidYouMean, IgnoresCase) { EXPECT_EQ(did_you_mean("PKG", {"pkg"}), "did you mean 'pkg'?"); }
+TEST(DidYouMean, IgnoresCase) {
+  EXPECT_EQ(did_you_mean("PKG", {"pkg"}), "did you mean 'pkg'?");
+}
 
 TEST(DidYouMean, IsSilentWhenNothingIsNear) {
   EXPECT_EQ(did_you_mean("respawn", {"exec", "pkg"}), "");

@@ -56,10 +56,11 @@ TEST(SourceFile, SaysWhyItCannotBeReadAndWhoIncludedIt) {
     SourceFile::read("/nowhere/x.launch.xml", {includer, 12, 19});
     FAIL() << "read a file that does not exist";
   } catch (const LaunchError& error) {
-    EXPECT_STREQ(error.what(),
-                 "main.launch.xml:2:4: error: can't read launch file '/nowhere/x.launch.xml': No such file or directory\n"
-                 "    2 |   <include/>\n"
-                 "      |    ^~~~~~~");
+    EXPECT_STREQ(
+        error.what(),
+        "main.launch.xml:2:4: error: can't read launch file '/nowhere/x.launch.xml': No such file or directory\n"
+        "    2 |   <include/>\n"
+        "      |    ^~~~~~~");
   }
   EXPECT_THROW(SourceFile::read("/tmp"), LaunchError) << "a directory is no launch file";
 }

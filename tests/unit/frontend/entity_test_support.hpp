@@ -11,8 +11,12 @@ namespace launch {
 inline std::shared_ptr<const SourceFile> file_of(std::string path, std::string text) {
   return std::make_shared<const SourceFile>(std::move(path), std::move(text));
 }
-inline Entity xml(std::string text) { return parse_xml(file_of("t.launch.xml", std::move(text))); }
-inline Entity yaml(std::string text) { return parse_yaml(file_of("t.launch.yaml", std::move(text))); }
+inline Entity xml(std::string text) {
+  return parse_xml(file_of("t.launch.xml", std::move(text)));
+}
+inline Entity yaml(std::string text) {
+  return parse_yaml(file_of("t.launch.yaml", std::move(text)));
+}
 
 // The text of the attribute; "(none)" when there is no such attribute.
 inline std::string text_of(const Entity& entity, std::string_view name) {

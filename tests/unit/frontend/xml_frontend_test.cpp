@@ -43,21 +43,21 @@ TEST(XmlFrontend, ReadsAttributesOverSeveralLines) {
 }
 
 TEST(XmlFrontend, IgnoresTextCommentsCdataAndProcessingInstructions) {
-  const Entity root = xml(
-      "\xEF\xBB\xBF<?xml version='1.0' encoding='utf-8' standalone='yes'?>\n"
-      "<!DOCTYPE launch [ <!ELEMENT launch (x > y)> <!-- ] --> ]>\n"
-      "<?xml-model href='x'?>\n"
-      "<!-- <node/> -->\n"
-      "<launch> text &amp; <![CDATA[ <node> & ]]> <?tool <x> ?> <!-- - - --> <log message='m'/> </launch>\n"
-      "<!-- after --> <?tool?>\n");
+  const Entity root =
+      xml("\xEF\xBB\xBF<?xml version='1.0' encoding='utf-8' standalone='yes'?>\n"
+          "<!DOCTYPE launch [ <!ELEMENT launch (x > y)> <!-- ] --> ]>\n"
+          "<?xml-model href='x'?>\n"
+          "<!-- <node/> -->\n"
+          "<launch> text &amp; <![CDATA[ <node> & ]]> <?tool <x> ?> <!-- - - --> <log message='m'/> </launch>\n"
+          "<!-- after --> <?tool?>\n");
   ASSERT_EQ(root.children.size(), 1U);
   EXPECT_EQ(raw(root.children[0].where), "log");
 }
 
 TEST(XmlFrontend, ReadsNamespacesAsExpatDoes) {
-  const Entity root = xml(
-      "<launch xmlns='urn:a' xmlns:x='urn:x' x:y='1'><group xmlns:z='urn:z'><log z:a='1' xml:lang='en'/></group>"
-      "</launch>");
+  const Entity root =
+      xml("<launch xmlns='urn:a' xmlns:x='urn:x' x:y='1'><group xmlns:z='urn:z'><log z:a='1' xml:lang='en'/></group>"
+          "</launch>");
   EXPECT_EQ(root.attributes.size(), 1U) << "declarations are no attributes";
   EXPECT_EQ(text_of(root.children[0].children[0], "z:a"), "1");
 }

@@ -8,14 +8,28 @@
 namespace launch {
 namespace {
 
-Scalar typed(std::string text) { return yaml11_scalar(LocatedText(std::move(text))); }
+Scalar typed(std::string text) {
+  return yaml11_scalar(LocatedText(std::move(text)));
+}
 
 TEST(Yaml11, ReadsIntegers) {
   const std::vector<std::pair<const char*, std::int64_t>> cases = {
-      {"1", 1},           {"01", 1},    {"0x1F", 31},         {"1_000", 1000},
-      {"1:30", 90},       {"010", 8},   {"0b101", 5},         {"-0x1f", -31},
-      {"+7", 7},          {"0", 0},     {"-0", 0},            {"190:20:30", 685230},
-      {"0_7", 7},         {"00", 0},    {"-1:30", -90},       {"9223372036854775807", INT64_MAX},
+      {"1", 1},
+      {"01", 1},
+      {"0x1F", 31},
+      {"1_000", 1000},
+      {"1:30", 90},
+      {"010", 8},
+      {"0b101", 5},
+      {"-0x1f", -31},
+      {"+7", 7},
+      {"0", 0},
+      {"-0", 0},
+      {"190:20:30", 685230},
+      {"0_7", 7},
+      {"00", 0},
+      {"-1:30", -90},
+      {"9223372036854775807", INT64_MAX},
       {"-9223372036854775808", INT64_MIN},
   };
   for (const auto& [text, value] : cases) {
@@ -28,9 +42,16 @@ TEST(Yaml11, ReadsIntegers) {
 
 TEST(Yaml11, ReadsFloats) {
   const std::vector<std::pair<const char*, double>> cases = {
-      {"1.", 1.0},   {".5", 0.5},           {"1.0e+3", 1000.0},   {"-1.5", -1.5},
-      {"+0.25", 0.25}, {"1_0.5", 10.5},     {"190:20:30.15", 685230.15}, {"1.5E-1", 0.15},
-      {".inf", std::numeric_limits<double>::infinity()}, {"-.INF", -std::numeric_limits<double>::infinity()},
+      {"1.", 1.0},
+      {".5", 0.5},
+      {"1.0e+3", 1000.0},
+      {"-1.5", -1.5},
+      {"+0.25", 0.25},
+      {"1_0.5", 10.5},
+      {"190:20:30.15", 685230.15},
+      {"1.5E-1", 0.15},
+      {".inf", std::numeric_limits<double>::infinity()},
+      {"-.INF", -std::numeric_limits<double>::infinity()},
   };
   for (const auto& [text, value] : cases) {
     const Scalar scalar = typed(text);
@@ -55,8 +76,8 @@ TEST(Yaml11, ReadsBooleansAndNulls) {
 }
 
 TEST(Yaml11, LeavesWhatYaml12WouldTypeAsText) {
-  for (const char* text : {"1e3", "1.0e3", "0o17", "inf", "nan", "y", "n", "08", "-.5", "1:60", "0:30", "_1", "0x", "tRuE",
-                           "nULL", "1.2.3", "--1", "0x1G", "1 2", "-.nan", "$(var x)"}) {
+  for (const char* text : {"1e3", "1.0e3", "0o17", "inf",  "nan",   "y",   "n",    "08",  "-.5",   "1:60",    "0:30",
+                           "_1",  "0x",    "tRuE", "nULL", "1.2.3", "--1", "0x1G", "1 2", "-.nan", "$(var x)"}) {
     EXPECT_EQ(typed(text).type, Scalar::Type::kString) << text;
   }
 }

@@ -44,8 +44,8 @@ TEST(YamlFrontend, GivesSubActionsFromAListOrFromChildren) {
 }
 
 TEST(YamlFrontend, MakesAChildOfEachMappingInAList) {
-  const Entity root = yaml(
-      "launch:\n- node:\n    param:\n    - name: a\n      param: [{name: b, value: [1, 2]}]\n    - {from: x}\n");
+  const Entity root =
+      yaml("launch:\n- node:\n    param:\n    - name: a\n      param: [{name: b, value: [1, 2]}]\n    - {from: x}\n");
   const Entity& node = root.children[0];
   ASSERT_EQ(node.children.size(), 2U);
   EXPECT_EQ(node.children[0].type_name, "param");

@@ -128,11 +128,11 @@ TEST_F(PackageIndexTest, SubstitutionsAddThePlaceAndASuggestion) {
   EXPECT_EQ(parse_template(located("$(find-pkg-share both)/x")).perform(scope), (first_ / "share/both/x").string());
   EXPECT_EQ(parse_template(located("$(find-pkg-prefix both)")).perform(scope), first_.string());
   const std::string searched = "searching: ['" + first_.string() + "', '" + second_.string() + "']";
-  EXPECT_EQ(perform_error("$(find-pkg-share demo_node)/x", scope),
-            "t:1:1: error: package 'demo_node' not found, " + searched +
-                "\n    1 | $(find-pkg-share demo_node)/x\n"
-                "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~\n"
-                "      = help: did you mean 'demo_nodes'?\n");
+  EXPECT_EQ(perform_error("$(find-pkg-share demo_node)/x", scope), "t:1:1: error: package 'demo_node' not found, " +
+                                                                       searched +
+                                                                       "\n    1 | $(find-pkg-share demo_node)/x\n"
+                                                                       "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~\n"
+                                                                       "      = help: did you mean 'demo_nodes'?\n");
   EXPECT_EQ(perform_error("$(exec-in-pkg talkr demo_nodes)", scope),
             "t:1:1: error: executable 'talkr' not found on the libexec directory '" +
                 (second_ / "lib/demo_nodes").string() +

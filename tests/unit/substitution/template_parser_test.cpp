@@ -14,47 +14,32 @@ struct Vector {
 
 class TemplateText : public testing::TestWithParam<Vector> {};
 
-TEST_P(TemplateText, IsPerformed) { EXPECT_EQ(perform(GetParam().text), GetParam().result); }
+TEST_P(TemplateText, IsPerformed) {
+  EXPECT_EQ(perform(GetParam().text), GetParam().result);
+}
 
-INSTANTIATE_TEST_SUITE_P(
-    Reference, TemplateText,
-    testing::Values(Vector{R"(a\b \\ \$(var x) $$(var x) $5)", R"(ab \ $(var x) $7 $5)"},
-                    Vector{R"(\\$(var x))", R"(\$(var x))"},
-                    Vector{"$(var $(var which))", "7"},
-                    Vector{R"($(var y 'pre $(var x) "q" post'))", R"(pre 7 "q" post)"},
-                    Vector{R"($(var y a\(b\)c))", "a(b)c"},
-                    Vector{R"($(var y 'it\'s'))", "it's"},
-                    Vector{R"($(var y 'a $(var z "i") b'))", R"(a "i" b)"},
-                    Vector{"$(var y $(var z 'two words'))", "two words"},
-                    Vector{"$(env E '')", ""},
-                    Vector{"$(equals 1 TRUE)", "true"},
-                    Vector{"$(equals 1e3 1000)", "true"},
-                    Vector{"$(equals a A)", "false"},
-                    Vector{"$(not yes)", "false"},
-                    Vector{"$(and true 0)", "false"},
-                    Vector{"$(or off 1)", "true"}));
+INSTANTIATE_TEST_SUITE_P(Reference, TemplateText,
+                         testing::Values(Vector{R"(a\b \\ \$(var x) $$(var x) $5)", R"(ab \ $(var x) $7 $5)"},
+                                         Vector{R"(\\$(var x))", R"(\$(var x))"}, Vector{"$(var $(var which))", "7"},
+                                         Vector{R"($(var y 'pre $(var x) "q" post'))", R"(pre 7 "q" post)"},
+                                         Vector{R"($(var y a\(b\)c))", "a(b)c"}, Vector{R"($(var y 'it\'s'))", "it's"},
+                                         Vector{R"($(var y 'a $(var z "i") b'))", R"(a "i" b)"},
+                                         Vector{"$(var y $(var z 'two words'))", "two words"},
+                                         Vector{"$(env E '')", ""}, Vector{"$(equals 1 TRUE)", "true"},
+                                         Vector{"$(equals 1e3 1000)", "true"}, Vector{"$(equals a A)", "false"},
+                                         Vector{"$(not yes)", "false"}, Vector{"$(and true 0)", "false"},
+                                         Vector{"$(or off 1)", "true"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Grammar, TemplateText,
-    testing::Values(Vector{"", ""},
-                    Vector{"plain 'quotes' \"stay\" (here)", "plain 'quotes' \"stay\" (here)"},
-                    Vector{"C:\\dir", "C:dir"},
-                    Vector{"end\\", "end\\"},
-                    Vector{"a\\\nb", "a\\\nb"},
-                    Vector{"a)b$", "a)b$"},
-                    Vector{"$(var x)$(var x)-$(var x)", "77-7"},
-                    Vector{"$(var y \"\")", ""},
-                    Vector{"$(var y \"a'b\")", "a'b"},
-                    Vector{"$(var y a\tb)", "a\tb"},
-                    Vector{"$(var y a$b$)", "a$b$"},
-                    Vector{"$(var y pre$(var x)post)", "pre7post"},
-                    Vector{"$(var y \"$(var z 'a')\")", "'a'"},
-                    Vector{R"($(var y '$(var z a\'b)'))", "a'b"},
-                    Vector{R"($(var y '\$(var x)'))", "$(var x)"},
-                    Vector{R"($(var y \$\(var\)))", "$(var)"},
-                    Vector{"$(if true $(var x) $(var missing))", "7"},
-                    Vector{"$(if false $(var missing) $(var x))", "7"},
-                    Vector{"$(if off a)", ""}));
+    testing::Values(Vector{"", ""}, Vector{"plain 'quotes' \"stay\" (here)", "plain 'quotes' \"stay\" (here)"},
+                    Vector{"C:\\dir", "C:dir"}, Vector{"end\\", "end\\"}, Vector{"a\\\nb", "a\\\nb"},
+                    Vector{"a)b$", "a)b$"}, Vector{"$(var x)$(var x)-$(var x)", "77-7"}, Vector{"$(var y \"\")", ""},
+                    Vector{"$(var y \"a'b\")", "a'b"}, Vector{"$(var y a\tb)", "a\tb"}, Vector{"$(var y a$b$)", "a$b$"},
+                    Vector{"$(var y pre$(var x)post)", "pre7post"}, Vector{"$(var y \"$(var z 'a')\")", "'a'"},
+                    Vector{R"($(var y '$(var z a\'b)'))", "a'b"}, Vector{R"($(var y '\$(var x)'))", "$(var x)"},
+                    Vector{R"($(var y \$\(var\)))", "$(var)"}, Vector{"$(if true $(var x) $(var missing))", "7"},
+                    Vector{"$(if false $(var missing) $(var x))", "7"}, Vector{"$(if off a)", ""}));
 
 TEST(Template, PerformsResultsWithoutScanningThemAgain) {
   Scope scope = test_scope();
@@ -195,8 +180,9 @@ INSTANTIATE_TEST_SUITE_P(
                           "      = help: usage: $(string-join SEPARATOR A...)\n"}));
 
 TEST(TemplateParser, RefusesWhatTheReferenceRefuses) {
-  for (const char* text : {"$(eval 1 + 2)", "$(var \\$(var x))", "$(var 'a' 'b", "$(", "$(var", "$(var ", "$(var \"x\"'y')",
-                           "$(var x)$(", "$(not)", "$(not a b)", "$(and a)", "$(if a)", "$(if a b c d)", "$(equals a)"}) {
+  for (const char* text :
+       {"$(eval 1 + 2)", "$(var \\$(var x))", "$(var 'a' 'b", "$(", "$(var", "$(var ", "$(var \"x\"'y')", "$(var x)$(",
+        "$(not)", "$(not a b)", "$(and a)", "$(if a)", "$(if a b c d)", "$(equals a)"}) {
     EXPECT_NE(parse_error(text), "") << text;
   }
 }
