@@ -37,7 +37,7 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessages) {
   run({CMAKE, "-S", OUTSIDE_PROJECT, "-B", build.string(), "-G", GENERATOR, "-DCMAKE_PREFIX_PATH=" + prefix_.string(),
        "-DCMAKE_CXX_COMPILER=" COMPILER, "-DCMAKE_CXX_COMPILER_LAUNCHER=" COMPILER_LAUNCHER});
   run({CMAKE, "--build", build.string()});
-  const CommandResult result = run({(build / "print_report").string()});
+  const CommandResult result = run({(build / "station").string()});
   EXPECT_EQ(result.out,
             "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"\"}, temperature: 20.5, sky: \"clear\"}\ntracing on\n");
 
