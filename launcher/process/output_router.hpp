@@ -50,8 +50,6 @@ class OutputRouter {
   // A launcher message: "[INFO] [logger]: text" on the screen, with a time stamp in front in launch.log.
   void message(LogLevel level, std::string_view logger, std::string_view text);
 
-  void flush();
-
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
