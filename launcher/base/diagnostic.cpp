@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "launcher/base/utf8.hpp"
+
 namespace launch {
 
 namespace {
@@ -39,32 +41,6 @@ Style style_of(Severity severity, bool colour) {
           error ? "\x1b[1;31m" : "\x1b[1;35m",
           "\x1b[1;36m",
           "\x1b[0m"};
-}
-
-struct CodePoint {
-  char32_t value = 0;
-  std::size_t size = 1;  // bytes
-  bool valid = false;
-};
-
-CodePoint decode_utf8(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) {
-    return {first, 1, true};
-  }
-  const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || size > text.size()) {
-    return {};
-  }
-  char32_t value = first & (0x7FU >> size);
-  for (std::size_t i = 1; i < size; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) {
-      return {};
-    }
-    value = (value << 6U) | (byte(i) & 0x3FU);
-  }
-  return {value, size, true};
 }
 
 // Columns that a terminal gives to a character; the blocks are those of Unicode's East Asian Width "W" and "F".

@@ -50,6 +50,8 @@ struct Entity {
   std::vector<Entity> children;
   // True when the file had a place for sub-actions, even an empty one. Always true in XML.
   bool has_children_list = true;
+  // True for an item of a YAML list that is named by its key, as `param: [{...}]`. XML does not tell: always false.
+  bool is_structured_item = false;
 
   const Attribute* find(std::string_view name) const;
 };

@@ -20,8 +20,14 @@ Entity parse_yaml(const std::shared_ptr<const SourceFile>& file);  // yaml_front
 // string. Used by the YAML front end for plain scalars and by parameter values of XML files.
 Scalar yaml11_scalar(LocatedText text);  // yaml11.cpp
 
+// Text that isn't YAML at all, as opposed to YAML that can't be used.
+class YamlSyntaxError : public LaunchError {
+ public:
+  using LaunchError::LaunchError;
+};
+
 // Types a whole text as YAML 1.1 flow or block content: a scalar or a list (parameter values: "[1, 2]", "- 1").
-// Throws LaunchError when it isn't valid YAML. Mappings are refused as LaunchError too.
+// Throws YamlSyntaxError when it isn't valid YAML, LaunchError for a mapping.
 Value yaml11_value(const LocatedText& text);  // yaml11.cpp
 
 }  // namespace launch

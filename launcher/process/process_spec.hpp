@@ -62,6 +62,7 @@ struct ProcessSpec {
   bool emulate_tty = false;                        // stdout and stderr are pseudo-terminals
   OutputRouting output;
   RespawnPolicy respawn;
+  bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;

@@ -9,7 +9,7 @@
 namespace tracing {
 
 // The 42 events of provider `ros2`, and those that describe objects once (initialisation events).
-const std::vector<std::string>& default_ros_events();       // "ros2:rcl_init", …
+const std::vector<std::string>& default_ros_events();  // "ros2:rcl_init", …
 const std::vector<std::string>& initialisation_ros_events();
 // procname vpid vtid
 const std::vector<std::string>& default_context_fields();
@@ -23,18 +23,22 @@ struct TraceConfig {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields_ust = default_context_fields();
   std::vector<std::string> context_fields_kernel = default_context_fields();
-  std::uint64_t subbuffer_size_ust = 8 * 4096;     // bytes, rounded up to a power of two
+  std::uint64_t subbuffer_size_ust = 8 * 4096;  // bytes, rounded up to a power of two
   std::uint64_t subbuffer_size_kernel = 32 * 4096;
   bool snapshot_mode = false;
-  bool dual_session = false;
+  bool dual_session = false;  // the snapshot half of a dual session: always a snapshot session
+  bool dual_runtime = false;  // the runtime half of a dual session: never a snapshot session
 
-  // base_path/session_name, or base_path/session_name/snapshot for the snapshot half of a dual session.
+  bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
+
+  // base_path/session_name; for the halves of a dual session …/snapshot and …/runtime below it.
   std::string trace_directory() const;
-  // session_name, or session_name-snapshot for the snapshot half of a dual session.
+  // session_name; for the halves of a dual session session_name-snapshot and session_name-runtime.
   std::string lttng_session_name() const;
 };
 
-// `given` when not empty, else $ROS_TRACE_DIR, else $ROS_HOME/tracing, else ~/.ros/tracing; ~ expanded, made absolute.
+// `given` when not empty, else $ROS_TRACE_DIR, else $ROS_HOME/tracing, else ~/.ros/tracing; ~ expanded, made absolute
+// (from the current directory: the session daemon has another one) and normalised.
 std::string trace_base_path(const std::string& given, const std::map<std::string, std::string>& environment);
 
 // "-YYYYMMDDHHMMSS", local time, now.

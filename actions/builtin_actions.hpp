@@ -1,0 +1,10 @@
+// Every action that launch files can use.
+#pragma once
+
+#include "launcher/core/registry.hpp"
+
+namespace launch {
+
+Registry builtin_actions();
+
+}  // namespace launch

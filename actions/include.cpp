@@ -1,0 +1,80 @@
+// <include file="…"/>: visits another launch file here, in the scope that is there.
+#include <fmt/format.h>
+
+#include "launcher/core/fields.hpp"
+#include "launcher/core/introspection.hpp"
+#include "launcher/core/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+// A chain of includes longer than this includes itself without end.
+constexpr int kMaximumDepth = 200;
+
+int include_depth(const SourceRange& where) {
+  int depth = 0;
+  for (const SourceRange* place = &where; place->file != nullptr; place = &place->file->included_from()) {
+    ++depth;
+  }
+  return depth;
+}
+
+class IncludeLaunchDescription : public Action {
+ public:
+  explicit IncludeLaunchDescription(const Fields& fields) : Action(fields.where(), fields.condition()) {
+    declaration_.file = fields.text("file");
+    declaration_.where = fields.where();
+    // All `arg` come first, then all `let`, whatever their order in the file: ros2 launch does so.
+    for (const char* const tag : {"arg", "let"}) {
+      for (const Fields* item : fields.items(tag)) {
+        declaration_.arguments.emplace_back(item->text("name"), item->text("value"));
+      }
+    }
+  }
+
+  Introspection introspect() const override { return {.include = &declaration_}; }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    if (include_depth(where()) > kMaximumDepth) {
+      throw LaunchError(fmt::format("includes are nested more than {} deep", kMaximumDepth), where(),
+                        "a file includes itself, directly or through others");
+    }
+    const std::string path = declaration_.file.perform(context.scope());
+    const auto included = load_launch_description(path, context.registry(), declaration_.file.where());
+
+    std::vector<std::string> given;
+    const auto set_arguments = [&] {
+      // Performed here, so that $(dirname) in a value means the included file, as in ros2 launch.
+      for (const auto& [name, value] : declaration_.arguments) {
+        context.scope().configurations.insert_or_assign(name.perform(context.scope()), value.perform(context.scope()));
+      }
+    };
+    for (const auto& [name, value] : declaration_.arguments) {
+      given.push_back(name.perform(context.scope()));
+    }
+    check_required_arguments(*included, context.registry(), context.scope(), given, where());
+    context.visit(*included, set_arguments);
+  }
+
+ private:
+  IncludeDeclaration declaration_;
+};
+
+}  // namespace
+
+ActionType include_action() {
+  const std::vector<AttributeSpec> name_and_value = {{"name", AttributeType::kText, true, "", "name of the configuration"},
+                                                     {"value", AttributeType::kText, true, "", "its value"}};
+  return {
+      .tag = "include",
+      .help = "Visits another launch file in place. Not a scope: what the file sets stays set.",
+      .attributes = {{"file", AttributeType::kText, true, "",
+                      "path of the launch file; relative to the launcher's working directory"}},
+      .items = {{"arg", "an argument for the file", name_and_value}, {"let", "the same as arg, set after all of them", name_and_value}},
+      .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },
+  };
+}
+
+}  // namespace launch

@@ -1,0 +1,39 @@
+// <let name="…" value="…"/>: sets a launch configuration.
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+class SetLaunchConfiguration : public Action {
+ public:
+  explicit SetLaunchConfiguration(const Fields& fields)
+      : Action(fields.where(), fields.condition()), name_(fields.text("name")), value_(fields.text("value")) {}
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    std::string name = name_.perform(context.scope());
+    std::string value = value_.perform(context.scope());
+    context.scope().configurations.insert_or_assign(std::move(name), std::move(value));
+  }
+
+ private:
+  Template name_;
+  Template value_;
+};
+
+}  // namespace
+
+ActionType let_action() {
+  return {
+      .tag = "let",
+      .help = "Sets a launch configuration, whatever it was before.",
+      .attributes = {{"name", AttributeType::kText, true, "", "name of the configuration"},
+                     {"value", AttributeType::kText, true, "", "its value"}},
+      .items = {},
+      .make = [](const Fields& fields) { return std::make_shared<SetLaunchConfiguration>(fields); },
+  };
+}
+
+}  // namespace launch

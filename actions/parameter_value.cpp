@@ -1,0 +1,387 @@
+#include "actions/parameter_value.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "launcher/frontend/frontend.hpp"
+#include "launcher/substitution/boolean.hpp"
+#include "launcher/substitution/template_parser.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr const char* kNoParameterType = "use a bool, an int, a float, a string, or a list of one of them";
+
+struct NamedType {
+  std::string_view name;
+  ParameterType type;
+  bool list;
+};
+constexpr NamedType kTypes[] = {
+    {"", ParameterType::kAny, false},           {"yaml", ParameterType::kAny, false},
+    {"str", ParameterType::kStr, false},        {"bool", ParameterType::kBool, false},
+    {"int", ParameterType::kInt, false},        {"float", ParameterType::kFloat, false},
+    {"list_of_str", ParameterType::kStr, true}, {"list_of_bool", ParameterType::kBool, true},
+    {"list_of_int", ParameterType::kInt, true}, {"list_of_float", ParameterType::kFloat, true},
+};
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\n\r");
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t\n\r") - first + 1);
+}
+
+// Digits as Python's int() and float() read them: single underscores between digits are allowed.
+std::optional<std::string> python_digits(std::string_view text) {
+  text = trim(text);
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+  }
+  std::string digits;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '_') {
+      digits += text[i];
+      continue;
+    }
+    const auto is_digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    if (i == 0 || !is_digit(i - 1) || !is_digit(i + 1)) {
+      return std::nullopt;
+    }
+  }
+  return digits;
+}
+
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  const std::optional<std::string> digits = python_digits(text);
+  Number value{};
+  if (!digits || digits->empty()) {
+    return std::nullopt;
+  }
+  const char* const end = digits->data() + digits->size();
+  const auto result = std::from_chars(digits->data(), end, value);
+  return result.ec == std::errc() && result.ptr == end ? std::optional(value) : std::nullopt;
+}
+
+ParameterScalar to_parameter(const Scalar& scalar, const SourceRange& where) {
+  switch (scalar.type) {
+    case Scalar::Type::kBool:
+      return scalar.bool_value;
+    case Scalar::Type::kInt:
+      return scalar.int_value;
+    case Scalar::Type::kFloat:
+      return scalar.float_value;
+    case Scalar::Type::kString:
+    case Scalar::Type::kUntyped:
+      return scalar.text.text();
+    default:
+      throw LaunchError(fmt::format("a {} can't be the value of a parameter", type_name(scalar.type)), where, kNoParameterType);
+  }
+}
+
+std::optional<ParameterScalar> convert(ParameterType type, const std::string& text) {
+  switch (type) {
+    case ParameterType::kBool:
+      if (const auto value = yaml_boolean(trim(text))) {
+        return *value;
+      }
+      return std::nullopt;
+    case ParameterType::kInt:
+      if (const auto value = parse_number<std::int64_t>(text)) {
+        return *value;
+      }
+      return std::nullopt;
+    case ParameterType::kFloat:
+      if (const auto value = parse_number<double>(text)) {
+        return *value;
+      }
+      return std::nullopt;
+    default:
+      return text;
+  }
+}
+
+std::string_view type_text_of(ParameterType type) {
+  switch (type) {
+    case ParameterType::kBool:
+      return "bool";
+    case ParameterType::kInt:
+      return "int";
+    case ParameterType::kFloat:
+      return "float";
+    default:
+      return "str";
+  }
+}
+
+bool has_type(ParameterType type, const ParameterScalar& scalar) {
+  return (type == ParameterType::kBool && std::holds_alternative<bool>(scalar)) ||
+         (type == ParameterType::kInt && std::holds_alternative<std::int64_t>(scalar)) ||
+         (type == ParameterType::kFloat && std::holds_alternative<double>(scalar)) ||
+         (type == ParameterType::kStr && std::holds_alternative<std::string>(scalar));
+}
+
+std::string scalar_to_yaml(const ParameterScalar& scalar) {
+  if (const bool* const boolean = std::get_if<bool>(&scalar)) {
+    return *boolean ? "true" : "false";
+  }
+  if (const std::int64_t* const number = std::get_if<std::int64_t>(&scalar)) {
+    return fmt::format("{}", *number);
+  }
+  if (const double* const number = std::get_if<double>(&scalar)) {
+    if (std::isnan(*number)) {
+      return ".nan";
+    }
+    if (std::isinf(*number)) {
+      return *number > 0 ? ".inf" : "-.inf";
+    }
+    std::string digits = fmt::format("{}", *number);
+    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+  }
+  std::string quoted = "\"";
+  for (const char character : std::get<std::string>(scalar)) {
+    switch (character) {
+      case '"':
+      case '\\':
+        quoted += '\\';
+        quoted += character;
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
+      default:
+        if (static_cast<unsigned char>(character) < 0x20 || character == 0x7f) {
+          quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(character));
+        } else {
+          quoted += character;
+        }
+    }
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+ParameterValueSource::ParameterValueSource(const Value& value, const std::string& type,
+                                           const std::optional<std::string>& separator, const SourceRange& type_where)
+    : where_(value.where) {
+  const NamedType* named = nullptr;
+  std::vector<std::string> names;
+  for (const NamedType& candidate : kTypes) {
+    if (candidate.name == type) {
+      named = &candidate;
+    }
+    names.emplace_back(candidate.name);
+  }
+  if (named == nullptr) {
+    throw LaunchError(fmt::format("got invalid type identifier '{}'", type), type_where, did_you_mean(type, names));
+  }
+  type_ = named->type;
+  type_is_list_ = named->list;
+
+  const Scalar* const scalar = value.scalar();
+  if (!separator) {
+    take_value(value);
+  } else if (scalar == nullptr || separator->empty()) {
+    throw LaunchError("value-sep needs a text to split and a separator", where_, "write a list instead");
+  } else if (type_ != ParameterType::kAny && !type_is_list_) {
+    throw LaunchError(fmt::format("value-sep can't be used with type '{}'", type), type_where,
+                      fmt::format("use list_of_{}", type));
+  } else {
+    is_list_ = true;
+    const std::string& text = scalar->text.text();
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(*separator, begin), text.size());
+      LocatedText piece(text.substr(begin, end - begin), scalar->text.range(begin, end - begin));
+      items_.push_back(type_ == ParameterType::kAny ? make_untyped(piece) : make_item(Scalar{.text = std::move(piece)}));
+      begin = end + separator->size();
+    }
+  }
+
+  std::vector<ParameterScalar> known;
+  for (const Item& item : items_) {
+    if (const auto* const finished = std::get_if<ParameterScalar>(&item)) {
+      known.push_back(*finished);
+    }
+  }
+  require_uniform(known, "the result is a non-uniform list");
+}
+
+void ParameterValueSource::take_value(const Value& value) {
+  if (const auto* const list = value.list()) {
+    take_items(*list);
+    return;
+  }
+  const Scalar& scalar = *value.scalar();
+  if (scalar.type == Scalar::Type::kUntyped && (type_ == ParameterType::kAny || type_is_list_)) {
+    std::optional<Value> typed;
+    if (scalar.text.text().empty()) {
+      items_.emplace_back(ParameterScalar(std::string()));
+      return;
+    }
+    try {
+      typed = yaml11_value(scalar.text);
+    } catch (const YamlSyntaxError&) {
+      // Text that isn't YAML, such as "@x", is a string.
+    }
+    if (typed && typed->list() != nullptr) {
+      take_items(*typed->list());
+      return;
+    }
+    if (!type_is_list_) {
+      items_.push_back(typed ? make_item(*typed->scalar()) : make_untyped(scalar.text));
+      return;
+    }
+  }
+  if (type_is_list_) {
+    throw LaunchError("expected a list", where_, "write [a, b], or split a text with value-sep");
+  }
+  items_.push_back(make_item(scalar));
+}
+
+void ParameterValueSource::take_items(const std::vector<Value>& values) {
+  if (type_ != ParameterType::kAny && !type_is_list_) {
+    throw LaunchError(fmt::format("expected a {}, got a list", type_text_of(type_)), where_,
+                      fmt::format("use list_of_{}", type_text_of(type_)));
+  }
+  is_list_ = true;
+  for (const Value& value : values) {
+    if (value.scalar() == nullptr) {
+      throw LaunchError("a list can't hold lists", value.where, kNoParameterType);
+    }
+    items_.push_back(make_item(*value.scalar()));
+  }
+}
+
+// A piece of text without a given type, typed by YAML rules now; text that isn't YAML stays a string.
+ParameterValueSource::Item ParameterValueSource::make_untyped(const LocatedText& text) const {
+  Scalar scalar;
+  scalar.type = Scalar::Type::kString;
+  scalar.text = text;
+  try {
+    const Value typed = yaml11_value(text);
+    if (typed.scalar() != nullptr) {
+      scalar = *typed.scalar();
+    }
+  } catch (const YamlSyntaxError&) {
+  }
+  return make_item(scalar);
+}
+
+ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar) const {
+  const SourceRange where = scalar.text.range() ? scalar.text.range() : where_;
+  const bool is_text = scalar.type == Scalar::Type::kUntyped || scalar.type == Scalar::Type::kString;
+  if (!is_text) {
+    ParameterScalar value = to_parameter(scalar, where);
+    if (type_ != ParameterType::kAny && !has_type(type_, value)) {
+      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), scalar.text.text()), where);
+    }
+    return value;
+  }
+  Template parsed = parse_template(scalar.text);
+  if (!parsed.is_literal()) {
+    return parsed;
+  }
+  Scope nothing;
+  std::string text = parsed.perform(nothing);
+  if (type_ == ParameterType::kAny) {
+    return ParameterScalar(std::move(text));
+  }
+  std::optional<ParameterScalar> value = convert(type_, text);
+  if (!value) {
+    throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where);
+  }
+  return std::move(*value);
+}
+
+ParameterValue ParameterValueSource::type_text(const std::string& text, const SourceRange& where) const {
+  if (type_ != ParameterType::kAny) {
+    std::optional<ParameterScalar> value = convert(type_, text);
+    if (!value) {
+      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where);
+    }
+    return std::move(*value);
+  }
+  if (text.empty()) {
+    return ParameterScalar(std::string());
+  }
+  // The performed text stands in no file: errors point at the template that gave it.
+  std::optional<Value> typed;
+  try {
+    typed = yaml11_value(LocatedText(text));
+  } catch (const YamlSyntaxError&) {
+    return ParameterScalar(text);
+  } catch (const LaunchError& error) {
+    throw LaunchError(fmt::format("{}: '{}'", error.diagnostics().front().message, text), where, kNoParameterType);
+  }
+  if (typed->scalar() != nullptr) {
+    return to_parameter(*typed->scalar(), where);
+  }
+  std::vector<ParameterScalar> items;
+  for (const Value& item : *typed->list()) {
+    if (item.scalar() == nullptr) {
+      throw LaunchError("a list can't hold lists", where, kNoParameterType);
+    }
+    items.push_back(to_parameter(*item.scalar(), where));
+  }
+  require_uniform(items, "the output list is not uniform");
+  return items;
+}
+
+ParameterValue ParameterValueSource::perform(Scope& scope) const {
+  if (!is_list_) {
+    if (const auto* const finished = std::get_if<ParameterScalar>(&items_.front())) {
+      return *finished;
+    }
+    const Template& source = std::get<Template>(items_.front());
+    return type_text(source.perform(scope), source.where());
+  }
+  std::vector<ParameterScalar> values;
+  for (const Item& item : items_) {
+    if (const auto* const finished = std::get_if<ParameterScalar>(&item)) {
+      values.push_back(*finished);
+      continue;
+    }
+    const Template& source = std::get<Template>(item);
+    ParameterValue value = type_text(source.perform(scope), source.where());
+    if (!std::holds_alternative<ParameterScalar>(value)) {
+      throw LaunchError("a list can't hold lists", source.where(), kNoParameterType);
+    }
+    values.push_back(std::get<ParameterScalar>(std::move(value)));
+  }
+  require_uniform(values, "the output list is not uniform");
+  return values;
+}
+
+void ParameterValueSource::require_uniform(const std::vector<ParameterScalar>& items, const char* message) const {
+  for (const ParameterScalar& item : items) {
+    if (item.index() != items.front().index()) {
+      throw LaunchError(message, where_, kNoParameterType);
+    }
+  }
+}
+
+std::string to_yaml(const ParameterValue& value) {
+  if (const auto* const scalar = std::get_if<ParameterScalar>(&value)) {
+    return scalar_to_yaml(*scalar);
+  }
+  std::string text;
+  for (const ParameterScalar& item : std::get<std::vector<ParameterScalar>>(value)) {
+    text += (text.empty() ? "" : ", ") + scalar_to_yaml(item);
+  }
+  return "[" + text + "]";
+}
+
+std::string quote_yaml_if_needed(const std::string& key) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
+  const bool plain = !key.empty() && key.find_first_not_of(kPlain) == std::string::npos && key.front() != '-';
+  return plain ? key : scalar_to_yaml(key);
+}
+
+}  // namespace launch

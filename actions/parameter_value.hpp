@@ -1,0 +1,59 @@
+// The typed value of a parameter: read at load, finished at visit when it holds substitutions, written as YAML.
+//
+// The pipeline is ros2 launch's: XML text is typed by YAML 1.1 rules at load (YAML files come typed), substitutions in
+// the resulting strings are performed at visit, and their result is typed again. So value="'$(var x)'" gives an int for
+// x=7: the quotes are gone before the substitution is performed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "launcher/frontend/entity.hpp"
+#include "launcher/substitution/substitution.hpp"
+
+namespace launch {
+
+using ParameterScalar = std::variant<bool, std::int64_t, double, std::string>;
+// All items of a list have one type.
+using ParameterValue = std::variant<ParameterScalar, std::vector<ParameterScalar>>;
+
+// The types that a `type` attribute names.
+enum class ParameterType { kAny, kStr, kBool, kInt, kFloat };
+
+class ParameterValueSource {
+ public:
+  // `type` is the text of the type attribute, "" for none; `separator` that of value-sep. Throws LaunchError.
+  ParameterValueSource(const Value& value, const std::string& type, const std::optional<std::string>& separator,
+                       const SourceRange& type_where);
+
+  // Throws LaunchError when a substitution gives what the type can't be.
+  ParameterValue perform(Scope& scope) const;
+
+ private:
+  // A finished scalar, or text that must be performed and typed.
+  using Item = std::variant<ParameterScalar, Template>;
+
+  Item make_item(const Scalar& scalar) const;
+  Item make_untyped(const LocatedText& text) const;
+  void take_value(const Value& value);
+  void take_items(const std::vector<Value>& values);
+  ParameterValue type_text(const std::string& text, const SourceRange& where) const;
+  void require_uniform(const std::vector<ParameterScalar>& items, const char* message) const;
+
+  ParameterType type_ = ParameterType::kAny;
+  bool type_is_list_ = false;
+  SourceRange where_;
+  bool is_list_ = false;
+  std::vector<Item> items_;  // one, unless is_list_
+};
+
+// One line of YAML that any reader of parameter files types alike: strings are always quoted.
+std::string to_yaml(const ParameterValue& value);
+// A mapping key, quoted unless it is plain letters, digits, '_', '.', '-' and '/'.
+std::string quote_yaml_if_needed(const std::string& key);
+
+}  // namespace launch

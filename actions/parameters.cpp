@@ -1,0 +1,113 @@
+#include "actions/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "launcher/frontend/frontend.hpp"
+#include "launcher/substitution/template_parser.hpp"
+
+namespace launch {
+
+ItemSpec Parameters::item() {
+  return {"param",
+          "a parameter, or a file of parameters",
+          {{"name", AttributeType::kText, false, "", "name of the parameter"},
+           {"value", AttributeType::kParameter, false, "", "its value, typed by YAML 1.1 rules"},
+           {"value-sep", AttributeType::kLiteral, false, "", "splits the value into a list (XML)"},
+           {"type", AttributeType::kLiteral, false, "by YAML rules",
+            "str, bool, int, float, list_of_str, list_of_bool, list_of_int, list_of_float or yaml"},
+           {"from", AttributeType::kText, false, "", "path of a parameter file, instead of name and value"},
+           {"allow_substs", AttributeType::kBoolean, false, "false", "perform substitutions in the file's text"}},
+          true};
+}
+
+Parameters::Parameters(const Fields& fields) : where_(fields.where()) {
+  if (fields.has("name") && fields.has("from")) {
+    throw LaunchError("name and from attributes are mutually exclusive", fields.where("from"));
+  }
+  if (fields.has("from")) {
+    if (fields.has("value") || !fields.items("param").empty()) {
+      throw LaunchError("a parameter file can't have a value or nested parameters", fields.where("from"));
+    }
+    file_ = fields.text("from");
+    Scope nothing;
+    allow_substitutions_ = fields.boolean("allow_substs", false).perform(nothing);
+    return;
+  }
+  if (fields.has("allow_substs")) {
+    throw LaunchError("allow_substs can only be used with from", fields.where("allow_substs"));
+  }
+  tree_ = parse_tree(fields);
+}
+
+Parameters::Tree Parameters::parse_tree(const Fields& fields) {
+  if (!fields.has("name")) {
+    throw LaunchError("param entity should have a name or a from attribute", fields.where());
+  }
+  Tree tree{fields.text("name"), std::nullopt, {}};
+  const std::vector<const Fields*> nested = fields.items("param");
+  if (fields.has("value") && !nested.empty()) {
+    throw LaunchError("nested parameters and value attributes are mutually exclusive", fields.where("value"));
+  }
+  if (!fields.has("value") && nested.empty()) {
+    throw LaunchError("either a value attribute or nested params are needed", fields.where());
+  }
+  if (!nested.empty()) {
+    if (fields.has("type")) {
+      throw LaunchError("type can't be used with nested parameters", fields.where("type"));
+    }
+    for (const Fields* child : nested) {
+      tree.nested.push_back(parse_tree(*child));
+    }
+    return tree;
+  }
+  tree.value.emplace(fields.value("value"), fields.literal("type"),
+                     fields.has("value-sep") ? std::optional(fields.literal("value-sep")) : std::nullopt,
+                     fields.where("type"));
+  return tree;
+}
+
+void Parameters::write_tree(const Tree& tree, const std::string& prefix, Scope& scope, std::string& yaml) {
+  const std::string name = prefix + tree.name.perform(scope);
+  if (tree.value) {
+    yaml += fmt::format("    {}: {}\n", quote_yaml_if_needed(name), to_yaml(tree.value->perform(scope)));
+    return;
+  }
+  for (const Tree& child : tree.nested) {
+    write_tree(child, name + ".", scope, yaml);
+  }
+}
+
+void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const {
+  Scope& scope = context.scope();
+  std::string content;
+  if (tree_) {
+    content = fmt::format("{}:\n  ros__parameters:\n", qualified_name.empty() ? "/**" : qualified_name);
+    write_tree(*tree_, "", scope, content);
+  } else {
+    const std::string path = file_->perform(scope);
+    std::error_code ignored;
+    const bool is_file = std::filesystem::is_regular_file(path, ignored);
+    if (!allow_substitutions_) {
+      if (!is_file) {
+        context.message(LogLevel::kWarning, "launch_ros.actions.node",
+                        fmt::format("{}: parameter file path is not a file: {}", to_string(file_->where()), path));
+        return;
+      }
+      spec.argv.insert(spec.argv.end(), {"--params-file", path});
+      return;
+    }
+    if (!is_file) {
+      throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where());
+    }
+    const auto file = SourceFile::read(path, file_->where());
+    const auto size = static_cast<std::uint32_t>(file->text().size());
+    content = parse_template(LocatedText(file->text(), SourceRange{file, 0, size})).perform(scope);
+  }
+  spec.argv.push_back("--params-file");
+  spec.files.push_back({spec.argv.size(), "launch_params.yaml", std::move(content)});
+  spec.argv.push_back("");  // the path of the generated file, known when it is written
+}
+
+}  // namespace launch

@@ -1,0 +1,43 @@
+// The <param> items of a node: values, nested values and parameter files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/parameter_value.hpp"
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+// One <param>, which gives a node one parameter file.
+class Parameters {
+ public:
+  static ItemSpec item();
+
+  // Throws LaunchError for forms that exclude each other and for values that have no parameter type.
+  explicit Parameters(const Fields& fields);
+
+  // Appends --params-file and its file to a node's argv: the named file, or one to be generated. `qualified_name` is the
+  // node's, or empty when it isn't known; the parameters are then for whatever the node is called.
+  void append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const;
+
+ private:
+  // A value with its name, or a name with nested ones.
+  struct Tree {
+    Template name;
+    std::optional<ParameterValueSource> value;
+    std::vector<Tree> nested;
+  };
+  static Tree parse_tree(const Fields& fields);
+  static void write_tree(const Tree& tree, const std::string& prefix, Scope& scope, std::string& yaml);
+
+  std::optional<Template> file_;
+  bool allow_substitutions_ = false;
+  SourceRange where_;
+  std::optional<Tree> tree_;
+};
+
+}  // namespace launch

@@ -1,0 +1,188 @@
+#include "actions/process_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "launcher/substitution/boolean.hpp"
+#include "launcher/substitution/template_parser.hpp"
+
+namespace launch {
+
+namespace {
+
+Duration seconds(double value) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(value));
+}
+
+std::optional<NumberField> not_negative(std::optional<NumberField> field) {
+  if (field) {
+    field->require_not_negative();
+  }
+  return field;
+}
+
+const std::string* find_configuration(const Scope& scope, const std::string& name) {
+  const auto found = scope.configurations.find(name);
+  return found == scope.configurations.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+std::vector<AttributeSpec> ProcessFields::attributes() {
+  return {
+      {"cwd", AttributeType::kText, false, "the launcher's", "working directory"},
+      {"launch-prefix", AttributeType::kText, false, "configuration launch-prefix", "command line put in front, such as gdb"},
+      {"output", AttributeType::kText, false, "log", "screen, log, both, own_log or full"},
+      {"respawn", AttributeType::kText, false, "false", "start again whenever the process ends"},
+      {"respawn_delay", AttributeType::kFloat, false, "0", "seconds between an exit and the next start"},
+      {"respawn_max_retries", AttributeType::kInteger, false, "-1", "how often to start again; negative: no limit"},
+      {"on_exit", AttributeType::kLiteral, false, "", "shutdown: the whole system ends when the process does"},
+      {"shell", AttributeType::kBoolean, false, "false", "run the words, joined by spaces, through /bin/sh -c"},
+      {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
+      {"sigterm_timeout", AttributeType::kFloat, false, "5", "seconds from SIGINT to SIGTERM at shutdown"},
+      {"sigkill_timeout", AttributeType::kFloat, false, "5", "seconds from SIGTERM to SIGKILL at shutdown"},
+  };
+}
+
+std::vector<ItemSpec> ProcessFields::items() {
+  return {{"env",
+           "a variable of the process's environment",
+           {{"name", AttributeType::kText, true, "", "name of the variable"},
+            {"value", AttributeType::kText, true, "", "its value"}}}};
+}
+
+ProcessFields::ProcessFields(const Fields& fields)
+    : where_(fields.where()),
+      working_directory_(fields.optional_text("cwd")),
+      launch_prefix_(fields.optional_text("launch-prefix")),
+      output_(fields.optional_text("output")),
+      respawn_(fields.optional_text("respawn")),
+      respawn_delay_(not_negative(fields.number("respawn_delay"))),
+      respawn_max_retries_(fields.number("respawn_max_retries")),
+      shell_(fields.boolean("shell", false)),
+      emulate_tty_(fields.boolean("emulate_tty", false)),
+      sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
+      sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))) {
+  if (fields.has("on_exit")) {
+    const std::string on_exit = fields.literal("on_exit");
+    if (on_exit != "shutdown") {
+      throw LaunchError(fmt::format("on_exit can only be 'shutdown', got '{}'", on_exit), fields.where("on_exit"));
+    }
+    shutdown_on_exit_ = true;
+  }
+  for (const Fields* variable : fields.items("env")) {
+    environment_.emplace_back(variable->text("name"), variable->text("value"));
+  }
+}
+
+void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
+  Scope& scope = context.scope();
+  std::vector<std::string> prefix = launch_prefix(scope, spec.argv.front());
+  for (GeneratedFile& file : spec.files) {
+    file.argument += prefix.size();
+  }
+  spec.argv.insert(spec.argv.begin(), prefix.begin(), prefix.end());
+  if (spec.name.empty()) {
+    spec.name = std::filesystem::path(spec.argv.front()).filename().string();
+  }
+
+  spec.environment = scope.environment;
+  for (const auto& [name, value] : environment_) {
+    spec.environment.insert_or_assign(name.perform(scope), value.perform(scope));
+  }
+  if (working_directory_) {
+    spec.working_directory = working_directory_->perform(scope);
+  }
+  spec.output = output(context);
+  if (respawn_) {
+    const std::string text = respawn_->perform(scope);
+    const std::optional<bool> enabled = yaml_boolean(text);
+    if (!enabled) {
+      throw LaunchError(fmt::format("respawn is expected to be a boolean, got '{}'", text), respawn_->where(),
+                        "write true or false");
+    }
+    spec.respawn.enabled = *enabled;
+  }
+  if (respawn_delay_) {
+    spec.respawn.delay = seconds(respawn_delay_->perform(scope));
+  }
+  if (respawn_max_retries_) {
+    spec.respawn.max_retries = static_cast<std::int64_t>(respawn_max_retries_->perform(scope));
+  }
+  spec.shutdown_on_exit = shutdown_on_exit_;
+  spec.shell = shell_.perform(scope);
+  spec.emulate_tty = emulate_tty(scope);
+  spec.sigterm_timeout = timeout(scope, sigterm_timeout_, "sigterm_timeout");
+  spec.sigkill_timeout = timeout(scope, sigkill_timeout_, "sigkill_timeout");
+  spec.origin = where_;
+  context.requests().processes.push_back(std::move(spec));
+}
+
+std::vector<std::string> ProcessFields::launch_prefix(Scope& scope, const std::string& program) const {
+  if (launch_prefix_) {
+    return split_shell_words(launch_prefix_->perform(scope), launch_prefix_->where());
+  }
+  const std::string* const prefix = find_configuration(scope, "launch-prefix");
+  if (prefix == nullptr) {
+    return {};
+  }
+  if (const std::string* const filter = find_configuration(scope, "launch-prefix-filter")) {
+    try {
+      const std::regex expression(*filter);
+      const std::string name = std::filesystem::path(program).filename().string();
+      if (!std::regex_search(name, expression, std::regex_constants::match_continuous)) {
+        return {};
+      }
+    } catch (const std::regex_error& error) {
+      throw LaunchError(fmt::format("launch-prefix-filter '{}' is not a regular expression: {}", *filter, error.what()), where_);
+    }
+  }
+  return split_shell_words(*prefix, where_);
+}
+
+OutputRouting ProcessFields::output(LaunchContext& context) const {
+  const Environment& environment = context.initial_environment();
+  const auto everywhere = environment.find("OVERRIDE_LAUNCH_PROCESS_OUTPUT");
+  const bool overridden = everywhere != environment.end() && !everywhere->second.empty();
+  const std::string mode = overridden ? everywhere->second : output_ ? output_->perform(context.scope()) : std::string("log");
+  const std::optional<OutputRouting> routing = OutputRouting::from_mode(mode);
+  if (!routing) {
+    throw LaunchError(fmt::format("'{}' is not a valid output mode, expected screen, log, both, own_log or full", mode),
+                      output_ && !overridden ? output_->where() : where_,
+                      overridden ? "it comes from the environment variable OVERRIDE_LAUNCH_PROCESS_OUTPUT"
+                                 : did_you_mean(mode, {"screen", "log", "both", "own_log", "full"}));
+  }
+  return *routing;
+}
+
+bool ProcessFields::emulate_tty(Scope& scope) const {
+  if (const std::string* const configuration = find_configuration(scope, "emulate_tty")) {
+    const std::optional<bool> value = condition_boolean(*configuration);
+    if (!value) {
+      throw LaunchError(fmt::format("launch configuration 'emulate_tty' is expected to be true or false, got '{}'", *configuration),
+                        where_);
+    }
+    return *value;
+  }
+  return emulate_tty_.perform(scope);
+}
+
+Duration ProcessFields::timeout(Scope& scope, const std::optional<NumberField>& given, const std::string& configuration) const {
+  if (given) {
+    return seconds(given->perform(scope));
+  }
+  if (const std::string* const text = find_configuration(scope, configuration)) {
+    try {
+      NumberField number(Template({std::make_shared<Text>(*text, where_)}, where_), false);
+      number.require_not_negative();
+      return seconds(number.perform(scope));
+    } catch (const LaunchError& error) {
+      throw LaunchError(fmt::format("launch configuration '{}': {}", configuration, error.diagnostics().front().message), where_);
+    }
+  }
+  return ProcessSpec().sigterm_timeout;
+}
+
+}  // namespace launch

@@ -1,0 +1,47 @@
+// What <executable> and <node> have in common: how a process runs, where its output goes, when it runs again.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+class ProcessFields {
+ public:
+  // Declarations of the common attributes and items, for an ActionType.
+  static std::vector<AttributeSpec> attributes();
+  static std::vector<ItemSpec> items();
+
+  explicit ProcessFields(const Fields& fields);
+
+  // Fills everything of the spec but its argv and its name, both of which must be set before, and asks the context to
+  // start it. The launch prefix is put in front of argv. An empty name becomes the base name of argv[0].
+  void request(LaunchContext& context, ProcessSpec spec) const;
+
+ private:
+  std::vector<std::string> launch_prefix(Scope& scope, const std::string& program) const;
+  OutputRouting output(LaunchContext& context) const;
+  bool emulate_tty(Scope& scope) const;
+  Duration timeout(Scope& scope, const std::optional<NumberField>& given, const std::string& configuration) const;
+
+  SourceRange where_;
+  std::optional<Template> working_directory_;
+  std::optional<Template> launch_prefix_;
+  std::optional<Template> output_;
+  std::optional<Template> respawn_;
+  std::optional<NumberField> respawn_delay_;
+  std::optional<NumberField> respawn_max_retries_;
+  bool shutdown_on_exit_ = false;
+  BooleanField shell_;
+  BooleanField emulate_tty_;
+  std::optional<NumberField> sigterm_timeout_;
+  std::optional<NumberField> sigkill_timeout_;
+  std::vector<std::pair<Template, Template>> environment_;
+};
+
+}  // namespace launch

@@ -1,0 +1,185 @@
+#include "actions/trace_scope.hpp"
+
+#include <fmt/format.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/unique_fd.hpp"
+#include "tracing/session/preload.hpp"
+
+extern char** environ;  // NOLINT: POSIX names it so
+
+namespace launch {
+
+namespace {
+
+// The output of a program without its last line end, "" when it can't be run or fails.
+std::string output_of(const std::string& program, const std::vector<std::string>& arguments) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) {
+    return {};
+  }
+  UniqueFd read_end(ends[0]);
+  UniqueFd write_end(ends[1]);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  // A group of its own, so that a Ctrl-C on the terminal leaves it alone.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) {
+    argv.push_back(const_cast<char*>(argument.c_str()));
+  }
+  argv.push_back(nullptr);
+  pid_t pid = -1;
+  const int error = posix_spawn(&pid, program.c_str(), &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  write_end.reset();
+  if (error != 0) {
+    return {};
+  }
+  std::string output;
+  char buffer[4096];
+  for (ssize_t count; (count = ::read(read_end.get(), buffer, sizeof buffer)) > 0;) {
+    output.append(buffer, static_cast<std::size_t>(count));
+  }
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  while (output.ends_with('\n')) {
+    output.pop_back();
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? output : std::string();
+}
+
+}  // namespace
+
+TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string report_command,
+                       SourceRange origin)
+    : config_(std::move(config)),
+      tracer_(std::move(tracer)),
+      report_command_(std::move(report_command)),
+      origin_(std::move(origin)) {
+  tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
+  preload_ = std::move(plan.libraries);
+  setup_.warnings = std::move(plan.warnings);
+}
+
+TraceScope::~TraceScope() {
+  if (worker_.joinable()) {
+    worker_.join();
+  }
+}
+
+void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
+                               std::function<void(std::exception_ptr)> finished) {
+  if (worker_.joinable()) {
+    worker_.join();
+  }
+  worker_ = std::thread([&loop, work = std::move(work), finished = std::move(finished)] {
+    std::exception_ptr error;
+    try {
+      work();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    loop.post([finished, error] { finished(error); });
+  });
+}
+
+void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
+  in_background(
+      loop,
+      [this] {
+        try {
+          const std::vector<std::string> warnings = std::move(setup_.warnings);
+          setup_ = tracer_->start(config_);
+          setup_.warnings.insert(setup_.warnings.begin(), warnings.begin(), warnings.end());
+        } catch (const tracing::TraceError& error) {
+          throw LaunchError(fmt::format("tracing setup failed: {}", error.what()), origin_, error.remedy());
+        }
+      },
+      [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
+        if (!error) {
+          for (const std::string& warning : setup_.warnings) {
+            tell(true, warning);
+          }
+          tell(false, fmt::format("writing tracing session to: {}", setup_.trace_directory));
+        }
+        done(error);
+      });
+}
+
+void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
+  in_background(
+      loop,
+      [this] {
+        try {
+          losses_ = tracer_->finish(config_, [this] { return hurry_.load(); });
+        } catch (const tracing::TraceError& error) {
+          throw LaunchError(fmt::format("tracing session '{}' could not be finished: {}", config_.lttng_session_name(),
+                                        error.what()),
+                            origin_, error.remedy());
+        }
+        if (!report_command_.empty() && !config_.snapshot_mode && !config_.dual_session && !hurry_) {
+          summary_ = output_of(report_command_, {"--summary", config_.trace_directory()});
+        }
+      },
+      [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
+        if (!error) {
+          tell_result(tell);
+        }
+        done(error);
+      });
+}
+
+void TraceScope::tell_result(const Tell& tell) const {
+  tell(false, fmt::format("trace written to: {}{}", config_.trace_directory(), summary_.empty() ? "" : " (" + summary_ + ")"));
+  for (const tracing::ChannelLoss& loss : losses_.channels) {
+    if (loss.discarded_events != 0) {
+      tell(true, fmt::format("{} events were lost in channel {} ({}): its buffers were full; use larger ones "
+                             "(subbuffer-size-ust, subbuffer-size-kernel)",
+                             loss.discarded_events, loss.channel, loss.domain));
+    }
+    if (loss.lost_packets != 0) {
+      tell(true, fmt::format("{} packets were overwritten in channel {} ({})", loss.lost_packets, loss.channel, loss.domain));
+    }
+  }
+}
+
+void TraceScope::prepare(ProcessSpec& spec) const {
+  if (preload_.empty()) {
+    return;
+  }
+  std::string& variable = spec.environment["LD_PRELOAD"];
+  variable = tracing::append_preload(variable, preload_);
+}
+
+std::vector<ScopeSetting> TraceScope::describe() const {
+  return {{"session-name", config_.session_name},
+          {"trace-directory", config_.trace_directory()},
+          {"append-trace", config_.append_trace},
+          {"events-ust", config_.events_ust},
+          {"events-kernel", config_.events_kernel},
+          {"syscalls", config_.syscalls},
+          {"context-fields", config_.context_fields_ust},
+          {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
+          {"subbuffer-size-kernel", static_cast<std::int64_t>(config_.subbuffer_size_kernel)},
+          {"snapshot-mode", config_.snapshot_mode},
+          {"dual-session", config_.dual_session}};
+}
+
+std::vector<TimedStep> TraceScope::timing() const {
+  std::vector<TimedStep> steps;
+  for (const tracing::SetupStep& step : setup_.steps) {
+    steps.push_back({"trace: " + step.name, step.took});
+  }
+  return steps;
+}
+
+}  // namespace launch

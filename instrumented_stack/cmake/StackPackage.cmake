@@ -1,0 +1,156 @@
+# What makes a folder a ROS package: its library, its executables, and its place in a prefix.
+#
+# The build tree holds a prefix of the same shape as the installed one, ${PROJECT_BINARY_DIR}/prefix, so that whatever
+# finds packages by AMENT_PREFIX_PATH works before installing:
+#   lib/lib<pkg>.so   lib/<pkg>/<executable>   share/<pkg>/package.xml   share/ament_index/resource_index/packages/<pkg>
+# Run paths are relative ($ORIGIN), so either prefix can be moved. Users of an installed prefix write
+# find_package(<pkg> REQUIRED) and link <pkg>::<pkg>. This file is installed too: rosidl_generate_interfaces needs it in
+# the projects of users.
+include_guard(GLOBAL)
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# stack_library(<pkg> [SOURCES <file>...] [PUBLIC <target>...] [PRIVATE <target>...] [INCLUDE <dir>...]
+#               [CONFIG_EXTRAS <file>...] [SKIP_INSTALL])
+#
+# A shared library (without SOURCES: headers only) with the alias <pkg>::<pkg>. Its headers are those under each
+# <dir>, include/ unless told otherwise. CONFIG_EXTRAS are CMake files that
+# find_package(<pkg>) runs. With SKIP_INSTALL it is a library of the build tree alone, not a package.
+function(stack_library pkg)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS")
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "stack_library(${pkg}): unexpected ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT ARG_INCLUDE AND EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    set(ARG_INCLUDE ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  endif()
+
+  if(ARG_SOURCES)
+    set(scope PUBLIC)
+    add_library(${pkg} SHARED ${ARG_SOURCES})
+    if(TARGET project_options)
+      target_link_libraries(${pkg} PRIVATE project_options)
+    endif()
+    target_link_libraries(${pkg} PRIVATE ${ARG_PRIVATE})
+  else()
+    set(scope INTERFACE)
+    add_library(${pkg} INTERFACE)
+  endif()
+  add_library(${pkg}::${pkg} ALIAS ${pkg})
+  if(ARG_INCLUDE)
+    target_include_directories(${pkg} ${scope}
+      "$<BUILD_INTERFACE:${ARG_INCLUDE}>" $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/${pkg}>)
+  endif()
+  target_link_libraries(${pkg} ${scope} ${ARG_PUBLIC})
+  target_compile_features(${pkg} ${scope} cxx_std_17)
+  if(ARG_SKIP_INSTALL)
+    return()
+  endif()
+
+  if(ARG_SOURCES)
+    _stack_place(${pkg} lib "$ORIGIN")
+  endif()
+  if(ARG_INCLUDE)
+    list(TRANSFORM ARG_INCLUDE APPEND "/")
+    install(DIRECTORY ${ARG_INCLUDE} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${pkg})
+  endif()
+  install(TARGETS ${pkg} EXPORT ${pkg} LIBRARY DESTINATION lib)
+  stack_package(${pkg})
+  _stack_export(${pkg} DEPENDENCIES ${ARG_PUBLIC} ${ARG_PRIVATE} EXTRAS ${ARG_CONFIG_EXTRAS})
+endfunction()
+
+# stack_node(<pkg> <executable> SOURCES <file>... LINK <target>...)
+#
+# An executable that `<node pkg="<pkg>" exec="<executable>"/>` finds. Several packages may have executables of one name;
+# the CMake target is <pkg>_<executable>.
+function(stack_node pkg executable)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "SOURCES;LINK")
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "stack_node(${pkg} ${executable}): unexpected ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  set(target ${pkg}_${executable})
+  add_executable(${target} ${ARG_SOURCES})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${executable})
+  _stack_place(${target} lib/${pkg} "$ORIGIN/..")
+  if(TARGET project_options)
+    target_link_libraries(${target} PRIVATE project_options)
+  endif()
+  target_link_libraries(${target} PRIVATE ${ARG_LINK})
+  install(TARGETS ${target} RUNTIME DESTINATION lib/${pkg})
+  stack_package(${pkg})
+endfunction()
+
+# stack_package(<pkg>)
+#
+# Enters the package into the ament index and puts its package.xml beside it, in both prefixes. stack_library and
+# stack_node call it; call it yourself for a package that has neither.
+function(stack_package pkg)
+  get_property(known GLOBAL PROPERTY STACK_PACKAGE_${pkg})
+  if(known)
+    return()
+  endif()
+  set_property(GLOBAL PROPERTY STACK_PACKAGE_${pkg} TRUE)
+  set(marker share/ament_index/resource_index/packages)
+  file(WRITE ${PROJECT_BINARY_DIR}/prefix/${marker}/${pkg} "")
+  install(FILES ${PROJECT_BINARY_DIR}/prefix/${marker}/${pkg} DESTINATION ${marker})
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/package.xml)
+    configure_file(package.xml ${PROJECT_BINARY_DIR}/prefix/share/${pkg}/package.xml COPYONLY)
+    install(FILES package.xml DESTINATION share/${pkg})
+  endif()
+endfunction()
+
+# stack_package_version(<variable>)
+#
+# The version in the current folder's package.xml; the project's where there is none.
+function(stack_package_version variable)
+  set(version ${PROJECT_VERSION})
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/package.xml)
+    file(STRINGS package.xml line REGEX "<version>.*</version>" LIMIT_COUNT 1)
+    string(REGEX REPLACE ".*<version>(.*)</version>.*" "\\1" version "${line}")
+    string(STRIP "${version}" version)
+  endif()
+  if(NOT version)
+    set(version 0.0.0)
+  endif()
+  set(${variable} ${version} PARENT_SCOPE)
+endfunction()
+
+# Puts a binary at `place` in the build tree's prefix and lets it find the stack's libraries from there.
+function(_stack_place target place rpath)
+  set_target_properties(${target} PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}
+    RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}
+    BUILD_RPATH "${rpath}"
+    INSTALL_RPATH "${rpath}")
+endfunction()
+
+# Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of DEPENDENCIES that are packages and last runs
+# EXTRAS.
+function(_stack_export pkg)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "DEPENDENCIES;EXTRAS")
+  set_target_properties(${pkg} PROPERTIES STACK_PACKAGE ${pkg})
+  set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES STACK_PACKAGE)
+  set(config "include(CMakeFindDependencyMacro)\n")
+  foreach(dependency IN LISTS ARG_DEPENDENCIES)
+    if(TARGET ${dependency})
+      get_target_property(package ${dependency} STACK_PACKAGE)
+      if(package)
+        string(APPEND config "find_dependency(${package})\n")
+      endif()
+    endif()
+  endforeach()
+  string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Targets.cmake)\n")
+  foreach(extra IN LISTS ARG_EXTRAS)
+    get_filename_component(name ${extra} NAME)
+    string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${name})\n")
+    install(FILES ${extra} DESTINATION share/${pkg}/cmake)
+  endforeach()
+
+  set(config_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}Config.cmake)
+  set(version_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}ConfigVersion.cmake)
+  file(CONFIGURE OUTPUT ${config_file} CONTENT "${config}" @ONLY)
+  stack_package_version(version)
+  write_basic_package_version_file(${version_file} VERSION ${version} COMPATIBILITY AnyNewerVersion)
+  install(EXPORT ${pkg} NAMESPACE ${pkg}:: FILE ${pkg}Targets.cmake DESTINATION share/${pkg}/cmake)
+  install(FILES ${config_file} ${version_file} DESTINATION share/${pkg}/cmake)
+endfunction()

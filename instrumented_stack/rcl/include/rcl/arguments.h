@@ -1,0 +1,68 @@
+// Parsing of the ROS part of a command line.
+//
+// Everything between `--ros-args` and `--` (or the end) belongs to ROS; both may occur several times. The flags:
+//   -r, --remap [node:]FROM:=TO   -p, --param [node:]NAME:=VALUE   --params-file FILE   -e, --enclave PATH
+//   --log-level LEVEL | LOGGER:=LEVEL   --log-config-file FILE   --log-file-name PREFIX
+//   --enable-rosout-logs, --disable-rosout-logs, and the same for stdout and external-lib
+// Outside, the old form `FROM:=TO` is still taken as a remap rule, with a warning; the rest is left to the application.
+#pragma once
+
+#include <stdbool.h>
+
+#include "rcl/allocator.h"
+#include "rcl/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RCL_ROS_ARGS_FLAG "--ros-args"
+#define RCL_ROS_ARGS_EXPLICIT_END_TOKEN "--"
+#define RCL_PARAM_FLAG "--param"
+#define RCL_SHORT_PARAM_FLAG "-p"
+#define RCL_PARAM_FILE_FLAG "--params-file"
+#define RCL_REMAP_FLAG "--remap"
+#define RCL_SHORT_REMAP_FLAG "-r"
+#define RCL_ENCLAVE_FLAG "--enclave"
+#define RCL_SHORT_ENCLAVE_FLAG "-e"
+#define RCL_LOG_LEVEL_FLAG "--log-level"
+#define RCL_EXTERNAL_LOG_CONFIG_FLAG "--log-config-file"
+#define RCL_LOG_FILE_NAME_FLAG "--log-file-name"
+#define RCL_LOG_STDOUT_FLAG_SUFFIX "stdout-logs"
+#define RCL_LOG_ROSOUT_FLAG_SUFFIX "rosout-logs"
+#define RCL_LOG_EXT_LIB_FLAG_SUFFIX "external-lib-logs"
+
+typedef struct rcl_arguments_impl_s rcl_arguments_impl_t;
+
+typedef struct rcl_arguments_s {
+  rcl_arguments_impl_t* impl;
+} rcl_arguments_t;
+
+rcl_arguments_t rcl_get_zero_initialized_arguments(void);
+
+// Parses; `argv` may be null when `argc` is 0. A wrong ROS argument gives RCL_RET_INVALID_ROS_ARGS and an error message
+// that names the argument and what is wrong with it; a flag that is not known inside `--ros-args` is kept and can be
+// asked for with rcl_arguments_get_count_unparsed_ros().
+rcl_ret_t rcl_parse_arguments(int argc, const char* const* argv, rcl_allocator_t allocator,
+                              rcl_arguments_t* args_output);
+
+// Arguments outside the ROS sections, the program name included: indices into argv. Free the array with the allocator.
+int rcl_arguments_get_count_unparsed(const rcl_arguments_t* args);
+rcl_ret_t rcl_arguments_get_unparsed(const rcl_arguments_t* args, rcl_allocator_t allocator,
+                                     int** output_unparsed_indices);
+
+// Arguments inside the ROS sections that no flag explains.
+int rcl_arguments_get_count_unparsed_ros(const rcl_arguments_t* args);
+rcl_ret_t rcl_arguments_get_unparsed_ros(const rcl_arguments_t* args, rcl_allocator_t allocator,
+                                         int** output_unparsed_ros_indices);
+
+// The command line without its ROS sections; the strings are those of argv. Free the array with the allocator.
+rcl_ret_t rcl_remove_ros_arguments(const char* const* argv, const rcl_arguments_t* args, rcl_allocator_t allocator,
+                                   int* nonros_argc, const char*** nonros_argv);
+
+rcl_ret_t rcl_arguments_copy(const rcl_arguments_t* args, rcl_arguments_t* args_out);
+rcl_ret_t rcl_arguments_fini(rcl_arguments_t* args);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,21 @@
+// Start and end of a context.
+#pragma once
+
+#include "rcl/context.h"
+#include "rcl/init_options.h"
+#include "rcl/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Parses the command line and starts the middleware. The context must be zero-initialized and is fit for nodes
+// afterwards. Fires the rcl_init tracepoint last. RCL_RET_INVALID_ROS_ARGS for a wrong argument.
+rcl_ret_t rcl_init(int argc, char const* const* argv, const rcl_init_options_t* options, rcl_context_t* context);
+
+// Makes the context invalid; RCL_RET_ALREADY_SHUTDOWN the second time.
+rcl_ret_t rcl_shutdown(rcl_context_t* context);
+
+#ifdef __cplusplus
+}
+#endif

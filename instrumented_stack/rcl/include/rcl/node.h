@@ -1,0 +1,55 @@
+// A node: a name in the graph that owns publishers and subscriptions.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rcl/context.h"
+#include "rcl/guard_condition.h"
+#include "rcl/node_options.h"
+#include "rcl/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rcl_node_impl_s rcl_node_impl_t;
+
+typedef struct rcl_node_s {
+  rcl_context_t* context;
+  rcl_node_impl_t* impl;
+} rcl_node_t;
+
+rcl_node_t rcl_get_zero_initialized_node(void);
+
+// Creates the node; name and namespace are remapped, a relative namespace gets a leading slash. Fires rcl_node_init,
+// then creates the publisher on /rosout if `options` and the arguments of the process have it enabled.
+// RCL_RET_NODE_INVALID_NAME, RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NOT_INIT, RCL_RET_ALREADY_INIT.
+rcl_ret_t rcl_node_init(rcl_node_t* node, const char* name, const char* namespace_, rcl_context_t* context,
+                        const rcl_node_options_t* options);
+
+// Also removes the node's /rosout publisher. Publishers and subscriptions must be gone before.
+rcl_ret_t rcl_node_fini(rcl_node_t* node);
+
+bool rcl_node_is_valid(const rcl_node_t* node);
+bool rcl_node_is_valid_except_context(const rcl_node_t* node);
+const char* rcl_node_get_name(const rcl_node_t* node);
+const char* rcl_node_get_namespace(const rcl_node_t* node);
+const char* rcl_node_get_fully_qualified_name(const rcl_node_t* node);
+const rcl_node_options_t* rcl_node_get_options(const rcl_node_t* node);
+rcl_ret_t rcl_node_get_domain_id(const rcl_node_t* node, size_t* domain_id);
+rmw_node_t* rcl_node_get_rmw_handle(const rcl_node_t* node);
+uint64_t rcl_node_get_rcl_instance_id(const rcl_node_t* node);
+const rcl_guard_condition_t* rcl_node_get_graph_guard_condition(const rcl_node_t* node);
+
+// `ns.node`, without the leading slash.
+const char* rcl_node_get_logger_name(const rcl_node_t* node);
+
+// Expands and remaps a topic or service name as publishers and services of this node would, unless `only_expand`.
+// Free the output with `allocator`.
+rcl_ret_t rcl_node_resolve_name(const rcl_node_t* node, const char* input_name, rcl_allocator_t allocator,
+                                bool is_service, bool only_expand, char** output_name);
+
+#ifdef __cplusplus
+}
+#endif

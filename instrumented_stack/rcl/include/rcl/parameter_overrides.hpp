@@ -1,0 +1,49 @@
+// Parameter values given on a command line and in parameter files, and the ones that apply to a node.
+//
+// Values are kept per node pattern (`/**`, `/ns/*`, `/ns/node`, or a bare node name from `-p node:name:=value`), in
+// order of first appearance over all `-p` and `--params-file`. A repeated pattern and name replaces the value at its
+// old place.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "rcl/arguments.h"
+
+namespace rcl {
+
+using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
+                                    std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
+
+class ParameterOverrides {
+ public:
+  void set(std::string_view node_pattern, std::string_view name, ParameterValue value);
+
+  // Reads a parameter file over the present values. Throws std::invalid_argument with `FILE:LINE: what is wrong`.
+  void load_file(const std::string& path);
+
+  // Sets the value of `-p name:=text`, typed as a YAML document. Throws std::invalid_argument.
+  void set_from_text(std::string_view node_pattern, std::string_view name, std::string_view text);
+
+  // Adds all of `other` on top.
+  void merge(const ParameterOverrides& other);
+
+  // The values for a node by its fully qualified name: every matching pattern in order, later ones winning.
+  std::map<std::string, ParameterValue> for_node(std::string_view fully_qualified_name) const;
+
+  bool empty() const { return patterns_.empty(); }
+
+ private:
+  using Values = std::vector<std::pair<std::string, ParameterValue>>;
+  std::vector<std::pair<std::string, Values>> patterns_;
+};
+
+// The overrides of parsed arguments; empty for arguments that have none or were never parsed.
+const ParameterOverrides& parameter_overrides(const rcl_arguments_t& arguments);
+
+}  // namespace rcl

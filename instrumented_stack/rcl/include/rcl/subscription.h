@@ -1,0 +1,53 @@
+// Receiving from a topic.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rcl/node.h"
+#include "rosidl_runtime_c/message_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rcl_subscription_impl_s rcl_subscription_impl_t;
+
+typedef struct rcl_subscription_s {
+  rcl_subscription_impl_t* impl;
+} rcl_subscription_t;
+
+typedef struct rcl_subscription_options_s {
+  rmw_qos_profile_t qos;
+  rcl_allocator_t allocator;
+  rmw_subscription_options_t rmw_subscription_options;
+} rcl_subscription_options_t;
+
+rcl_subscription_t rcl_get_zero_initialized_subscription(void);
+rcl_subscription_options_t rcl_subscription_get_default_options(void);
+
+// Creates the subscription on the expanded and remapped topic. Fires rcl_subscription_init with that name and the
+// requested depth. RCL_RET_TOPIC_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node_t* node,
+                                const rosidl_message_type_support_t* type_support, const char* topic_name,
+                                const rcl_subscription_options_t* options);
+rcl_ret_t rcl_subscription_fini(rcl_subscription_t* subscription, rcl_node_t* node);
+
+// Takes the next message, RCL_RET_SUBSCRIPTION_TAKE_FAILED when there is none. `message_info` may be null.
+rcl_ret_t rcl_take(const rcl_subscription_t* subscription, void* ros_message, rmw_message_info_t* message_info,
+                   rmw_subscription_allocation_t* allocation);
+rcl_ret_t rcl_take_serialized_message(const rcl_subscription_t* subscription,
+                                      rcl_serialized_message_t* serialized_message, rmw_message_info_t* message_info,
+                                      rmw_subscription_allocation_t* allocation);
+
+const char* rcl_subscription_get_topic_name(const rcl_subscription_t* subscription);
+const rcl_subscription_options_t* rcl_subscription_get_options(const rcl_subscription_t* subscription);
+rmw_subscription_t* rcl_subscription_get_rmw_handle(const rcl_subscription_t* subscription);
+const rmw_qos_profile_t* rcl_subscription_get_actual_qos(const rcl_subscription_t* subscription);
+rcl_ret_t rcl_subscription_get_publisher_count(const rcl_subscription_t* subscription, size_t* publisher_count);
+bool rcl_subscription_is_valid(const rcl_subscription_t* subscription);
+bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription);
+
+#ifdef __cplusplus
+}
+#endif

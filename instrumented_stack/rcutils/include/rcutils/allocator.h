@@ -1,0 +1,29 @@
+// The allocator that rcl and rmw functions take, so that an application can decide where their memory comes from.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rcutils_allocator_s {
+  void* (*allocate)(size_t size, void* state);
+  void (*deallocate)(void* pointer, void* state);
+  void* (*reallocate)(void* pointer, size_t size, void* state);
+  void* (*zero_allocate)(size_t number_of_elements, size_t size_of_element, void* state);
+  void* state;
+} rcutils_allocator_t;
+
+rcutils_allocator_t rcutils_get_zero_initialized_allocator(void);
+
+// malloc, free, realloc and calloc.
+rcutils_allocator_t rcutils_get_default_allocator(void);
+
+// True when every function is set.
+bool rcutils_allocator_is_valid(const rcutils_allocator_t* allocator);
+
+#ifdef __cplusplus
+}
+#endif

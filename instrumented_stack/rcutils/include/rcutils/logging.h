@@ -1,0 +1,106 @@
+// Log levels per logger and the line written to the console for each message.
+//
+// Logger names are hierarchical: `a.b` inherits the level of `a`, which inherits the default level. A message that
+// passes its logger's level goes to the output handler, by default rcutils_logging_console_output_handler(); rcl
+// installs one that also publishes it on /rosout.
+//
+// Environment, read at initialization:
+//   RCUTILS_CONSOLE_OUTPUT_FORMAT  line format, default `[{severity}] [{time}] [{name}]: {message}`; tokens are
+//     severity name message function_name file_name line_number time time_as_nanoseconds date_time_with_ms
+//   RCUTILS_COLORIZED_OUTPUT       0 or 1; by default colours only on a terminal
+//   RCUTILS_LOGGING_USE_STDOUT     1 writes to stdout instead of stderr
+//   RCUTILS_LOGGING_BUFFERED_STREAM  1 buffers the stream by lines, 0 not at all; by default it is left as it is
+//
+// Every function is thread safe; the output handler is called under no lock.
+#pragma once
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rcutils/allocator.h"
+#include "rcutils/time.h"
+#include "rcutils/types/rcutils_ret.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RCUTILS_LOGGING_SEPARATOR_CHAR '.'
+#define RCUTILS_LOGGING_SEPARATOR_STRING "."
+
+enum RCUTILS_LOG_SEVERITY {
+  RCUTILS_LOG_SEVERITY_UNSET = 0,
+  RCUTILS_LOG_SEVERITY_DEBUG = 10,
+  RCUTILS_LOG_SEVERITY_INFO = 20,
+  RCUTILS_LOG_SEVERITY_WARN = 30,
+  RCUTILS_LOG_SEVERITY_ERROR = 40,
+  RCUTILS_LOG_SEVERITY_FATAL = 50,
+};
+
+#define RCUTILS_DEFAULT_LOGGER_DEFAULT_LEVEL RCUTILS_LOG_SEVERITY_INFO
+
+typedef struct rcutils_log_location_s {
+  const char* function_name;
+  const char* file_name;
+  size_t line_number;
+} rcutils_log_location_t;
+
+typedef void (*rcutils_logging_output_handler_t)(const rcutils_log_location_t* location, int severity, const char* name,
+                                                 rcutils_time_point_value_t timestamp, const char* format,
+                                                 va_list* args);
+
+// Reads the environment. Called implicitly by the first logging function; calling it again does nothing.
+// RCUTILS_RET_INVALID_ARGUMENT when a variable has a value that it may not have; logging then works with defaults.
+rcutils_ret_t rcutils_logging_initialize(void);
+
+// Forgets levels and settings, and puts the console output handler back.
+rcutils_ret_t rcutils_logging_shutdown(void);
+
+rcutils_logging_output_handler_t rcutils_logging_get_output_handler(void);
+void rcutils_logging_set_output_handler(rcutils_logging_output_handler_t handler);
+
+int rcutils_logging_get_default_logger_level(void);
+
+// UNSET restores RCUTILS_DEFAULT_LOGGER_DEFAULT_LEVEL.
+void rcutils_logging_set_default_logger_level(int level);
+
+// The level set for exactly this name, UNSET when there is none; -1 on error. The empty name is the default logger.
+int rcutils_logging_get_logger_level(const char* name);
+
+rcutils_ret_t rcutils_logging_set_logger_level(const char* name, int level);
+
+// The level of the nearest ancestor that has one, else the default level.
+int rcutils_logging_get_logger_effective_level(const char* name);
+
+bool rcutils_logging_logger_is_enabled_for(const char* name, int severity);
+
+// `debug`, `INFO`… in any case. RCUTILS_RET_LOGGING_SEVERITY_STRING_INVALID for another word.
+rcutils_ret_t rcutils_logging_severity_level_from_string(const char* severity_string, rcutils_allocator_t allocator,
+                                                         int* severity);
+
+// `DEBUG`, `INFO`…, null for a number that is no severity.
+const char* rcutils_logging_severity_name(int severity);
+
+// Hands a message to the output handler when the logger is enabled for the severity.
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void rcutils_log(const rcutils_log_location_t* location, int severity, const char* name, const char* format, ...);
+
+// The same without looking at the level: for macros that have checked it already.
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void rcutils_log_internal(const rcutils_log_location_t* location, int severity, const char* name, const char* format,
+                          ...);
+
+// Writes one line to the console in the configured format. The line goes out in a single write.
+void rcutils_logging_console_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
+                                            rcutils_time_point_value_t timestamp, const char* format, va_list* args);
+
+#define RCUTILS_LOGGING_AUTOINIT (void)rcutils_logging_initialize()
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,117 @@
+// The middleware interface: publishers, subscriptions, waiting and the graph, on Fast DDS.
+//
+// A context (rmw/init.h) holds one DDS participant. Creation functions return null, the others a code other than
+// RMW_RET_OK, after leaving a message for rmw_get_error_string(). A handle must be destroyed before its node, a node
+// before its context. Publish, take and trigger may be called from several threads; a wait set serves one thread at a
+// time.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rcutils/types/string_array.h"
+#include "rmw/init.h"
+#include "rmw/names_and_types.h"
+#include "rmw/qos_profiles.h"
+#include "rmw/types.h"
+#include "rosidl_runtime_c/message_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// `rmw_fastrtps_cpp`: what ROS 2 calls a middleware that speaks this wire format.
+const char* rmw_get_implementation_identifier(void);
+const char* rmw_get_serialization_format(void);
+
+// ---- nodes
+rmw_node_t* rmw_create_node(rmw_context_t* context, const char* name, const char* namespace_);
+rmw_ret_t rmw_destroy_node(rmw_node_t* node);
+
+// Triggered whenever the graph as seen from this node changes. Owned by the node.
+const rmw_guard_condition_t* rmw_node_get_graph_guard_condition(const rmw_node_t* node);
+
+// ---- publishers
+rmw_publisher_options_t rmw_get_default_publisher_options(void);
+rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_message_type_support_t* type_support,
+                                      const char* topic_name, const rmw_qos_profile_t* qos_profile,
+                                      const rmw_publisher_options_t* publisher_options);
+rmw_ret_t rmw_destroy_publisher(rmw_node_t* node, rmw_publisher_t* publisher);
+
+// Writes a message. Its source timestamp is the value that the rmw_publish tracepoint reports.
+rmw_ret_t rmw_publish(const rmw_publisher_t* publisher, const void* ros_message,
+                      rmw_publisher_allocation_t* allocation);
+rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
+                                         const rmw_serialized_message_t* serialized_message,
+                                         rmw_publisher_allocation_t* allocation);
+
+rmw_ret_t rmw_publisher_count_matched_subscriptions(const rmw_publisher_t* publisher, size_t* subscription_count);
+rmw_ret_t rmw_publisher_get_actual_qos(const rmw_publisher_t* publisher, rmw_qos_profile_t* qos);
+rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher);
+
+// Waits until every matched reliable subscription has acknowledged everything written so far.
+// RMW_RET_TIMEOUT if that takes longer than `wait_timeout`.
+rmw_ret_t rmw_publisher_wait_for_all_acked(const rmw_publisher_t* publisher, rmw_time_t wait_timeout);
+rmw_ret_t rmw_get_gid_for_publisher(const rmw_publisher_t* publisher, rmw_gid_t* gid);
+rmw_ret_t rmw_compare_gids_equal(const rmw_gid_t* gid1, const rmw_gid_t* gid2, bool* result);
+
+// ---- subscriptions
+rmw_subscription_options_t rmw_get_default_subscription_options(void);
+rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl_message_type_support_t* type_support,
+                                            const char* topic_name, const rmw_qos_profile_t* qos_policies,
+                                            const rmw_subscription_options_t* subscription_options);
+rmw_ret_t rmw_destroy_subscription(rmw_node_t* node, rmw_subscription_t* subscription);
+rmw_ret_t rmw_subscription_count_matched_publishers(const rmw_subscription_t* subscription, size_t* publisher_count);
+rmw_ret_t rmw_subscription_get_actual_qos(const rmw_subscription_t* subscription, rmw_qos_profile_t* qos);
+
+// Takes the next message without waiting; `taken` is false when there is none.
+rmw_ret_t rmw_take(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
+                   rmw_subscription_allocation_t* allocation);
+rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
+                             rmw_message_info_t* message_info, rmw_subscription_allocation_t* allocation);
+rmw_ret_t rmw_take_serialized_message(const rmw_subscription_t* subscription,
+                                      rmw_serialized_message_t* serialized_message, bool* taken,
+                                      rmw_subscription_allocation_t* allocation);
+rmw_ret_t rmw_take_serialized_message_with_info(const rmw_subscription_t* subscription,
+                                                rmw_serialized_message_t* serialized_message, bool* taken,
+                                                rmw_message_info_t* message_info,
+                                                rmw_subscription_allocation_t* allocation);
+
+// ---- serialization without a middleware entity
+rmw_ret_t rmw_serialize(const void* ros_message, const rosidl_message_type_support_t* type_support,
+                        rmw_serialized_message_t* serialized_message);
+rmw_ret_t rmw_deserialize(const rmw_serialized_message_t* serialized_message,
+                          const rosidl_message_type_support_t* type_support, void* ros_message);
+
+// ---- waiting
+rmw_guard_condition_t* rmw_create_guard_condition(rmw_context_t* context);
+rmw_ret_t rmw_destroy_guard_condition(rmw_guard_condition_t* guard_condition);
+rmw_ret_t rmw_trigger_guard_condition(const rmw_guard_condition_t* guard_condition);
+
+// `max_conditions` is a hint of how many entities will be waited for.
+rmw_wait_set_t* rmw_create_wait_set(rmw_context_t* context, size_t max_conditions);
+rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set);
+
+// Blocks until an entity is ready or the time is over (null: forever; zero: not at all). Entries that are not ready
+// become null; triggered guard conditions are reset. RMW_RET_TIMEOUT when nothing became ready.
+rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
+                   rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout);
+
+// ---- graph
+rmw_ret_t rmw_get_node_names(const rmw_node_t* node, rcutils_string_array_t* node_names,
+                             rcutils_string_array_t* node_namespaces);
+rmw_ret_t rmw_get_node_names_with_enclaves(const rmw_node_t* node, rcutils_string_array_t* node_names,
+                                           rcutils_string_array_t* node_namespaces, rcutils_string_array_t* enclaves);
+
+// Publishers and subscriptions of a full topic name in the whole system, this process included.
+rmw_ret_t rmw_count_publishers(const rmw_node_t* node, const char* topic_name, size_t* count);
+rmw_ret_t rmw_count_subscribers(const rmw_node_t* node, const char* topic_name, size_t* count);
+
+// Topics with their types, as ROS 2 names (`/chatter`, `std_msgs/msg/String`) or, with `no_demangle`, as DDS has them.
+rmw_ret_t rmw_get_topic_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator, bool no_demangle,
+                                        rmw_names_and_types_t* topic_names_and_types);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,161 @@
+// Guard conditions, wait sets and rmw_wait().
+#include <chrono>
+#include <new>
+#include <optional>
+#include <span>
+
+#include "identifier.hpp"
+#include "rmw/error_handling.h"
+#include "rmw/rmw.h"
+#include "waitable.hpp"
+
+using rmw_fastrtps::GuardCondition;
+using rmw_fastrtps::kIdentifier;
+using rmw_fastrtps::Waitable;
+using rmw_fastrtps::Waiter;
+
+namespace {
+
+// The longest wait that a deadline is computed for; longer ones have none.
+constexpr uint64_t kForeverSeconds = 1000000000;  // about 31 years
+
+std::optional<Waiter::TimePoint> deadline_after(const rmw_time_t* timeout) {
+  if (timeout == nullptr || timeout->sec >= kForeverSeconds) {
+    return std::nullopt;
+  }
+  return std::chrono::steady_clock::now() + std::chrono::seconds(timeout->sec) +
+         std::chrono::nanoseconds(timeout->nsec);
+}
+
+// The entities of one call of rmw_wait(), null entries left out by each function.
+class Entities {
+ public:
+  Entities(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions) {
+    if (subscriptions != nullptr) {
+      subscriptions_ = {subscriptions->subscribers, subscriptions->subscriber_count};
+    }
+    if (guard_conditions != nullptr) {
+      guard_conditions_ = {guard_conditions->guard_conditions, guard_conditions->guard_condition_count};
+    }
+  }
+
+  void attach(Waiter& waiter) const {
+    for_each([&](Waitable& waitable) { waitable.attach(waiter); });
+  }
+
+  void detach(Waiter& waiter) const {
+    for_each([&](Waitable& waitable) { waitable.detach(waiter); });
+  }
+
+  bool any_ready() const {
+    for (const auto& list : {subscriptions_, guard_conditions_}) {
+      for (void* entity : list) {
+        if (entity != nullptr && static_cast<Waitable*>(entity)->is_ready()) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  // Nulls what is not ready and resets guard conditions. False if nothing is left.
+  bool keep_ready() const {
+    bool any = false;
+    for (void*& entity : subscriptions_) {
+      if (entity != nullptr && !static_cast<Waitable*>(entity)->is_ready()) {
+        entity = nullptr;
+      }
+      any |= entity != nullptr;
+    }
+    for (void*& entity : guard_conditions_) {
+      if (entity != nullptr && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
+        entity = nullptr;
+      }
+      any |= entity != nullptr;
+    }
+    return any;
+  }
+
+ private:
+  template <typename Function>
+  void for_each(Function function) const {
+    for (const auto& list : {subscriptions_, guard_conditions_}) {
+      for (void* entity : list) {
+        if (entity != nullptr) {
+          function(*static_cast<Waitable*>(entity));
+        }
+      }
+    }
+  }
+
+  std::span<void*> subscriptions_;
+  std::span<void*> guard_conditions_;
+};
+
+}  // namespace
+
+rmw_guard_condition_t* rmw_create_guard_condition(rmw_context_t* context) {
+  RMW_CHECK_HANDLE(context, nullptr);
+  auto* handle = new (std::nothrow) rmw_guard_condition_t{kIdentifier, nullptr, context};
+  auto* condition = new (std::nothrow) GuardCondition;
+  if (handle == nullptr || condition == nullptr) {
+    delete handle;
+    delete condition;
+    RMW_SET_ERROR_MSG("out of memory for a guard condition");
+    return nullptr;
+  }
+  handle->data = static_cast<Waitable*>(condition);
+  return handle;
+}
+
+rmw_ret_t rmw_destroy_guard_condition(rmw_guard_condition_t* guard_condition) {
+  RMW_CHECK_HANDLE(guard_condition, RMW_RET_INVALID_ARGUMENT);
+  delete static_cast<Waitable*>(guard_condition->data);
+  delete guard_condition;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_trigger_guard_condition(const rmw_guard_condition_t* guard_condition) {
+  RMW_CHECK_HANDLE(guard_condition, RMW_RET_INVALID_ARGUMENT);
+  static_cast<GuardCondition*>(static_cast<Waitable*>(guard_condition->data))->trigger();
+  return RMW_RET_OK;
+}
+
+rmw_wait_set_t* rmw_create_wait_set(rmw_context_t* context, size_t) {
+  RMW_CHECK_HANDLE(context, nullptr);
+  auto* wait_set = new (std::nothrow) rmw_wait_set_t{kIdentifier, nullptr, nullptr};
+  auto* waiter = new (std::nothrow) Waiter;
+  if (wait_set == nullptr || waiter == nullptr) {
+    delete wait_set;
+    delete waiter;
+    RMW_SET_ERROR_MSG("out of memory for a wait set");
+    return nullptr;
+  }
+  wait_set->data = waiter;
+  return wait_set;
+}
+
+rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set) {
+  RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
+  delete static_cast<Waiter*>(wait_set->data);
+  delete wait_set;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
+                   rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout) {
+  RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
+  const Entities entities(subscriptions, guard_conditions);
+  const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
+  if (may_block) {
+    const auto deadline = deadline_after(wait_timeout);
+    Waiter& waiter = *static_cast<Waiter*>(wait_set->data);
+    waiter.reset();
+    entities.attach(waiter);
+    // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
+    while (!entities.any_ready() && waiter.wait_until(deadline)) {
+    }
+    entities.detach(waiter);
+  }
+  return entities.keep_ready() ? RMW_RET_OK : RMW_RET_TIMEOUT;
+}

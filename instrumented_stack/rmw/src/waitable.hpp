@@ -1,0 +1,71 @@
+// What rmw_wait() sleeps on: a Waiter per wait set, known to every Waitable that the wait set waits for.
+//
+// A message costs one lock and one wake-up of the thread that waits for it, however many other entities that thread
+// waits for.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace rmw_fastrtps {
+
+// Where one thread sleeps.
+class Waiter {
+ public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  // Forgets earlier calls of wake().
+  void reset();
+
+  // Any thread.
+  void wake();
+
+  // Returns when wake() was called since the last reset() or wait, true, or at the deadline, false. No deadline:
+  // forever.
+  bool wait_until(std::optional<TimePoint> deadline);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  bool woken_ = false;
+};
+
+// Something that becomes ready. `data` of subscriptions and guard conditions points at one.
+class Waitable {
+ public:
+  Waitable() = default;
+  Waitable(const Waitable&) = delete;
+  Waitable& operator=(const Waitable&) = delete;
+  virtual ~Waitable() = default;
+
+  void attach(Waiter& waiter);
+  // After this, `waiter` is not touched any more.
+  void detach(Waiter& waiter);
+
+  virtual bool is_ready() = 0;
+
+ protected:
+  // Wakes whoever is attached. Any thread.
+  void notify();
+
+ private:
+  std::mutex mutex_;
+  std::vector<Waiter*> waiters_;
+};
+
+class GuardCondition final : public Waitable {
+ public:
+  void trigger();
+  bool is_ready() override { return triggered_.load(std::memory_order_acquire); }
+  // True once per trigger, or series of them.
+  bool consume() { return triggered_.exchange(false, std::memory_order_acq_rel); }
+
+ private:
+  std::atomic<bool> triggered_{false};
+};
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,85 @@
+# rosidl_generate_interfaces(<pkg> <file>... [DEPENDENCIES <pkg>...])
+#
+# Makes a package of messages and services: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the headers
+# <pkg>/msg/<name>.hpp and <pkg>/srv/<name>.hpp. Files are given as "msg/<Name>.msg" or "srv/<Name>.srv", relative to
+# the current folder. DEPENDENCIES are the packages whose messages they use; outside the stack find_package them first.
+# SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
+include_guard(GLOBAL)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
+include(StackPackage)
+
+set_property(GLOBAL PROPERTY ROSIDL_GENERATOR ${CMAKE_CURRENT_LIST_DIR}/../rosidl_generator)
+
+function(rosidl_generate_interfaces pkg)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "" "DEPENDENCIES")
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  find_package(fastcdr REQUIRED)
+  set(files ${ARG_UNPARSED_ARGUMENTS})
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/rosidl)
+  set(source ${output}/${pkg}__interfaces.cpp)
+  set(headers ${output}/include/${pkg}/detail/cdr_codecs.hpp)
+  set(types "")
+  foreach(file IN LISTS files)
+    if(NOT file MATCHES "^(msg|srv)/([A-Za-z0-9_]+)\\.(msg|srv)$")
+      message(FATAL_ERROR
+        "rosidl_generate_interfaces(${pkg}): '${file}' is neither msg/<Name>.msg nor srv/<Name>.srv")
+    endif()
+    set(namespace ${CMAKE_MATCH_1})
+    list(APPEND types ${pkg}/${namespace}/${CMAKE_MATCH_2})
+    string(REGEX REPLACE "(.)([A-Z][a-z]+)" "\\1_\\2" name ${CMAKE_MATCH_2})
+    string(REGEX REPLACE "([a-z0-9])([A-Z])" "\\1_\\2" name ${name})
+    string(TOLOWER ${name} name)
+    list(APPEND headers ${output}/include/${pkg}/${namespace}/${name}.hpp)
+    foreach(part IN ITEMS struct traits type_support)
+      list(APPEND headers ${output}/include/${pkg}/${namespace}/detail/${name}__${part}.hpp)
+    endforeach()
+    get_filename_component(folder share/${pkg}/${file} DIRECTORY)
+    if(NOT ARG_SKIP_INSTALL)
+      install(FILES ${file} DESTINATION ${folder})
+    endif()
+  endforeach()
+
+  set(known "")
+  set(libraries "")
+  foreach(dependency IN LISTS ARG_DEPENDENCIES)
+    if(NOT TARGET ${dependency}::${dependency})
+      message(FATAL_ERROR "rosidl_generate_interfaces(${pkg}): package '${dependency}' is not known; "
+        "write find_package(${dependency} REQUIRED) before")
+    endif()
+    get_target_property(of_dependency ${dependency}::${dependency} ROSIDL_INTERFACES)
+    if(of_dependency)
+      list(APPEND known ${of_dependency})
+    endif()
+    list(APPEND libraries ${dependency}::${dependency})
+  endforeach()
+
+  get_property(generator GLOBAL PROPERTY ROSIDL_GENERATOR)
+  file(GLOB generator_sources ${generator}/*.py)
+  set(paths ${files})
+  list(TRANSFORM paths PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  add_custom_command(
+    OUTPUT ${source} ${headers}
+    COMMAND ${Python3_EXECUTABLE} -B ${generator} --package ${pkg} --output ${output} --known ${known} -- ${paths}
+    DEPENDS ${paths} ${generator_sources}
+    COMMENT "Generating the C++ of ${pkg}"
+    VERBATIM)
+
+  if(ARG_SKIP_INSTALL)
+    set(skip_install SKIP_INSTALL)
+  endif()
+  stack_library(${pkg} ${skip_install}
+    SOURCES ${source} ${headers}
+    PUBLIC rosidl_runtime_cpp::rosidl_runtime_cpp rosidl_typesupport_cpp::rosidl_typesupport_cpp
+           rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp ${libraries}
+    PRIVATE fastcdr
+    INCLUDE ${output}/include)
+  set_target_properties(${pkg} PROPERTIES ROSIDL_INTERFACES "${types}")
+  set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES ROSIDL_INTERFACES)
+endfunction()
+
+# rosidl_get_typesupport_target(<variable> <pkg> <name>)
+#
+# The target that executables of the package itself link to use its messages.
+function(rosidl_get_typesupport_target variable pkg)
+  set(${variable} ${pkg}::${pkg} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,70 @@
+"""python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... FILE...
+
+Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp. The
+folder of a file, msg or srv, is the namespace of its types. --known names the messages of other packages that may be
+used.
+"""
+
+import argparse
+import os
+import sys
+
+if __package__ in (None, ''):
+    # Run by its path; the modules refer to each other as parts of a package.
+    sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    __package__ = 'rosidl_generator'
+
+from . import cpp_source, cpp_struct, cpp_traits  # noqa: E402
+from .interface_parser import InterfaceError, parse_file  # noqa: E402
+
+
+def write_if_changed(path: str, text: str) -> None:
+    """Leaves a file that has this text already alone, so that what includes it need not be compiled again."""
+    if os.path.exists(path):
+        with open(path, encoding='utf-8') as old:
+            if old.read() == text:
+                return
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, 'w', encoding='utf-8') as new:
+        new.write(text)
+
+
+def main() -> int:
+    arguments = argparse.ArgumentParser(prog='rosidl_generator', description=__doc__)
+    arguments.add_argument('--package', required=True)
+    arguments.add_argument('--output', required=True)
+    arguments.add_argument('--known', nargs='*', default=[])
+    arguments.add_argument('files', nargs='+', metavar='FILE')
+    options = arguments.parse_args()
+
+    namespaces = {path: os.path.basename(os.path.dirname(path)) for path in options.files}
+    names = {path: os.path.splitext(os.path.basename(path))[0] for path in options.files}
+    known = {*options.known,
+             *(f'{options.package}/msg/{names[path]}' for path in options.files if namespaces[path] == 'msg')}
+    files = []
+    errors = []
+    for path in options.files:
+        with open(path, encoding='utf-8') as source:
+            try:
+                files.append(parse_file(path, source.read(), options.package, namespaces[path], known))
+            except InterfaceError as error:
+                errors.append(str(error))
+    if errors:
+        print('\n'.join(errors), file=sys.stderr)
+        return 1
+
+    include = os.path.join(options.output, 'include')
+    for file in files:
+        write_if_changed(os.path.join(include, file.header), cpp_struct.main_header(file))
+        for part, emit in (('struct', cpp_struct.struct_header), ('traits', cpp_traits.traits_header),
+                           ('type_support', cpp_traits.type_support_header)):
+            write_if_changed(os.path.join(include, file.detail_header(part)), emit(file))
+    write_if_changed(os.path.join(include, cpp_source.codec_header_path(options.package)),
+                     cpp_source.codec_header(options.package, files))
+    write_if_changed(os.path.join(options.output, f'{options.package}__interfaces.cpp'),
+                     cpp_source.source(options.package, files))
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

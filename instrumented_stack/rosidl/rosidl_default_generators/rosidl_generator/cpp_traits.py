@@ -1,0 +1,88 @@
+"""Emits what templates ask about a type: msg/detail/<name>__traits.hpp and <name>__type_support.hpp."""
+
+from typing import List
+
+from . import cpp_types
+from .interface_definition import Field, InterfaceFile, Message
+
+
+def traits_header(file: InterfaceFile) -> str:
+    printing = '\n'.join(_printing_declarations(message) for message in file.messages)
+    traits = '\n'.join(_message_traits(message) for message in file.messages)
+    if file.service:
+        traits += '\n' + _names(file.service) + f'''
+template <>
+struct is_service<{file.service.cpp}> : std::true_type {{}};
+template <>
+struct is_service_request<{file.service.request.cpp}> : std::true_type {{}};
+template <>
+struct is_service_response<{file.service.response.cpp}> : std::true_type {{}};
+'''
+    body = (cpp_types.namespace_blocks(file.package, file.namespace, printing)
+            + f'\nnamespace rosidl_generator_traits {{\n\n{traits}\n}}  // namespace rosidl_generator_traits\n')
+    includes = ['<cstddef>', '<iosfwd>', '<string>', f'"{file.detail_header("struct")}"']
+    nested = {t for message in file.messages for t in cpp_types.messages_used(message)}
+    includes += sorted(f'"{InterfaceFile(str(t.package), "msg", t.name, []).detail_header("traits")}"' for t in nested)
+    return cpp_types.header(file.detail_header('traits'), [*includes, '"rosidl_runtime_cpp/traits.hpp"'], body)
+
+
+def _printing_declarations(message: Message) -> str:
+    return f'''/// As YAML, a member per line.
+void to_block_style_yaml(const {message.name}& message, std::ostream& out, std::size_t indentation = 0);
+/// As YAML within one line.
+void to_flow_style_yaml(const {message.name}& message, std::ostream& out);
+std::string to_yaml(const {message.name}& message, bool use_flow_style = false);
+'''
+
+
+def _names(type_) -> str:
+    return f'''template <>
+inline const char* data_type<{type_.cpp}>() {{
+  return "{type_.cpp}";
+}}
+template <>
+inline const char* name<{type_.cpp}>() {{
+  return "{type_.cpp.replace('::', '/')}";
+}}
+'''
+
+
+def _message_traits(message: Message) -> str:
+    return _names(message) + f'''template <>
+struct is_message<{message.cpp}> : std::true_type {{}};
+template <>
+struct has_fixed_size<{message.cpp}> : std::bool_constant<{_all(message, 'has_fixed_size')}> {{}};
+template <>
+struct has_bounded_size<{message.cpp}> : std::bool_constant<{_all(message, 'has_bounded_size')}> {{}};
+'''
+
+
+def _all(message: Message, trait: str) -> str:
+    conditions: List[str] = []
+    for member in message.members:
+        if not _may_have(trait, member):
+            return 'false'
+        if member.type.is_message:
+            conditions.append(f'{trait}<{cpp_types.element_type(member.type)}>::value')
+    return ' && '.join(dict.fromkeys(conditions)) or 'true'
+
+
+def _may_have(trait: str, member: Field) -> bool:
+    if trait == 'has_fixed_size':
+        return not member.type.is_string and not member.type.is_sequence
+    return ((not member.type.is_string or member.type.string_bound is not None)
+            and (not member.type.is_sequence or member.type.sequence_bound is not None))
+
+
+def type_support_header(file: InterfaceFile) -> str:
+    handles = ''.join(f'''template <>
+const rosidl_message_type_support_t* get_message_type_support_handle<{message.cpp}>();
+''' for message in file.messages)
+    includes = [f'"{file.detail_header("struct")}"', '"rosidl_typesupport_cpp/message_type_support.hpp"']
+    if file.service:
+        handles += f'''template <>
+const rosidl_service_type_support_t* get_service_type_support_handle<{file.service.cpp}>();
+'''
+        includes.append('"rosidl_typesupport_cpp/service_type_support.hpp"')
+    body = f'namespace rosidl_typesupport_cpp {{\n\n{handles}\n}}  // namespace rosidl_typesupport_cpp\n'
+    return cpp_types.header(file.detail_header('type_support'), includes, body)

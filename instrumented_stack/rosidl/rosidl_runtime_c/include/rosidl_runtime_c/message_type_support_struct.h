@@ -1,0 +1,31 @@
+#ifndef ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_
+#define ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rosidl_message_type_support_t rosidl_message_type_support_t;
+
+/// Gives the type support with the identifier asked for, or null if `handle` cannot lead to it.
+typedef const rosidl_message_type_support_t* (*rosidl_message_typesupport_handle_function)(
+    const rosidl_message_type_support_t* handle, const char* identifier);
+
+/// What a middleware needs to know about a message type. It has static storage duration.
+struct rosidl_message_type_support_t {
+  /// Says what `data` is: rosidl_typesupport_fastrtps_cpp's identifier and message_type_support_callbacks_t here.
+  const char* typesupport_identifier;
+  const void* data;
+  rosidl_message_typesupport_handle_function func;
+};
+
+static inline const rosidl_message_type_support_t* get_message_typesupport_handle(
+    const rosidl_message_type_support_t* handle, const char* identifier) {
+  return handle->func(handle, identifier);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif  // ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_

@@ -1,0 +1,35 @@
+#ifndef ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_
+#define ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_
+
+#include "rosidl_runtime_c/message_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rosidl_service_type_support_t rosidl_service_type_support_t;
+
+/// Gives the type support with the identifier asked for, or null if `handle` cannot lead to it.
+typedef const rosidl_service_type_support_t* (*rosidl_service_typesupport_handle_function)(
+    const rosidl_service_type_support_t* handle, const char* identifier);
+
+/// What a middleware needs to know about a service type. It has static storage duration.
+struct rosidl_service_type_support_t {
+  /// Says what `data` is: rosidl_typesupport_fastrtps_cpp's identifier and service_type_support_callbacks_t here.
+  const char* typesupport_identifier;
+  const void* data;
+  rosidl_service_typesupport_handle_function func;
+  const rosidl_message_type_support_t* request_typesupport;
+  const rosidl_message_type_support_t* response_typesupport;
+};
+
+static inline const rosidl_service_type_support_t* get_service_typesupport_handle(
+    const rosidl_service_type_support_t* handle, const char* identifier) {
+  return handle->func(handle, identifier);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif  // ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_

@@ -1,0 +1,46 @@
+#ifndef ROSIDL_RUNTIME_CPP__TRAITS_HPP_
+#define ROSIDL_RUNTIME_CPP__TRAITS_HPP_
+
+#include <string>
+#include <type_traits>
+
+/// Facts about message and service types, specialised by the generated code of each interface package.
+namespace rosidl_generator_traits {
+
+/// "std_msgs::msg::String"
+template <typename T>
+const char* data_type();
+
+/// "std_msgs/msg/String"
+template <typename T>
+const char* name();
+
+template <typename T>
+struct is_message : std::false_type {};
+
+template <typename T>
+struct is_service : std::false_type {};
+
+/// T is the request, or the response, of a service.
+template <typename T>
+struct is_service_request : std::false_type {};
+template <typename T>
+struct is_service_response : std::false_type {};
+
+/// Every object of the type has the same serialised size.
+template <typename T>
+struct has_fixed_size : std::false_type {};
+
+/// There is an upper bound of the serialised size.
+template <typename T>
+struct has_bounded_size : std::false_type {};
+
+/// The message as YAML. The generated function, which has more options, is found through the type of its argument.
+template <typename Message, typename = std::enable_if_t<is_message<Message>::value>>
+std::string to_yaml(const Message& message) {
+  return to_yaml(message, false);
+}
+
+}  // namespace rosidl_generator_traits
+
+#endif  // ROSIDL_RUNTIME_CPP__TRAITS_HPP_

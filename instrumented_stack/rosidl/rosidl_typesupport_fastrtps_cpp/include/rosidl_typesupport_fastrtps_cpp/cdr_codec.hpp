@@ -1,0 +1,44 @@
+#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_CODEC_HPP_
+#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_CODEC_HPP_
+
+#include <cstddef>
+#include <limits>
+
+namespace eprosima::fastcdr {
+class Cdr;
+}
+
+namespace rosidl_typesupport_fastrtps_cpp {
+
+struct MaxSize;
+
+/// How a message type is turned into CDR bytes and back. Generated code specialises it for each message:
+///   write      throws if the buffer is too small
+///   read       throws if the bytes are cut short or hold a longer sequence than the type allows
+///   end_after  the position after the message, if it is written at `position`
+///   add_to     adds the message to an upper bound
+/// Positions are bytes from the beginning of the payload, which alignment counts from.
+template <typename Message>
+struct CdrCodec;
+
+/// The sum of the sizes that the members of a type can have at most.
+struct MaxSize {
+  static constexpr std::size_t kUnbounded = std::numeric_limits<std::size_t>::max();
+
+  std::size_t end = 0;
+  /// False once something without an upper bound was added: it counts as empty.
+  bool bounded = true;
+  /// The bytes and the memory have the same layout.
+  bool plain = true;
+
+  /// Adds a member of type T; `string_bound` is the greatest length of each string in it.
+  template <typename T>
+  void add(std::size_t string_bound = kUnbounded);
+
+ private:
+  void add_primitives(std::size_t size, std::size_t count);
+};
+
+}  // namespace rosidl_typesupport_fastrtps_cpp
+
+#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_CODEC_HPP_

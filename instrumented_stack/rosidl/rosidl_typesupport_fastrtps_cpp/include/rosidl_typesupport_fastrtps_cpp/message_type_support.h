@@ -1,0 +1,39 @@
+#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__MESSAGE_TYPE_SUPPORT_H_
+#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__MESSAGE_TYPE_SUPPORT_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "rosidl_runtime_c/message_type_support_struct.h"
+
+namespace eprosima::fastcdr {
+class Cdr;
+}
+
+/// Values of `bounds_info` of message_type_support_callbacks_t::max_serialized_size.
+#define ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE 0x00
+/// There is an upper bound of the serialised size.
+#define ROSIDL_TYPESUPPORT_FASTRTPS_BOUNDED_TYPE 0x01
+/// Bounded, and the object's memory has the very layout of its CDR form.
+#define ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE 0x03
+
+/// How Fast CDR reads and writes one message type. All sizes are bytes of the payload, without the four bytes of the
+/// encapsulation header, and alignment counts from the payload's first byte. Any thread; the object must not change
+/// meanwhile.
+typedef struct message_type_support_callbacks_t {
+  /// "std_msgs::msg"
+  const char* message_namespace_;
+  /// "String"
+  const char* message_name_;
+  /// Writes the message. False if the buffer is too small.
+  bool (*cdr_serialize)(const void* untyped_ros_message, eprosima::fastcdr::Cdr& cdr);
+  /// Reads into the message. False if the bytes are cut short or hold a longer sequence than the type allows; the
+  /// message is then valid, but holds a part only. The bound of a string is not checked, as nowhere in ROS 2.
+  bool (*cdr_deserialize)(eprosima::fastcdr::Cdr& cdr, void* untyped_ros_message);
+  /// What cdr_serialize would write, exactly.
+  uint32_t (*get_serialized_size)(const void* untyped_ros_message);
+  /// The upper bound if `bounds_info` says that there is one; otherwise the size with all unbounded parts empty.
+  size_t (*max_serialized_size)(char& bounds_info);
+} message_type_support_callbacks_t;
+
+#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__MESSAGE_TYPE_SUPPORT_H_

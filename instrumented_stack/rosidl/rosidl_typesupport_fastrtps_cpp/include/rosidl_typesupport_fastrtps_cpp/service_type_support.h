@@ -1,0 +1,18 @@
+#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__SERVICE_TYPE_SUPPORT_H_
+#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__SERVICE_TYPE_SUPPORT_H_
+
+#include "rosidl_runtime_c/message_type_support_struct.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+
+/// Names of a service type and the type supports of its two messages.
+typedef struct service_type_support_callbacks_t {
+  /// "rcl_interfaces::srv"
+  const char* service_namespace_;
+  /// "GetParameters"
+  const char* service_name_;
+  /// Of GetParameters_Request and GetParameters_Response.
+  const rosidl_message_type_support_t* request_members_;
+  const rosidl_message_type_support_t* response_members_;
+} service_type_support_callbacks_t;
+
+#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__SERVICE_TYPE_SUPPORT_H_

@@ -1,0 +1,79 @@
+#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_
+#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_
+
+#include <cstring>
+#include <exception>
+
+#include "rosidl_typesupport_cpp/message_type_support.hpp"
+#include "rosidl_typesupport_fastrtps_cpp/cdr_members.hpp"
+#include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
+#include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
+#include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
+
+/// Makes the handles of a package's types from their codecs. Only the generated source files include this header.
+namespace rosidl_typesupport_fastrtps_cpp {
+
+/// The callbacks of type support: the boundary at which exceptions become return values.
+template <typename Message>
+struct Callbacks {
+  static bool write(const void* message, eprosima::fastcdr::Cdr& cdr) {
+    try {
+      CdrCodec<Message>::write(cdr, *static_cast<const Message*>(message));
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+  static bool read(eprosima::fastcdr::Cdr& cdr, void* message) {
+    try {
+      CdrCodec<Message>::read(cdr, *static_cast<Message*>(message));
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+  static uint32_t size(const void* message) {
+    return static_cast<uint32_t>(CdrCodec<Message>::end_after(*static_cast<const Message*>(message), 0));
+  }
+  static std::size_t max_size(char& bounds_info) {
+    MaxSize size;
+    CdrCodec<Message>::add_to(size);
+    bounds_info = ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
+    if (size.bounded) {
+      bounds_info = size.plain ? ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE : ROSIDL_TYPESUPPORT_FASTRTPS_BOUNDED_TYPE;
+    }
+    return size.end;
+  }
+};
+
+/// These handles lead to nothing but themselves.
+template <typename Handle>
+const Handle* itself(const Handle* handle, const char* identifier) {
+  return std::strcmp(identifier, typesupport_identifier) == 0 ? handle : nullptr;
+}
+
+template <typename Message>
+const rosidl_message_type_support_t* message_type_support(const char* message_namespace, const char* message_name) {
+  using Functions = Callbacks<Message>;
+  static const message_type_support_callbacks_t callbacks{message_namespace, message_name,    Functions::write,
+                                                          Functions::read,   Functions::size, Functions::max_size};
+  static const rosidl_message_type_support_t handle{typesupport_identifier, &callbacks,
+                                                    itself<rosidl_message_type_support_t>};
+  return &handle;
+}
+
+template <typename Service>
+const rosidl_service_type_support_t* service_type_support(const char* service_namespace, const char* service_name) {
+  using rosidl_typesupport_cpp::get_message_type_support_handle;
+  static const service_type_support_callbacks_t callbacks{
+      service_namespace, service_name, get_message_type_support_handle<typename Service::Request>(),
+      get_message_type_support_handle<typename Service::Response>()};
+  static const rosidl_service_type_support_t handle{typesupport_identifier, &callbacks,
+                                                    itself<rosidl_service_type_support_t>, callbacks.request_members_,
+                                                    callbacks.response_members_};
+  return &handle;
+}
+
+}  // namespace rosidl_typesupport_fastrtps_cpp
+
+#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_

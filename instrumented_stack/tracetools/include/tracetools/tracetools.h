@@ -1,0 +1,65 @@
+#ifndef TRACETOOLS__TRACETOOLS_H_
+#define TRACETOOLS__TRACETOOLS_H_
+
+/// Tracepoints of the ROS 2 layers, without a tracer's headers: instrument through the three macros below.
+///
+///   TRACETOOLS_TRACEPOINT(rcl_take, message);
+///
+/// When computing an argument is expensive, ask first and then record without asking again; asking twice could record
+/// an argument that was not prepared:
+///
+///   if (TRACETOOLS_TRACEPOINT_ENABLED(rmw_publisher_init)) {
+///     …
+///     TRACETOOLS_DO_TRACEPOINT(rmw_publisher_init, handle, gid);
+///   }
+///
+/// A tracepoint that no session records costs a call, a load and a branch. All functions may be called from any thread.
+
+#include "tracetools/config.h"
+
+#ifdef TRACETOOLS_DISABLED
+
+#define TRACETOOLS_TRACEPOINT(...) ((void)0)
+#define TRACETOOLS_TRACEPOINT_ENABLED(event) false
+#define TRACETOOLS_DO_TRACEPOINT(...) ((void)0)
+
+#else
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracetools/events.h"
+
+#define TRACETOOLS_TRACEPOINT(event, ...) ros_trace_##event(__VA_ARGS__)
+#define TRACETOOLS_TRACEPOINT_ENABLED(event) ros_trace_enabled_##event()
+#define TRACETOOLS_DO_TRACEPOINT(event, ...) ros_trace_do_##event(__VA_ARGS__)
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Whether the library was built with tracepoints that can record (see TRACETOOLS_TRACEPOINTS_EXCLUDED).
+bool ros_trace_compile_status(void);
+
+/// Whether the provider is loaded in this process, so that events are recorded when a session asks for them.
+/// False with TRACETOOLS_RUNTIME_DISABLE=1 in the environment and when libtracetools_provider.so could not be opened.
+bool ros_trace_runtime_status(void);
+
+/// For each event: record it if a session wants it; whether a session wants it; record it without asking.
+#define TRACETOOLS_DECLARE_EVENT(name, parameters, arguments) \
+  void ros_trace_##name parameters;                           \
+  bool ros_trace_enabled_##name(void);                        \
+  void ros_trace_do_##name parameters;
+
+TRACETOOLS_EVENTS(TRACETOOLS_DECLARE_EVENT)
+
+#undef TRACETOOLS_DECLARE_EVENT
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif  // TRACETOOLS_DISABLED
+
+#endif  // TRACETOOLS__TRACETOOLS_H_

@@ -1,0 +1,3 @@
+/* libtracetools_provider.so: the probes. C, because LTTng's probe macros are not C++. */
+#define LTTNG_UST_TRACEPOINT_CREATE_PROBES
+#include "provider.h"

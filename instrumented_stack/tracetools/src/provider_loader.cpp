@@ -1,0 +1,58 @@
+/// Opens the probes when libtracetools.so is loaded. They are a library of their own so that a process that opts out
+/// (TRACETOOLS_RUNTIME_DISABLE=1) gets neither lttng-ust nor its two threads.
+#include "provider_loader.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace tracetools {
+namespace {
+
+bool environment_says_yes(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+// The provider stands beside this library. Not left to the run path: under a sanitizer it is that of the sanitizer's
+// library, which intercepts dlopen.
+std::string provider_path() {
+  Dl_info self;
+  std::string folder;
+  if (dladdr(reinterpret_cast<const void*>(&provider_is_loaded), &self) != 0) {
+    const std::string_view path = self.dli_fname;
+    folder = path.substr(0, path.rfind('/') + 1);
+  }
+  return folder + "libtracetools_provider.so";
+}
+
+bool loaded = false;
+
+// Runs when the library is loaded, before main and before the static objects of whatever links it. There is no
+// counterpart: threads may fire events until the very end of the process, when closing the probes would pull the code
+// from under them.
+[[gnu::constructor]] void open_provider() {
+  if (environment_says_yes("TRACETOOLS_RUNTIME_DISABLE")) {
+    if (environment_says_yes("TRACETOOLS_VERBOSE")) {
+      std::fputs("tracetools: tracing is disabled by TRACETOOLS_RUNTIME_DISABLE\n", stderr);
+    }
+    return;
+  }
+  // Global, for the tracepoints of this library look the probes' symbols up.
+  loaded = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL) != nullptr;
+  if (!loaded) {
+    std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
+  }
+}
+
+}  // namespace
+
+bool provider_is_loaded() noexcept {
+  return loaded;
+}
+
+}  // namespace tracetools

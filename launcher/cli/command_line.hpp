@@ -1,0 +1,31 @@
+// The command line of `launch FILE` and `launch PACKAGE FILE`.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace launch {
+
+enum class CommandMode { kRun, kShowArguments, kDryRunText, kDryRunJson };
+
+struct CommandLine {
+  CommandMode mode = CommandMode::kRun;
+  std::vector<std::string> target;  // a path, or a package and a file name
+  std::vector<std::pair<std::string, std::string>> arguments;  // name:=value, in order
+  bool debug = false;
+  bool timing = false;
+  bool show_all_output = false;
+  std::string launch_prefix;
+  std::string launch_prefix_filter;
+};
+
+// What to exit with at once: after --help, --version or a wrong command line. The text is already printed.
+struct ExitNow {
+  int code;
+};
+
+std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* const* argv);
+
+}  // namespace launch

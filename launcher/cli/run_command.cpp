@@ -1,0 +1,138 @@
+#include "launcher/cli/run_command.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "actions/builtin_actions.hpp"
+#include "launcher/cli/dry_run.hpp"
+#include "launcher/cli/find_launch_file.hpp"
+#include "launcher/core/introspection.hpp"
+#include "launcher/core/launch_plan.hpp"
+#include "launcher/core/launch_service.hpp"
+#include "launcher/process/process_messages.hpp"
+
+namespace launch {
+
+namespace {
+
+void print_error(const LaunchError& error) {
+  const bool colour = ::isatty(STDERR_FILENO) != 0;
+  fmt::print(stderr, "{}", render(error.diagnostics(), colour));
+}
+
+void set_arguments(const CommandLine& command, Scope& scope) {
+  for (const auto& [name, value] : command.arguments) {
+    scope.configurations.insert_or_assign(name, value);
+  }
+  if (!command.launch_prefix.empty()) {
+    scope.configurations.insert_or_assign("launch-prefix", command.launch_prefix);
+  }
+  if (!command.launch_prefix_filter.empty()) {
+    scope.configurations.insert_or_assign("launch-prefix-filter", command.launch_prefix_filter);
+  }
+}
+
+void print_timing(const std::vector<TimedStep>& steps) {
+  fmt::print(stderr, "timing:\n");
+  for (const TimedStep& step : steps) {
+    fmt::print(stderr, "  {:<36} {:>9.3f} ms\n", step.name, std::chrono::duration<double, std::milli>(step.took).count());
+  }
+}
+
+// Everything that a run needs, in the order in which it must be destroyed backwards.
+int run(const CommandLine& command, const Registry& registry, const Environment& environment,
+        const std::shared_ptr<const LaunchDescription>& description, TimedStep load) {
+  // A signal that was ignored when we started, as by a shell that runs us in the background, would never arrive.
+  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM}) {
+    ::signal(signal, SIG_DFL);
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+
+  const LogDirectory log_directory = LogDirectory::create(environment);
+  OutputRouter::Options options;
+  options.log_directory = log_directory.path;
+  options.screen_level = command.debug ? LogLevel::kDebug : LogLevel::kInfo;
+  options.colour = ::isatty(STDOUT_FILENO) != 0;
+  OutputRouter output(options);
+  output.message(LogLevel::kInfo, "launch", fmt::format("All log files can be found below {}", log_directory.path));
+  output.message(LogLevel::kInfo, "launch",
+                 fmt::format("Default logging verbosity is set to {}", command.debug ? "DEBUG" : "INFO"));
+
+  const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
+  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
+  ProcessSupervisor supervisor(*loop, *runner, output);
+  supervisor.observe(process_messages(output));
+
+  LaunchContext context(registry, environment, own_install_prefix(),
+                        [&output](LogLevel level, std::string_view logger, std::string_view text) {
+                          output.message(level, logger, text);
+                        });
+  context.scope().log_directory = log_directory.path;
+  set_arguments(command, context.scope());
+
+  LaunchService service(context, *loop, supervisor, [&output](const LaunchError& error) {
+    output.flush();
+    print_error(error);
+  });
+  const int exit_code = service.run(*description);
+  output.flush();
+  if (command.timing) {
+    std::vector<TimedStep> steps = {std::move(load)};
+    steps.insert(steps.end(), service.timing().begin(), service.timing().end());
+    print_timing(steps);
+  }
+  return exit_code;
+}
+
+int dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
+            const Environment& environment) {
+  const LaunchPlan plan = plan_launch(context, description);
+  const bool as_json = command.mode == CommandMode::kDryRunJson;
+  fmt::print("{}", as_json ? plan_as_json(plan, environment) : plan_as_text(plan, environment));
+  return 0;
+}
+
+}  // namespace
+
+std::string own_install_prefix() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path().string();
+}
+
+int run_command(const CommandLine& command, Environment environment) {
+  if (command.show_all_output) {
+    environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
+  }
+  const Registry registry = builtin_actions();
+  try {
+    LaunchContext context(registry, environment, own_install_prefix(),
+                          [](LogLevel, std::string_view logger, std::string_view text) {
+                            fmt::print(stderr, "[{}]: {}\n", logger, text);
+                          });
+    set_arguments(command, context.scope());
+
+    const auto before = std::chrono::steady_clock::now();
+    const auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    const TimedStep load = {"load", std::chrono::steady_clock::now() - before};
+    switch (command.mode) {
+      case CommandMode::kShowArguments:
+        fmt::print("{}", show_arguments(find_arguments(*description, registry, context.scope())));
+        return 0;
+      case CommandMode::kDryRunText:
+      case CommandMode::kDryRunJson:
+        return dry_run(command, context, *description, environment);
+      case CommandMode::kRun:
+        return run(command, registry, environment, description, load);
+    }
+  } catch (const LaunchError& error) {
+    print_error(error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "launch: error: {}\n", error.what());
+  }
+  return 1;
+}
+
+}  // namespace launch

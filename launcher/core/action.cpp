@@ -1,0 +1,13 @@
+#include "launcher/core/action.hpp"
+
+#include "launcher/core/launch_context.hpp"
+
+namespace launch {
+
+void Action::visit(LaunchContext& context) const {
+  if (condition_.holds(context.scope())) {
+    execute(context);
+  }
+}
+
+}  // namespace launch

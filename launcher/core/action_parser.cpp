@@ -1,0 +1,238 @@
+#include "launcher/core/action_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "launcher/substitution/template_parser.hpp"
+
+namespace launch {
+
+namespace {
+
+// What the messages call a value of another type than the declared one.
+std::string kind_of(const Value& value) {
+  return value.scalar() != nullptr ? std::string(type_name(value.scalar()->type)) : "list";
+}
+
+std::string expected_kind(AttributeType type) {
+  switch (type) {
+    case AttributeType::kBoolean:
+      return "bool";
+    case AttributeType::kFloat:
+      return "float";
+    case AttributeType::kInteger:
+      return "int";
+    default:
+      return "str";
+  }
+}
+
+bool accepts(AttributeType type, const Scalar& scalar) {
+  using Type = Scalar::Type;
+  if (scalar.type == Type::kUntyped || scalar.type == Type::kString) {
+    return true;
+  }
+  return (type == AttributeType::kBoolean && scalar.type == Type::kBool) ||
+         (type == AttributeType::kFloat && scalar.type == Type::kFloat) ||
+         (type == AttributeType::kInteger && scalar.type == Type::kInt);
+}
+
+std::string help_for_type(AttributeType type, const Value& value) {
+  const Scalar* const scalar = value.scalar();
+  if (scalar == nullptr || scalar->type == Scalar::Type::kNull) {
+    return {};
+  }
+  if (type == AttributeType::kFloat && scalar->type == Scalar::Type::kInt) {
+    return fmt::format("write {}.0", scalar->text.text());
+  }
+  if (type == AttributeType::kBoolean) {
+    return "write true or false";
+  }
+  return fmt::format("put it in quotes: \"{}\"", scalar->text.text());
+}
+
+}  // namespace
+
+template <typename Step>
+void ActionParser::collect(Step step) {
+  try {
+    step();
+  } catch (const LaunchError& error) {
+    errors_.insert(errors_.end(), error.diagnostics().begin(), error.diagnostics().end());
+  }
+}
+
+std::vector<ActionPtr> ActionParser::parse(const std::vector<Entity>& entities) {
+  errors_.clear();
+  std::vector<ActionPtr> actions = parse_actions(entities);
+  if (!errors_.empty()) {
+    throw LaunchError(std::move(errors_));
+  }
+  return actions;
+}
+
+std::vector<ActionPtr> ActionParser::parse_actions(const std::vector<Entity>& entities) {
+  std::vector<ActionPtr> actions;
+  for (const Entity& entity : entities) {
+    if (ActionPtr action = parse_action(entity)) {
+      actions.push_back(std::move(action));
+    }
+  }
+  return actions;
+}
+
+ActionPtr ActionParser::parse_action(const Entity& entity) {
+  const ActionType* const type = registry_.find(entity.type_name);
+  if (type == nullptr) {
+    std::vector<std::string> tags;
+    for (const auto& [tag, unused] : registry_.types()) {
+      tags.push_back(tag);
+    }
+    errors_.push_back({Severity::kError, fmt::format("unrecognized entity of the type '{}'", entity.type_name),
+                       entity.where, did_you_mean(entity.type_name, tags)});
+    return nullptr;
+  }
+
+  const std::size_t errors_before = errors_.size();
+  Fields fields(entity.where);
+  parse_attributes(entity, type->attributes, true, fields);
+  parse_condition(entity, fields);
+
+  if (type->holds_actions && !entity.has_children_list) {
+    errors_.push_back({Severity::kError, fmt::format("expected '{}' to have a list of actions", entity.type_name),
+                       entity.where, "add a `children:` list"});
+  }
+  for (const Entity& child : entity.children) {
+    const auto item = std::find_if(type->items.begin(), type->items.end(),
+                                   [&](const ItemSpec& spec) { return spec.tag == child.type_name; });
+    if (item != type->items.end()) {
+      parse_item(child, *item, fields);
+    } else if (type->holds_actions && registry_.find(child.type_name) != nullptr) {
+      if (ActionPtr action = parse_action(child)) {
+        fields.actions_.push_back(std::move(action));
+      }
+    } else {
+      report_unknown_child(entity, child, type->items, type->holds_actions);
+    }
+  }
+
+  ActionPtr action;
+  if (errors_.size() == errors_before) {
+    collect([&] { action = type->make(fields); });
+  }
+  return action;
+}
+
+void ActionParser::report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items,
+                                        bool actions) {
+  std::vector<std::string> known;
+  for (const ItemSpec& item : items) {
+    known.push_back(item.tag);
+  }
+  if (actions) {
+    for (const auto& [tag, unused] : registry_.types()) {
+      known.push_back(tag);
+    }
+  }
+  const std::string message = actions ? fmt::format("unrecognized entity of the type '{}'", child.type_name)
+                                      : fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name);
+  errors_.push_back({Severity::kError, message, child.where, did_you_mean(child.type_name, known)});
+}
+
+void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, bool conditions,
+                                    Fields& fields) {
+  for (const Attribute& attribute : entity.attributes) {
+    if (conditions && (attribute.name == "if" || attribute.name == "unless")) {
+      continue;
+    }
+    const auto spec = std::find_if(specs.begin(), specs.end(),
+                                   [&](const AttributeSpec& candidate) { return candidate.name == attribute.name; });
+    if (spec == specs.end()) {
+      std::vector<std::string> known;
+      for (const AttributeSpec& candidate : specs) {
+        known.push_back(candidate.name);
+      }
+      if (conditions) {
+        known.insert(known.end(), {"if", "unless"});
+      }
+      errors_.push_back({Severity::kError,
+                         fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
+                         attribute.name_where, did_you_mean(attribute.name, known)});
+      continue;
+    }
+    collect([&] {
+      fields.attributes_.emplace(attribute.name,
+                                 Fields::Entry{parse_value(entity, attribute, *spec), attribute.value.where});
+    });
+  }
+  for (const AttributeSpec& spec : specs) {
+    if (spec.required && entity.find(spec.name) == nullptr) {
+      errors_.push_back({Severity::kError,
+                         fmt::format("attribute '{}' not found in entity '{}'", spec.name, entity.type_name),
+                         entity.where, spec.help.empty() ? std::string() : fmt::format("{}: {}", spec.name, spec.help)});
+    }
+  }
+}
+
+Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& attribute,
+                                         const AttributeSpec& spec) const {
+  if (spec.type == AttributeType::kParameter) {
+    return attribute.value;
+  }
+  const Scalar* const scalar = attribute.value.scalar();
+  if (scalar == nullptr || !accepts(spec.type, *scalar)) {
+    throw LaunchError(fmt::format("attribute '{}' of '{}' is expected to be of type {}, got {}", attribute.name,
+                                  entity.type_name, expected_kind(spec.type), kind_of(attribute.value)),
+                      attribute.value.where, help_for_type(spec.type, attribute.value));
+  }
+  if (spec.type == AttributeType::kLiteral) {
+    return unescape(scalar->text.text());
+  }
+  Template parsed = parse_template(scalar->text);
+  switch (spec.type) {
+    case AttributeType::kBoolean:
+      return BooleanField(std::move(parsed));
+    case AttributeType::kFloat:
+      return NumberField(std::move(parsed), false);
+    case AttributeType::kInteger:
+      return NumberField(std::move(parsed), true);
+    case AttributeType::kCommandLine:
+      return split_command_line(parsed);
+    default:
+      return parsed;
+  }
+}
+
+void ActionParser::parse_condition(const Entity& entity, Fields& fields) {
+  const Attribute* const if_given = entity.find("if");
+  const Attribute* const unless_given = entity.find("unless");
+  if (if_given != nullptr && unless_given != nullptr) {
+    errors_.push_back({Severity::kError, "if and unless conditions can't be used simultaneously",
+                       unless_given->name_where, "use one, with $(and …) or $(not …) where both are needed"});
+    return;
+  }
+  const Attribute* const given = if_given != nullptr ? if_given : unless_given;
+  if (given == nullptr) {
+    return;
+  }
+  collect([&] {
+    const AttributeSpec spec{given->name, AttributeType::kText, false, {}, {}};
+    fields.condition_ = Condition(std::get<Template>(parse_value(entity, *given, spec)), given == unless_given);
+  });
+}
+
+void ActionParser::parse_item(const Entity& entity, const ItemSpec& spec, Fields& parent) {
+  Fields fields(entity.where);
+  parse_attributes(entity, spec.attributes, false, fields);
+  for (const Entity& child : entity.children) {
+    if (spec.recursive && child.type_name == spec.tag) {
+      parse_item(child, spec, fields);
+    } else {
+      report_unknown_child(entity, child, {}, false);
+    }
+  }
+  parent.items_.emplace_back(entity.type_name, std::move(fields));
+}
+
+}  // namespace launch

@@ -1,0 +1,37 @@
+// Checks an entity tree against the declarations of the registry and makes its actions.
+#pragma once
+
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/core/action.hpp"
+#include "launcher/core/fields.hpp"
+#include "launcher/core/registry.hpp"
+#include "launcher/frontend/entity.hpp"
+
+namespace launch {
+
+class ActionParser {
+ public:
+  explicit ActionParser(const Registry& registry) : registry_(registry) {}
+
+  // Makes the actions among `entities`. Every error of the tree is found before LaunchError is thrown with them all.
+  std::vector<ActionPtr> parse(const std::vector<Entity>& entities);
+
+ private:
+  std::vector<ActionPtr> parse_actions(const std::vector<Entity>& entities);
+  ActionPtr parse_action(const Entity& entity);
+  void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, bool conditions, Fields& fields);
+  void parse_condition(const Entity& entity, Fields& fields);
+  void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
+  Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
+  void report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items, bool actions);
+  // Runs `step`, keeping the errors that it throws.
+  template <typename Step>
+  void collect(Step step);
+
+  const Registry& registry_;
+  std::vector<Diagnostic> errors_;
+};
+
+}  // namespace launch

@@ -1,0 +1,134 @@
+#include "launcher/core/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "launcher/substitution/boolean.hpp"
+
+namespace launch {
+
+namespace {
+
+bool to_boolean(const std::string& text, const SourceRange& where) {
+  const std::optional<bool> value = yaml_boolean(text);
+  if (!value) {
+    throw LaunchError(fmt::format("expected a boolean, got '{}'", text), where, "write true or false");
+  }
+  return *value;
+}
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\n\r");
+  if (first == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(first, text.find_last_not_of(" \t\n\r") - first + 1);
+}
+
+}  // namespace
+
+BooleanField::BooleanField(Template source) : source_(std::move(source)) {
+  if (source_->is_literal()) {
+    Scope nothing;
+    fallback_ = to_boolean(source_->perform(nothing), source_->where());
+    source_.reset();
+  }
+}
+
+bool BooleanField::perform(Scope& scope) const {
+  return source_ ? to_boolean(source_->perform(scope), source_->where()) : fallback_;
+}
+
+NumberField::NumberField(Template source, bool whole) : source_(std::move(source)), whole_(whole) {
+  if (source_.is_literal()) {
+    Scope nothing;
+    convert(source_.perform(nothing));
+  }
+}
+
+double NumberField::convert(const std::string& text) const {
+  std::string_view digits = trim(text);
+  if (!digits.empty() && digits.front() == '+') {
+    digits.remove_prefix(1);
+  }
+  double value = 0.0;
+  std::int64_t whole_value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto result = whole_ ? std::from_chars(digits.data(), end, whole_value) : std::from_chars(digits.data(), end, value);
+  if (digits.empty() || result.ec != std::errc() || result.ptr != end) {
+    throw LaunchError(fmt::format("expected a {}, got '{}'", whole_ ? "whole number" : "number", text), source_.where());
+  }
+  if (whole_) {
+    value = static_cast<double>(whole_value);
+  }
+  if (not_negative_ && !(value >= 0.0)) {
+    throw LaunchError(fmt::format("expected a number that is not negative, got '{}'", text), source_.where());
+  }
+  return value;
+}
+
+double NumberField::perform(Scope& scope) const { return convert(source_.perform(scope)); }
+
+void NumberField::require_not_negative() {
+  not_negative_ = true;
+  if (source_.is_literal()) {
+    Scope nothing;
+    convert(source_.perform(nothing));
+  }
+}
+
+const SourceRange& Fields::where(std::string_view attribute) const {
+  const auto found = attributes_.find(attribute);
+  return found == attributes_.end() ? where_ : found->second.where;
+}
+
+const Template& Fields::text(std::string_view attribute) const {
+  return std::get<Template>(attributes_.find(attribute)->second.parsed);
+}
+
+std::optional<Template> Fields::optional_text(std::string_view attribute) const {
+  return has(attribute) ? std::optional(text(attribute)) : std::nullopt;
+}
+
+std::string Fields::literal(std::string_view attribute, std::string fallback) const {
+  return has(attribute) ? std::get<std::string>(attributes_.find(attribute)->second.parsed) : std::move(fallback);
+}
+
+std::vector<Template> Fields::words(std::string_view attribute) const {
+  return optional_words(attribute).value_or(std::vector<Template>{});
+}
+
+std::optional<std::vector<Template>> Fields::optional_words(std::string_view attribute) const {
+  if (!has(attribute)) {
+    return std::nullopt;
+  }
+  return std::get<std::vector<Template>>(attributes_.find(attribute)->second.parsed);
+}
+
+BooleanField Fields::boolean(std::string_view attribute, bool fallback) const {
+  return has(attribute) ? std::get<BooleanField>(attributes_.find(attribute)->second.parsed) : BooleanField(fallback);
+}
+
+std::optional<NumberField> Fields::number(std::string_view attribute) const {
+  if (!has(attribute)) {
+    return std::nullopt;
+  }
+  return std::get<NumberField>(attributes_.find(attribute)->second.parsed);
+}
+
+const Value& Fields::value(std::string_view attribute) const {
+  return std::get<Value>(attributes_.find(attribute)->second.parsed);
+}
+
+std::vector<const Fields*> Fields::items(std::string_view tag) const {
+  std::vector<const Fields*> found;
+  for (const auto& [item_tag, fields] : items_) {
+    if (item_tag == tag) {
+      found.push_back(&fields);
+    }
+  }
+  return found;
+}
+
+}  // namespace launch

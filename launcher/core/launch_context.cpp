@@ -1,0 +1,72 @@
+#include "launcher/core/launch_context.hpp"
+
+#include <fmt/format.h>
+
+#include "launcher/substitution/package_index.hpp"
+
+namespace launch {
+
+namespace {
+
+// Runs `restore` at the end of a block, however it ends.
+template <typename Restore>
+class AtExit {
+ public:
+  explicit AtExit(Restore restore) : restore_(std::move(restore)) {}
+  AtExit(const AtExit&) = delete;
+  AtExit& operator=(const AtExit&) = delete;
+  ~AtExit() { restore_(); }
+
+ private:
+  Restore restore_;
+};
+
+}  // namespace
+
+LaunchContext::LaunchContext(const Registry& registry, Environment environment, std::string own_prefix,
+                             MessageSink messages)
+    : registry_(registry),
+      initial_environment_(std::move(environment)),
+      own_prefix_(std::move(own_prefix)),
+      messages_(std::move(messages)) {
+  scope_.environment = initial_environment_;
+  scope_.packages = std::make_shared<PackageIndex>(own_prefix_);
+}
+
+void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
+  for (const ActionPtr& action : actions) {
+    action->visit(*this);
+  }
+}
+
+void LaunchContext::visit(const LaunchDescription& description, const std::function<void()>& before) {
+  if (!description.deprecated.empty()) {
+    message(LogLevel::kWarning, "launch",
+            fmt::format("launch file [{}] is deprecated: {}", description.file->path(), description.deprecated));
+  }
+  AtExit restore([this, outer = scope_.current_file] { scope_.current_file = outer; });
+  scope_.current_file = description.file;
+  if (before) {
+    before();
+  }
+  visit(description.actions);
+}
+
+void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions) {
+  AtExit restore([this, outer = scope_]() mutable { scope_ = std::move(outer); });
+  scope_ = std::move(scope);
+  visit(actions);
+}
+
+Requests LaunchContext::take_requests() { return std::exchange(requests_, Requests{}); }
+
+void LaunchContext::note_node(const std::string& fully_qualified_name) {
+  const int count = ++nodes_[fully_qualified_name];
+  if (count > 1) {
+    message(LogLevel::kWarning, "launch_ros.actions.node",
+            fmt::format("there are now at least {} nodes with the name {} created within this launch context", count,
+                        fully_qualified_name));
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,29 @@
+#include "launcher/core/launch_description.hpp"
+
+#include <filesystem>
+
+#include "launcher/core/action_parser.hpp"
+#include "launcher/frontend/frontend.hpp"
+
+namespace launch {
+
+std::shared_ptr<const LaunchDescription> load_launch_description(const std::string& path, const Registry& registry,
+                                                                 SourceRange included_from) {
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  return parse_launch_description(SourceFile::read(absolute, std::move(included_from)), registry);
+}
+
+std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_ptr<const SourceFile> file,
+                                                                  const Registry& registry) {
+  const Entity root = load_entity_tree(file);
+  auto description = std::make_shared<LaunchDescription>();
+  if (const Attribute* const deprecated = root.find("deprecated");
+      deprecated != nullptr && deprecated->value.scalar() != nullptr) {
+    description->deprecated = deprecated->value.scalar()->text.text();
+  }
+  description->actions = ActionParser(registry).parse(root.children);
+  description->file = std::move(file);
+  return description;
+}
+
+}  // namespace launch

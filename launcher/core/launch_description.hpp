@@ -1,0 +1,28 @@
+// A loaded launch file: its actions, made and checked, nothing visited yet.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "launcher/core/action.hpp"
+#include "launcher/core/registry.hpp"
+
+namespace launch {
+
+struct LaunchDescription {
+  std::shared_ptr<const SourceFile> file;
+  std::vector<ActionPtr> actions;
+  std::string deprecated;  // the text of the root's `deprecated`, empty when there is none
+};
+
+// Reads and parses a launch file. `included_from` is the place of the include that asks for it. Throws LaunchError with
+// every error of the file.
+std::shared_ptr<const LaunchDescription> load_launch_description(const std::string& path, const Registry& registry,
+                                                                 SourceRange included_from = {});
+
+// The same for text that is already read.
+std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_ptr<const SourceFile> file,
+                                                                  const Registry& registry);
+
+}  // namespace launch

@@ -1,0 +1,39 @@
+#include "launcher/core/launch_plan.hpp"
+
+#include <iterator>
+#include <map>
+
+namespace launch {
+
+namespace {
+
+void collect(LaunchPlan& plan, Requests requests, std::multimap<Duration, TimerRequest>& timers, Duration now) {
+  std::move(requests.scopes.begin(), requests.scopes.end(), std::back_inserter(plan.scopes));
+  for (ProcessSpec& spec : requests.processes) {
+    for (const auto& scope : plan.scopes) {
+      scope->prepare(spec);
+    }
+    plan.processes.push_back(std::move(spec));
+  }
+  for (TimerRequest& timer : requests.timers) {
+    timers.emplace(now + timer.period, std::move(timer));
+  }
+  plan.shutdown |= requests.shutdown.has_value();
+}
+
+}  // namespace
+
+LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description) {
+  LaunchPlan plan;
+  std::multimap<Duration, TimerRequest> timers;
+  context.visit(description);
+  collect(plan, context.take_requests(), timers, Duration(0));
+  while (!timers.empty() && !plan.shutdown) {
+    auto next = timers.extract(timers.begin());
+    context.visit_in(std::move(next.mapped().scope), next.mapped().actions);
+    collect(plan, context.take_requests(), timers, next.key());
+  }
+  return plan;
+}
+
+}  // namespace launch

@@ -1,0 +1,57 @@
+// Something that must begin before every process of a launch and end after the last has gone, like a trace session.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+// One evaluated setting, for --dry-run.
+struct ScopeSetting {
+  std::string name;
+  std::variant<bool, std::int64_t, std::string, std::vector<std::string>> value;
+};
+
+// How long a step of beginning or ending took, for --timing.
+struct TimedStep {
+  std::string name;
+  Duration took{0};
+};
+
+class RunScope {
+ public:
+  // Called once, on the loop's thread, later than the call that it answers. The exception is null on success.
+  using Completion = std::function<void(std::exception_ptr)>;
+  // What it has to tell the user.
+  using Tell = std::function<void(bool warning, const std::string& text)>;
+
+  virtual ~RunScope() = default;
+
+  // Neither blocks the loop. end() is called once, only after begin() succeeded, and must succeed in releasing what
+  // begin() took even when it then reports an error.
+  virtual void begin(EventLoop& loop, Tell tell, Completion done) = 0;
+  virtual void end(EventLoop& loop, Tell tell, Completion done) = 0;
+  // The user is in a hurry: an end() under way shall finish at once, with what is there.
+  virtual void hurry() = 0;
+
+  // Changes what every process that starts while the scope is active is given, such as LD_PRELOAD.
+  virtual void prepare(ProcessSpec& spec) const = 0;
+
+  // "trace", and what it was evaluated to.
+  virtual std::string kind() const = 0;
+  virtual std::vector<ScopeSetting> describe() const = 0;
+  virtual std::vector<TimedStep> timing() const = 0;
+  virtual const SourceRange& origin() const = 0;
+};
+
+}  // namespace launch

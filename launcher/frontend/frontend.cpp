@@ -1,0 +1,34 @@
+#include "launcher/frontend/frontend.hpp"
+
+#include <string_view>
+
+#include "launcher/frontend/input_text.hpp"
+
+namespace launch {
+
+namespace {
+
+// XML must begin with "<", and no YAML launch file can.
+bool looks_like_xml(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '<';
+}
+
+}  // namespace
+
+Entity load_entity_tree(const std::shared_ptr<const SourceFile>& file) {
+  const std::string_view path = file->path();
+  if (path.ends_with(".py")) {
+    throw LaunchError("Python launch files can't be loaded", {file, 0, 0},
+                      "only XML and YAML launch files are supported: rewrite it, or launch it with ros2 launch");
+  }
+  // The content decides, whatever the suffix; an empty file is reported in the format that its suffix promises.
+  const bool blank = file->text().find_first_not_of(" \t\r\n") == std::string::npos;
+  const bool xml_suffix = path.ends_with(".xml") || path.ends_with(".launch");
+  return looks_like_xml(file->text()) || (blank && xml_suffix) ? parse_xml(file) : parse_yaml(file);
+}
+
+}  // namespace launch

@@ -1,0 +1,33 @@
+#include "launcher/frontend/input_text.hpp"
+
+#include <fmt/format.h>
+
+#include "launcher/base/utf8.hpp"
+
+namespace launch {
+
+std::optional<Diagnostic> find_bad_character(const LocatedText& source) {
+  const std::string_view text = source.text();
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    return Diagnostic{Severity::kError, "the file is encoded in UTF-16", source.range(0, 0), "save it as UTF-8"};
+  }
+  for (std::size_t i = 0; i < text.size();) {
+    const CodePoint character = decode_utf8(text.substr(i));
+    if (!character.valid) {
+      return Diagnostic{Severity::kError,
+                        fmt::format("the byte 0x{:02X} is not UTF-8", static_cast<unsigned char>(text[i])),
+                        source.range(i, 1), "save the file as UTF-8"};
+    }
+    if (character.value < 0x20 && text[i] != '\t' && text[i] != '\n' && text[i] != '\r') {
+      return Diagnostic{Severity::kError,
+                        fmt::format("the control character U+{:04X} is not allowed in a launch file",
+                                    static_cast<std::uint32_t>(character.value)),
+                        source.range(i, 1),
+                        {}};
+    }
+    i += character.size;
+  }
+  return std::nullopt;
+}
+
+}  // namespace launch

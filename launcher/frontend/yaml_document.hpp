@@ -1,0 +1,38 @@
+// Reads YAML text into a plain tree, as PyYAML's safe loader does: YAML 1.1 types, aliases and merge keys resolved.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/frontend/entity.hpp"
+
+namespace launch {
+
+struct YamlEntry;
+
+struct YamlNode {
+  enum class Kind { kScalar, kSequence, kMapping };
+
+  Kind kind = Kind::kScalar;
+  Scalar scalar;                   // of a kScalar
+  std::vector<YamlNode> items;     // of a kSequence
+  std::vector<YamlEntry> entries;  // of a kMapping, keys are unique
+  SourceRange where;               // a scalar's text; the first character of a sequence or mapping
+  bool is_plain = false;           // a scalar without quotes or tag
+
+  bool is_null() const { return kind == Kind::kScalar && scalar.type == Scalar::Type::kNull; }
+};
+
+struct YamlEntry {
+  YamlNode key;
+  YamlNode value;
+};
+
+// "a list", "a mapping", "str 'text'", "null": what a message calls the node.
+std::string describe(const YamlNode& node);
+
+// Throws LaunchError for a syntax error. Other faults (duplicate keys) are added to `errors`.
+YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors);
+
+}  // namespace launch

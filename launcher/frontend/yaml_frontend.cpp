@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "launcher/frontend/frontend.hpp"
+#include "launcher/frontend/yaml_document.hpp"
+
+namespace launch {
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+// Turns the YAML tree into entities. Goes on after an error, so that all of them are found.
+class EntityBuilder {
+ public:
+  explicit EntityBuilder(std::vector<Diagnostic>& errors) : errors_(errors) {}
+
+  Entity root(const YamlNode& document) {
+    Entity entity;
+    if (document.kind != Kind::kMapping) {
+      error(fmt::format("expected a mapping with the one key 'launch', found {}", describe(document)), document.where,
+            "a launch file begins with 'launch:'");
+      return entity;
+    }
+    if (document.entries.size() > 1) {
+      const auto other = std::find_if(document.entries.begin() + 1, document.entries.end(),
+                                      [](const YamlEntry& entry) { return entry.key.scalar.text.text() != "launch"; });
+      error(fmt::format("expected only the root key 'launch', found {} keys", document.entries.size()),
+            other->key.where, "indent what belongs to 'launch'");
+      return entity;
+    }
+    if (document.entries.empty()) {
+      error("expected the root key 'launch', found an empty mapping", document.where);
+      return entity;
+    }
+    const auto& [key, value] = document.entries.front();
+    if (!is_name(key) || key.scalar.text.text() != "launch") {
+      error(fmt::format("expected 'launch' as root tag, found '{}'", key.scalar.text.text()), key.where,
+            "a launch file begins with 'launch:'");
+      return entity;
+    }
+    entity.type_name = "launch";
+    entity.where = key.where;
+    if (value.is_null()) {
+      error("'launch' holds no list of actions", key.where, "write `launch: []` for a launch file that does nothing");
+    } else {
+      fill(entity, key, value);
+      if (!entity.has_children_list) {
+        error("'launch' has no list of actions", key.where, "write the actions as a list, or under the key 'children'");
+      }
+    }
+    return entity;
+  }
+
+ private:
+  void error(std::string message, const SourceRange& where, std::string help = {}) {
+    errors_.push_back({Severity::kError, std::move(message), where, std::move(help)});
+  }
+
+  // Tags and attribute names are texts; `on:` would be a boolean.
+  static bool is_name(const YamlNode& key) {
+    return key.kind == Kind::kScalar && key.scalar.type == Scalar::Type::kString;
+  }
+
+  bool check_name(const YamlNode& key) {
+    if (is_name(key)) {
+      return true;
+    }
+    const bool scalar = key.kind == Kind::kScalar && !key.is_null();
+    error(fmt::format("expected a name as key, found {}", describe(key)), key.where,
+          scalar ? fmt::format("quote it to make it a text: \"{}\"", key.scalar.text.text()) : "");
+    return false;
+  }
+
+  void actions(const YamlNode& list, std::vector<Entity>& result) {
+    for (const YamlNode& item : list.items) {
+      if (item.kind != Kind::kMapping || item.entries.empty()) {
+        error(fmt::format("expected an action, found {}", item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
+              item.where, not_an_action_help(item));
+        continue;
+      }
+      if (item.entries.size() > 1) {
+        several_keys(item);
+        continue;
+      }
+      const auto& [key, value] = item.entries.front();
+      if (check_name(key)) {
+        action(key, value, result);
+      }
+    }
+  }
+
+  static std::string not_an_action_help(const YamlNode& item) {
+    if (item.kind == Kind::kScalar && item.scalar.type == Scalar::Type::kString) {
+      return fmt::format("write `- {}: {{...}}`", item.scalar.text.text());
+    }
+    return "write `- ACTION: {...}`";
+  }
+
+  // The usual cause is attributes that are not indented below their action.
+  void several_keys(const YamlNode& item) {
+    const YamlEntry& first = item.entries[0];
+    const YamlEntry& second = item.entries[1];
+    const std::string& name = first.key.scalar.text.text();
+    const std::string& other = second.key.scalar.text.text();
+    error(fmt::format("an action has exactly one key, its name; found {} keys", item.entries.size()), second.key.where,
+          first.value.is_null() ? fmt::format("indent '{}' deeper than '{}' to make it an attribute of it", other, name)
+                                : fmt::format("write `- {}:` to make it an action of its own", other));
+  }
+
+  void action(const YamlNode& key, const YamlNode& value, std::vector<Entity>& result) {
+    Entity entity;
+    entity.type_name = key.scalar.text.text();
+    entity.where = key.where;
+    if (value.is_null()) {
+      error(fmt::format("the action '{}' has no attributes, not even an empty mapping", entity.type_name), key.where,
+            fmt::format("write `- {}: {{}}`", entity.type_name));
+    } else if (value.kind == Kind::kScalar) {
+      error(fmt::format("expected the attributes of '{}', found {}", entity.type_name, describe(value)), value.where,
+            fmt::format("write `- {}: {{ATTRIBUTE: VALUE}}`", entity.type_name));
+    } else {
+      fill(entity, key, value);
+    }
+    result.push_back(std::move(entity));
+  }
+
+  // The content of an entity: its attributes, or the list of its sub-actions.
+  void fill(Entity& entity, const YamlNode& key, const YamlNode& content) {
+    if (content.kind == Kind::kSequence) {
+      entity.has_children_list = true;
+      actions(content, entity.children);
+      return;
+    }
+    if (content.kind == Kind::kScalar) {
+      error(fmt::format("expected a list or a mapping for '{}', found {}", key.scalar.text.text(), describe(content)),
+            content.where);
+      return;
+    }
+    entity.has_children_list = false;
+    for (const YamlEntry& entry : content.entries) {
+      if (check_name(entry.key)) {
+        attribute(entity, entry.key, entry.value);
+      }
+    }
+  }
+
+  void attribute(Entity& entity, const YamlNode& key, const YamlNode& value) {
+    const std::string& name = key.scalar.text.text();
+    if (name == "children") {
+      entity.has_children_list = true;
+      if (value.kind != Kind::kSequence) {
+        error(fmt::format("expected a list of actions under 'children', found {}", describe(value)),
+              value.is_null() ? key.where : value.where, "write `children: []` when there are none");
+        return;
+      }
+      actions(value, entity.children);
+      return;
+    }
+    if (value.kind == Kind::kMapping) {
+      error(fmt::format("'{}' of '{}' is expected to be a list of mappings, found a mapping", name, entity.type_name),
+            key.where, "put '- ' before its first key");
+      return;
+    }
+    const bool is_items = value.kind == Kind::kSequence &&
+                          std::any_of(value.items.begin(), value.items.end(),
+                                      [](const YamlNode& item) { return item.kind == Kind::kMapping; });
+    if (is_items) {
+      structured_items(entity, key, value);
+    } else {
+      entity.attributes.push_back({name, key.where, to_value(value)});
+    }
+  }
+
+  // A list of mappings: one child for each, named after the key.
+  void structured_items(Entity& entity, const YamlNode& key, const YamlNode& list) {
+    for (const YamlNode& item : list.items) {
+      if (item.kind != Kind::kMapping) {
+        error(fmt::format("expected a mapping in the list '{}', found {}", key.scalar.text.text(), describe(item)),
+              item.where);
+        continue;
+      }
+      Entity child;
+      child.type_name = key.scalar.text.text();
+      child.where = item.entries.empty() || item.where.begin != item.entries.front().key.where.begin
+                        ? item.where
+                        : item.entries.front().key.where;
+      child.is_structured_item = true;
+      fill(child, key, item);
+      entity.children.push_back(std::move(child));
+    }
+  }
+
+  Value to_value(const YamlNode& node) {
+    if (node.kind == Kind::kScalar) {
+      return {node.scalar, node.where};
+    }
+    std::vector<Value> items;
+    for (const YamlNode& item : node.items) {
+      if (item.kind == Kind::kMapping) {
+        error("a mapping inside a nested list", item.where);
+        continue;
+      }
+      items.push_back(to_value(item));
+    }
+    return {std::move(items), node.where};
+  }
+
+  std::vector<Diagnostic>& errors_;
+};
+
+}  // namespace
+
+Entity parse_yaml(const std::shared_ptr<const SourceFile>& file) {
+  const auto size = static_cast<std::uint32_t>(file->text().size());
+  std::vector<Diagnostic> errors;
+  const YamlNode document = read_yaml(LocatedText(file->text(), {file, 0, size}), errors);
+  if (document.is_null()) {
+    throw LaunchError("the file is empty", {file, 0, 0}, "a launch file begins with 'launch:'");
+  }
+  Entity root = EntityBuilder(errors).root(document);
+  if (!errors.empty()) {
+    std::stable_sort(errors.begin(), errors.end(), [](const Diagnostic& left, const Diagnostic& right) {
+      return left.where.begin < right.where.begin;
+    });
+    throw LaunchError(std::move(errors));
+  }
+  return root;
+}
+
+}  // namespace launch

@@ -1,0 +1,53 @@
+// launch: runs launch files; `launch trace` and `launch report` record and describe traces.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include "launcher/cli/command_line.hpp"
+#include "launcher/cli/run_command.hpp"
+#include "tracing/session/trace_command.hpp"
+
+extern char** environ;  // NOLINT: POSIX names it so
+
+namespace {
+
+launch::Environment environment_of_process() {
+  launch::Environment environment;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text(*variable);
+    const std::size_t separator = text.find('=');
+    if (separator != std::string_view::npos) {
+      environment.emplace(text.substr(0, separator), text.substr(separator + 1));
+    }
+  }
+  return environment;
+}
+
+// A program of its own: the launcher does without the libraries that reading traces needs.
+int report(char** argv) {
+  const std::string program = launch::own_install_prefix() + "/lib/launch/launch-report";
+  argv[1] = const_cast<char*>("launch report");
+  ::execv(program.c_str(), argv + 1);
+  fmt::print(stderr, "launch: error: can't run {}: {}\n", program, std::strerror(errno));
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  if (command == "report") {
+    return report(argv);
+  }
+  if (command == "trace") {
+    return tracing::run_trace_command({argv + 2, argv + argc});
+  }
+  const auto parsed = launch::parse_command_line(argc, argv);
+  if (const auto* const exit_now = std::get_if<launch::ExitNow>(&parsed)) {
+    return exit_now->code;
+  }
+  return launch::run_command(std::get<launch::CommandLine>(parsed), environment_of_process());
+}

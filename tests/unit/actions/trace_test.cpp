@@ -1,0 +1,90 @@
+// <trace>: what its attributes evaluate to, and that it takes effect for every process of the file.
+#include <gmock/gmock.h>
+
+#include "tests/unit/actions/launch_text.hpp"
+
+namespace {
+
+using test_support::plan_actions;
+using test_support::Planned;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::map<std::string, launch::ScopeSetting> settings_of(const Planned& planned) {
+  std::map<std::string, launch::ScopeSetting> settings;
+  EXPECT_EQ(planned.error, "");
+  for (const launch::ScopeSetting& setting : planned.plan.scopes.at(0)->describe()) {
+    settings.emplace(setting.name, setting);
+  }
+  return settings;
+}
+
+using Words = std::vector<std::string>;
+
+TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
+  const Planned planned = plan_actions(R"xml(<trace session-name="run"/>)xml");
+  auto settings = settings_of(planned);
+  EXPECT_EQ(std::get<std::string>(settings.at("session-name").value), "run");
+  EXPECT_EQ(std::get<std::string>(settings.at("trace-directory").value), "/home/user/.ros/tracing/run");
+  EXPECT_EQ(std::get<Words>(settings.at("events-ust").value).size(), 42U);
+  EXPECT_TRUE(std::get<Words>(settings.at("events-kernel").value).empty());
+  EXPECT_TRUE(std::get<Words>(settings.at("syscalls").value).empty());
+  EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("procname", "vpid", "vtid"));
+  EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-ust").value), 32768);
+  EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-kernel").value), 131072);
+  EXPECT_FALSE(std::get<bool>(settings.at("append-trace").value));
+  EXPECT_FALSE(std::get<bool>(settings.at("snapshot-mode").value));
+  EXPECT_FALSE(std::get<bool>(settings.at("dual-session").value));
+}
+
+TEST(Trace, ListsAreSplitLikeCommandLines) {
+  auto settings = settings_of(plan_actions(R"xml(
+    <let name="kernel" value=""/><let name="more" value="a b"/>
+    <trace session-name="run" events-ust="ros2:* 'x y' $(var more)" events-kernel="$(var kernel)" context-fields=""/>)xml"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-ust").value), ElementsAre("ros2:*", "x y", "a b"));
+  EXPECT_TRUE(std::get<Words>(settings.at("events-kernel").value).empty());
+  EXPECT_TRUE(std::get<Words>(settings.at("context-fields").value).empty());
+}
+
+TEST(Trace, DualSessionAsASubstitutionSelectsItsEventsWhenVisited) {
+  const std::string xml = R"xml(<trace session-name="run" dual-session="$(var dual)"/>)xml";
+  auto dual = settings_of(plan_actions(xml, {.arguments = {{"dual", "true"}}}));
+  EXPECT_EQ(std::get<Words>(dual.at("events-ust").value).size(), 22U);
+  EXPECT_EQ(std::get<std::string>(dual.at("trace-directory").value), "/home/user/.ros/tracing/run/snapshot");
+  auto single = settings_of(plan_actions(xml, {.arguments = {{"dual", "false"}}}));
+  EXPECT_EQ(std::get<Words>(single.at("events-ust").value).size(), 42U);
+}
+
+TEST(Trace, DirectoriesComeFromTheLaunchEnvironment) {
+  const std::string xml = R"xml(<trace session-name="run"/>)xml";
+  auto by_home = settings_of(plan_actions(xml, {.environment = {{"HOME", "/h"}, {"ROS_HOME", "/ros"}}}));
+  EXPECT_EQ(std::get<std::string>(by_home.at("trace-directory").value), "/ros/tracing/run");
+  auto by_variable = settings_of(plan_actions(xml, {.environment = {{"HOME", "/h"}, {"ROS_TRACE_DIR", "/traces"}}}));
+  EXPECT_EQ(std::get<std::string>(by_variable.at("trace-directory").value), "/traces/run");
+  auto given = settings_of(plan_actions(R"xml(<trace session-name="run" base-path="/elsewhere"/>)xml"));
+  EXPECT_EQ(std::get<std::string>(given.at("trace-directory").value), "/elsewhere/run");
+}
+
+TEST(Trace, PreloadsForProcessesBeforeItToo) {
+  const Planned planned = plan_actions(R"xml(
+    <executable cmd="first"/>
+    <trace session-name="run" events-ust="lttng_ust_libc:*"/>
+    <executable cmd="second"><env name="LD_PRELOAD" value="mine.so"/></executable>)xml");
+  ASSERT_EQ(planned.error, "");
+  const std::string first = planned.plan.processes.at(0).environment.at("LD_PRELOAD");
+  EXPECT_THAT(first, testing::EndsWith("liblttng-ust-libc-wrapper.so"));
+  EXPECT_EQ(planned.plan.processes.at(1).environment.at("LD_PRELOAD"), "mine.so:" + first);
+}
+
+TEST(Trace, ConditionsApply) {
+  EXPECT_TRUE(plan_actions(R"xml(<trace session-name="run" if="false"/>)xml").plan.scopes.empty());
+}
+
+TEST(Trace, BadNamesAreErrorsAtTheirPlace) {
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name=""/>)xml").error, HasSubstr(":2:22: error: the session name is empty"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a/b"/>)xml").error, HasSubstr("the session name 'a/b' has a slash"));
+  EXPECT_THAT(plan_actions(R"xml(<trace/>)xml").error, HasSubstr("attribute 'session-name' not found in entity 'trace'"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a" event-ust="x"/>)xml").error, HasSubstr("did you mean 'events-ust'?"));
+}
+
+}  // namespace

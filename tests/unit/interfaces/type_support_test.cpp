@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
+#include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
+#include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
+#include "std_msgs/msg/string.hpp"
+#include "test_interfaces/srv/add_two_ints.hpp"
+
+namespace {
+
+using rosidl_typesupport_cpp::get_message_type_support_handle;
+using rosidl_typesupport_cpp::get_service_type_support_handle;
+using rosidl_typesupport_fastrtps_cpp::typesupport_identifier;
+
+TEST(TypeSupport, HandleLeadsToTheNamesOfTheMessage) {
+  const auto* handle = get_message_type_support_handle<std_msgs::msg::String>();
+  EXPECT_STREQ(handle->typesupport_identifier, typesupport_identifier);
+  const auto& callbacks = *static_cast<const message_type_support_callbacks_t*>(handle->data);
+  EXPECT_STREQ(callbacks.message_namespace_, "std_msgs::msg");
+  EXPECT_STREQ(callbacks.message_name_, "String");
+}
+
+TEST(TypeSupport, HandleIsFoundByItsIdentifierOnly) {
+  const auto* handle = get_message_type_support_handle<std_msgs::msg::String>();
+  EXPECT_EQ(get_message_typesupport_handle(handle, "rosidl_typesupport_fastrtps_cpp"), handle);
+  EXPECT_EQ(get_message_typesupport_handle(handle, "rosidl_typesupport_introspection_cpp"), nullptr);
+  EXPECT_EQ(get_message_type_support_handle<std_msgs::msg::String>(), handle);
+}
+
+TEST(TypeSupport, ServiceLeadsToItsRequestAndResponse) {
+  using test_interfaces::srv::AddTwoInts;
+  const auto* handle = get_service_type_support_handle<AddTwoInts>();
+  EXPECT_EQ(get_service_typesupport_handle(handle, typesupport_identifier), handle);
+  const auto& callbacks = *static_cast<const service_type_support_callbacks_t*>(handle->data);
+  EXPECT_STREQ(callbacks.service_namespace_, "test_interfaces::srv");
+  EXPECT_STREQ(callbacks.service_name_, "AddTwoInts");
+  EXPECT_EQ(callbacks.request_members_, get_message_type_support_handle<AddTwoInts::Request>());
+  EXPECT_EQ(callbacks.response_members_, get_message_type_support_handle<AddTwoInts::Response>());
+  EXPECT_EQ(handle->request_typesupport, callbacks.request_members_);
+  const auto& request = *static_cast<const message_type_support_callbacks_t*>(callbacks.request_members_->data);
+  EXPECT_STREQ(request.message_name_, "AddTwoInts_Request");
+}
+
+}  // namespace

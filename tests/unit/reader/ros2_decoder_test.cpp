@@ -1,0 +1,212 @@
+#include "tracing/reader/ros2_decoder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/trace_writer/temporary_directory.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/reader/trace_reader.hpp"
+
+namespace tracing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::TemporaryDirectory;
+using testing::Thread;
+using testing::TraceWriter;
+
+constexpr Thread kThread{71, 71, "ping"};
+
+// Decodes every event and hands it over while it is valid.
+class DecodingSink : public TraceSink {
+ public:
+  std::function<void(const ros2::AnyEvent*)> check;
+  std::vector<std::string> problems;
+  std::size_t count = 0;
+
+  void on_event(const Event& event) override {
+    ++count;
+    check(decoder_.decode(event));
+  }
+  void on_loss(const Loss&) override {}
+
+ private:
+  ros2::Decoder decoder_{[this](const std::string& problem) { problems.push_back(problem); }};
+};
+
+// A struct with another value in every field.
+template <class Struct>
+Struct filled() {
+  Struct event;
+  std::uint64_t next = 0x1000;
+  Struct::for_each_field(event, [&]<ros2::FieldType type>(std::string_view name, auto& member) {
+    ++next;
+    if constexpr (type == ros2::FieldType::kString) {
+      member = name;
+    } else if constexpr (type == ros2::FieldType::kBool) {
+      member = true;
+    } else if constexpr (type == ros2::FieldType::kGid) {
+      member.size = 16;
+      for (std::size_t i = 0; i < 16; ++i) member.bytes[i] = static_cast<std::uint8_t>(0xf0 + i);
+    } else if constexpr (type == ros2::FieldType::kPointers) {
+      member = {next, next + 1, 0xffffffffffffffff};
+    } else if constexpr (type == ros2::FieldType::kInt64) {
+      member = -static_cast<std::int64_t>(next);
+    } else {
+      member = next | 0xffff000000000000;
+    }
+  });
+  return event;
+}
+
+std::vector<ros2::AnyEvent> one_of_each() {
+  std::vector<ros2::AnyEvent> events;
+#define TRACING_NO_FIELD(type_, name_)
+#define TRACING_FILL(struct_, name_, fields_) events.emplace_back(filled<ros2::struct_>());
+  TRACING_ROS2_EVENTS(TRACING_FILL, TRACING_NO_FIELD)
+#undef TRACING_FILL
+#undef TRACING_NO_FIELD
+  return events;
+}
+
+TEST(Ros2Decoder, DecodesEveryFieldOfEveryEvent) {
+  const TemporaryDirectory directory;
+  const std::vector<ros2::AnyEvent> written = one_of_each();
+  EXPECT_EQ(written.size(), 42u);
+  TraceWriter writer(directory.path());
+  std::int64_t time = 0;
+  for (const ros2::AnyEvent& event : written) writer.write(0, ++time, kThread, event);
+  writer.finish();
+
+  DecodingSink sink;
+  sink.check = [&](const ros2::AnyEvent* event) {
+    ASSERT_NE(event, nullptr) << sink.count;
+    EXPECT_EQ(*event, written[sink.count - 1]) << "event number " << sink.count;
+  };
+  TraceReader(directory.path()).read(sink);
+
+  EXPECT_EQ(sink.count, 42u);
+  EXPECT_THAT(sink.problems, IsEmpty());
+}
+
+TEST(Ros2Decoder, IgnoresEventsOfOtherProviders) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  writer.write_raw(0, 1, kThread, writer.declare("lttng_ust_tracef:event", "\t\tstring _msg;\n"),
+                   std::string_view("hello\0", 6));
+  writer.finish();
+
+  DecodingSink sink;
+  sink.check = [](const ros2::AnyEvent* event) { EXPECT_EQ(event, nullptr); };
+  TraceReader(directory.path()).read(sink);
+  EXPECT_EQ(sink.count, 1u);
+  EXPECT_THAT(sink.problems, IsEmpty());
+}
+
+std::string bytes(std::initializer_list<std::uint64_t> values) {
+  std::string result;
+  for (const std::uint64_t value : values) testing::detail::append(result, value);
+  return result;
+}
+
+TEST(Ros2Decoder, ReportsAMissingFieldOnceAndDecodesTheRest) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  // As in ROS 2 Humble.
+  const std::uint16_t id =
+      writer.declare("ros2:rmw_publish", testing::detail::describe_field(ros2::FieldType::kPointer, "message"));
+  writer.write_raw(0, 1, kThread, id, bytes({0xabc}));
+  writer.write_raw(0, 2, kThread, id, bytes({0xabc}));
+  writer.finish();
+
+  DecodingSink sink;
+  sink.check = [](const ros2::AnyEvent* event) {
+    ASSERT_NE(event, nullptr);
+    EXPECT_EQ(*event, (ros2::AnyEvent(ros2::RmwPublish{0, 0xabc, 0})));
+  };
+  TraceReader(directory.path()).read(sink);
+  EXPECT_EQ(sink.count, 2u);
+  EXPECT_THAT(sink.problems, ElementsAre("ros2:rmw_publish has no field rmw_publisher_handle",
+                                         "ros2:rmw_publish has no field timestamp"));
+}
+
+TEST(Ros2Decoder, ReportsAFieldOfAnotherType) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  const std::uint16_t id = writer.declare("ros2:rcl_take", "\t\tstring _message;\n");
+  writer.write_raw(0, 1, kThread, id, std::string_view("text\0", 5));
+  writer.finish();
+
+  DecodingSink sink;
+  sink.check = [](const ros2::AnyEvent* event) {
+    ASSERT_NE(event, nullptr);
+    EXPECT_EQ(*event, ros2::AnyEvent(ros2::RclTake{0}));
+  };
+  TraceReader(directory.path()).read(sink);
+  EXPECT_THAT(sink.problems, ElementsAre("ros2:rcl_take: field message is not a pointer"));
+}
+
+TEST(Ros2Decoder, IgnoresExtraFieldsAndTheirOrder) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  const std::uint16_t id = writer.declare(
+      "ros2:callback_start", testing::detail::describe_field(ros2::FieldType::kUint64, "executor") +
+                                 testing::detail::describe_field(ros2::FieldType::kBool, "is_intra_process") +
+                                 testing::detail::describe_field(ros2::FieldType::kPointer, "callback"));
+  std::string payload = bytes({7});
+  testing::detail::append(payload, std::int32_t{1});
+  payload += bytes({0xcb});
+  writer.write_raw(0, 1, kThread, id, payload);
+  writer.finish();
+
+  DecodingSink sink;
+  sink.check = [](const ros2::AnyEvent* event) {
+    ASSERT_NE(event, nullptr);
+    EXPECT_EQ(*event, (ros2::AnyEvent(ros2::CallbackStart{0xcb, true})));
+  };
+  TraceReader(directory.path()).read(sink);
+  EXPECT_EQ(sink.count, 1u);
+  EXPECT_THAT(sink.problems, IsEmpty());
+}
+
+TEST(Ros2Decoder, ReadsTheLongerGidOfOlderVersions) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  const std::uint16_t id = writer.declare(
+      "ros2:rmw_client_init", testing::detail::describe_field(ros2::FieldType::kPointer, "rmw_client_handle") +
+                                  "\t\tinteger { size = 8; align = 8; signed = 0; } _gid[24];\n");
+  writer.write_raw(0, 1, kThread, id, bytes({1}) + std::string(23, 'a') + 'b');
+  writer.finish();
+
+  DecodingSink sink;
+  sink.check = [](const ros2::AnyEvent* event) {
+    ASSERT_NE(event, nullptr);
+    const auto& init = std::get<ros2::RmwClientInit>(*event);
+    EXPECT_EQ(init.gid.size, 24u);
+    EXPECT_EQ(init.gid.bytes[0], 'a');
+    EXPECT_EQ(init.gid.bytes[23], 'b');
+  };
+  TraceReader(directory.path()).read(sink);
+  EXPECT_THAT(sink.problems, IsEmpty());
+}
+
+TEST(Ros2Events, AreNamedAndTypedAsInTracetools) {
+  std::set<std::string_view> names;
+  for (const ros2::AnyEvent& any : one_of_each()) {
+    std::visit(
+        [&]<class Struct>(const Struct&) {
+          if constexpr (!std::is_same_v<Struct, std::monostate>) names.insert(Struct::kName);
+        },
+        any);
+  }
+  EXPECT_EQ(names.size(), 42u);
+  EXPECT_EQ(ros2::kEventCount, 42u);
+  EXPECT_TRUE(names.contains("ros2:rclcpp_executor_get_next_ready"));
+  EXPECT_EQ(ros2::field_name("namespace_"), "namespace");
+}
+
+}  // namespace
+}  // namespace tracing

@@ -1,0 +1,38 @@
+// What the tests of this folder ask babeltrace2 and lttng, which know nothing of our code.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.hpp"
+
+namespace trace_test {
+
+struct ReadTrace {
+  std::map<std::string, int> events;  // count by name
+  std::uint64_t discarded = 0;        // events, as the reader's warnings say
+  std::vector<std::string> lines;
+  std::string complaints;  // the reader's stderr but for those warnings; must be empty
+};
+
+// Reads a trace directory with babeltrace2. A failure is in `complaints`.
+ReadTrace read_trace(const std::string& directory);
+
+// The sessions that `lttng list` shows, as it prints them; "" when there are none.
+std::string listed_sessions();
+
+// Starts the traced program and waits until it has fired.
+class TracedApp {
+ public:
+  TracedApp(int count, int bytes);
+  void fire_again();  // as many as at first
+  void end();
+
+ private:
+  test_support::RunningCommand process_;
+  int fired_ = 1;
+};
+
+}  // namespace trace_test

@@ -1,0 +1,244 @@
+// The events of ROS 2, compared with what LTTng wrote and babeltrace2 reads: neither is ours.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tracetools/tracetools.h"
+
+namespace {
+
+using test_support::run_command;
+
+// Event: its fields, each with type and the value that fire_all_events.cpp gives.
+constexpr const char* kEvents = R"rows(
+rcl_init: context_handle ptr 0x1, version str "8.10.1"
+rcl_node_init: node_handle ptr 0x1, rmw_handle ptr 0x2, node_name str "ping", namespace str "/robot"
+rmw_publisher_init: rmw_publisher_handle ptr 0x1, gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ]
+rcl_publisher_init: publisher_handle ptr 0x1, node_handle ptr 0x2, rmw_publisher_handle ptr 0x3, topic_name str "/ping", queue_depth u64 10
+rclcpp_publish: message ptr 0x2
+rclcpp_intra_publish: publisher_handle ptr 0x1, message ptr 0x2
+rcl_publish: publisher_handle ptr 0x1, message ptr 0x2
+rmw_publish: rmw_publisher_handle ptr 0x1, message ptr 0x2, timestamp i64 1767225600506920000
+rmw_subscription_init: rmw_subscription_handle ptr 0x1, gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ]
+rcl_subscription_init: subscription_handle ptr 0x1, node_handle ptr 0x2, rmw_subscription_handle ptr 0x3, topic_name str "/pong", queue_depth u64 5
+rclcpp_subscription_init: subscription_handle ptr 0x1, subscription ptr 0x2
+rclcpp_subscription_callback_added: subscription ptr 0x1, callback ptr 0x2
+rmw_take: rmw_subscription_handle ptr 0x1, message ptr 0xFFFFFFFFFFFFFFFF, source_timestamp i64 -1, taken bool 1
+rcl_take: message ptr 0x1
+rclcpp_take: message ptr 0x1
+rcl_service_init: service_handle ptr 0x1, node_handle ptr 0x2, rmw_service_handle ptr 0x3, service_name str "/add"
+rclcpp_service_callback_added: service_handle ptr 0x1, callback ptr 0x2
+rmw_take_request: rmw_service_handle ptr 0x1, request ptr 0x2, client_gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ], sequence_number i64 3, taken bool 0
+rmw_send_response: rmw_service_handle ptr 0x1, response ptr 0x2, client_gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ], sequence_number i64 3, timestamp i64 4
+rmw_client_init: rmw_client_handle ptr 0x1, gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ]
+rcl_client_init: client_handle ptr 0x1, node_handle ptr 0x2, rmw_client_handle ptr 0x3, service_name str "/add"
+rmw_send_request: rmw_client_handle ptr 0x1, request ptr 0x2, sequence_number i64 3
+rmw_take_response: rmw_client_handle ptr 0x1, response ptr 0x2, sequence_number i64 3, source_timestamp i64 4, taken bool 1
+rcl_timer_init: timer_handle ptr 0x1, period i64 500000000
+rclcpp_timer_callback_added: timer_handle ptr 0x1, callback ptr 0x2
+rclcpp_timer_link_node: timer_handle ptr 0x1, node_handle ptr 0x2
+rclcpp_callback_register: callback ptr 0x1, symbol str "(null)"
+callback_start: callback ptr 0x1, is_intra_process bool 1
+callback_end: callback ptr 0x1
+rcl_lifecycle_state_machine_init: node_handle ptr 0x1, state_machine ptr 0x2
+rcl_lifecycle_transition: state_machine ptr 0x1, start_label str "unconfigured", goal_label str "configuring"
+rclcpp_executor_get_next_ready:
+rclcpp_executor_wait_for_work: timeout i64 -1
+rclcpp_executor_execute: handle ptr 0x1
+rclcpp_ipb_to_subscription: ipb ptr 0x1, subscription ptr 0x2
+rclcpp_buffer_to_ipb: buffer ptr 0x1, ipb ptr 0x2
+rclcpp_construct_ring_buffer: buffer ptr 0x1, capacity u64 18446744073709551615
+rclcpp_ring_buffer_enqueue: buffer ptr 0x1, index u64 2, size u64 3, overwritten bool 1
+rclcpp_ring_buffer_dequeue: buffer ptr 0x1, index u64 2, size u64 3
+rclcpp_ring_buffer_clear: buffer ptr 0x1
+message_link_periodic_async: _subs_length u64 2, subs ptr[_subs_length] [ 0x51 0x52 ], _pubs_length u64 1, pubs ptr[_pubs_length] [ 0x61 ]
+message_link_partial_sync: _subs_length u64 1, subs ptr[_subs_length] [ 0x51 ], _pubs_length u64 0, pubs ptr[_pubs_length] [ ]
+)rows";
+
+// Fields of an event: "name type" each, in order, or "name = value".
+using Fields = std::vector<std::string>;
+using EventTable = std::map<std::string, Fields>;
+
+std::vector<std::string> split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    begin = end + separator.size();
+  }
+  return parts;
+}
+
+// From kEvents, made by `field` from the name, type and value of each field.
+template <typename MakeField>
+EventTable expected(MakeField field) {
+  EventTable table;
+  for (const std::string& row : split(kEvents, "\n")) {
+    const std::size_t colon = row.find(':');
+    Fields& fields = table[row.substr(0, colon)];
+    for (const std::string& text : split(row.substr(colon + 1), ",")) {
+      std::istringstream words(text);
+      std::string name, type, value;
+      words >> name >> type >> std::ws;
+      std::getline(words, value);
+      fields.push_back(field(name, type, value));
+    }
+  }
+  return table;
+}
+
+std::string type_of(const std::string& declaration) {
+  static const std::map<std::string, std::string> types = {
+      {"integer { size = 64; align = 8; signed = 0; encoding = none; base = 16; }", "ptr"},
+      {"integer { size = 64; align = 8; signed = 0; encoding = none; base = 10; }", "u64"},
+      {"integer { size = 64; align = 8; signed = 1; encoding = none; base = 10; }", "i64"},
+      {"integer { size = 32; align = 8; signed = 1; encoding = none; base = 10; }", "bool"},
+      {"integer { size = 8; align = 8; signed = 0; encoding = none; base = 10; }", "u8"},
+      {"string", "str"},
+  };
+  const auto found = types.find(declaration);
+  return found == types.end() ? declaration : found->second;
+}
+
+// What stands between two texts, "" if they don't.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t begin = text.find(before);
+  if (begin == std::string::npos) return "";
+  const std::size_t end = text.find(after, begin + before.size());
+  return end == std::string::npos ? "" : text.substr(begin + before.size(), end - begin - before.size());
+}
+
+// LTTng puts an underscore before every name.
+std::string without_underscore(const std::string& name) {
+  return name.starts_with('_') ? name.substr(1) : name;
+}
+
+// From the trace's metadata in CTF's language: what every reader knows of the events. A field is a line such as
+//   integer { size = 8; … base = 10; } _gid[16];
+EventTable declared_events(const std::string& metadata) {
+  EventTable table;
+  Fields* fields = nullptr;
+  for (const std::string& line : split(metadata, "\n")) {
+    if (const std::string event = between(line, "name = \"ros2:", "\""); !event.empty()) {
+      fields = &table[event];
+    } else if (line == "};") {
+      fields = nullptr;
+    } else if (fields != nullptr && line.starts_with("\t\t") && line.ends_with(';')) {
+      const std::size_t end = std::min(line.find('['), line.size() - 1);
+      const std::size_t space = line.rfind(' ', end);
+      const std::string name = without_underscore(line.substr(space + 1, end - space - 1));
+      std::string type = type_of(line.substr(2, space - 2));
+      if (end + 1 < line.size()) {
+        std::istringstream count(line.substr(end + 1, line.rfind(']') - end - 1));
+        std::string word;
+        count >> word;
+        type += "[" + without_underscore(word) + "]";
+      }
+      fields->push_back(name + " " + (type == "u8[16]" ? "gid" : type));
+    }
+  }
+  return table;
+}
+
+// What babeltrace2 prints for each event, as "name = value". A line is such as
+//   [1795257084.1] (+0.1) host ros2:rmw_client_init: { cpu_id = 1 }, { rmw_client_handle = 0x1, gid = [ [0] = 1, … ] }
+EventTable printed_events(const std::string& text) {
+  EventTable table;
+  for (const std::string& line : split(text, "\n")) {
+    const std::string event = between(line, " ros2:", ":");
+    if (event.empty()) continue;
+    Fields& fields = table[event];
+    for (const std::string& part : split(between(line, "}, {", "}"), ",")) {
+      const std::size_t begin = part.find_first_not_of(' ');
+      if (begin == std::string::npos) continue;
+      std::string field = part.substr(begin, part.find_last_not_of(' ') + 1 - begin);
+      if (field.starts_with('[')) {
+        fields.back() += " " + field.substr(field.find("= ") + 2);  // a further element of an array
+      } else {
+        const std::size_t first = field.find("[ [0] = ");
+        fields.push_back(first == std::string::npos ? field : field.substr(0, first + 2) + field.substr(first + 8));
+      }
+    }
+  }
+  return table;
+}
+
+class RecordedEvents : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const std::vector<std::string>& argv :
+         std::vector<std::vector<std::string>>{{"lttng-sessiond", "--daemonize"},
+                                               {"lttng", "create", "payload", "--output=" + trace_.string()},
+                                               {"lttng", "enable-event", "--userspace", "ros2:*"},
+                                               {"lttng", "start"},
+                                               {FIRE_ALL_EVENTS},
+                                               {"lttng", "destroy"}}) {
+      const auto result = run_command(argv);
+      ASSERT_EQ(result.exit_code, 0) << argv[0] << ' ' << result.err;
+    }
+  }
+
+  test_support::Sandbox sandbox_;
+  std::filesystem::path trace_ = sandbox_.directory() / "trace";
+};
+
+TEST_F(RecordedEvents, HaveTheNamesFieldsOrderAndTypesOfRos2) {
+  std::filesystem::path folder;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(trace_)) {
+    if (entry.path().filename() == "metadata") folder = entry.path().parent_path();
+  }
+  const auto metadata = run_command({"babeltrace2", "--output-format=ctf-metadata", folder.string()});
+  ASSERT_EQ(metadata.exit_code, 0) << metadata.err;
+  EXPECT_EQ(declared_events(metadata.out),
+            expected([](const auto& name, const auto& type, const auto&) { return name + " " + type; }));
+}
+
+TEST_F(RecordedEvents, HoldTheArgumentsOfTheFunctions) {
+  const auto text = run_command({"babeltrace2", trace_.string()});
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_EQ(printed_events(text.out),
+            expected([](const auto& name, const auto&, const auto& value) { return name + " = " + value; }));
+}
+
+#define EVENT_NAME(name, ...) #name,
+const std::set<std::string> kDeclaredNames = {TRACETOOLS_EVENTS(EVENT_NAME)};
+#undef EVENT_NAME
+
+TEST(EventFunctions, AreThoseOfTheEvents) {
+  std::set<std::string> names;
+  for (const auto& [name, fields] : expected([](const auto&name, const auto&, const auto&) { return name; })) {
+    names.insert(name);
+  }
+  EXPECT_EQ(kDeclaredNames, names);
+  EXPECT_EQ(names.size(), 42u);
+}
+
+// A stack built with one configuration runs with the library of another.
+TEST(EventFunctions, AreTheSameWhenTracepointsAreExcluded) {
+  void* excluded = dlopen(EXCLUDED_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(excluded, nullptr) << dlerror();
+  for (void* library : {excluded, RTLD_DEFAULT}) {
+    for (const std::string& name : kDeclaredNames) {
+      EXPECT_NE(dlsym(library, ("ros_trace_" + name).c_str()), nullptr) << name;
+      EXPECT_NE(dlsym(library, ("ros_trace_do_" + name).c_str()), nullptr) << name;
+      EXPECT_NE(dlsym(library, ("ros_trace_enabled_" + name).c_str()), nullptr) << name;
+    }
+  }
+  for (const std::string& name : kDeclaredNames) {
+    EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(excluded, ("ros_trace_enabled_" + name).c_str()))()) << name;
+  }
+  for (const char* status : {"ros_trace_compile_status", "ros_trace_runtime_status"}) {
+    EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(excluded, status))()) << status;
+  }
+  dlclose(excluded);
+}
+
+}  // namespace

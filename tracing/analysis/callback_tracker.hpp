@@ -1,0 +1,48 @@
+// Pairs the starts and ends of callbacks and measures the time between.
+//
+// An instance is known by process, thread and callback: a reentrant callback may run in several threads at once with
+// one address, and callbacks of two processes may have one.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "tracing/analysis/duration_statistics.hpp"
+#include "tracing/analysis/object_model.hpp"
+
+namespace tracing {
+
+// A callback that is running in a thread.
+struct ActiveCallback {
+  ros2::Handle address = 0;
+  ObjectId callback = kNoObject;  // the object of that address when it started
+  std::int64_t start_ns = 0;
+  bool intra_process = false;
+};
+
+struct CallbackRecord {
+  DurationStatistics durations;
+  std::uint64_t intra_process = 0;
+  std::uint64_t unfinished = 0;
+};
+
+class CallbackTracker {
+ public:
+  // `thread`: the callbacks that run in the event's thread, innermost last; kept by the caller between events.
+  void start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback);
+  // An end without a start, at the begin of a trace, is ignored.
+  void end(std::vector<ActiveCallback>& thread, ros2::Handle address, std::int64_t time_ns);
+  // What still runs in a thread when the trace ends.
+  void abandon(const std::vector<ActiveCallback>& thread);
+
+  // Index: the callback's ObjectId; may be shorter than the model's list.
+  const std::vector<CallbackRecord>& records() const { return records_; }
+
+ private:
+  CallbackRecord& record(ObjectId callback);
+
+  std::vector<CallbackRecord> records_;
+};
+
+}  // namespace tracing

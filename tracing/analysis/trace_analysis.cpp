@@ -1,0 +1,23 @@
+#include "tracing/analysis/trace_analysis.hpp"
+
+namespace tracing {
+
+void TraceAnalysis::on_event(const Event& event) {
+  overview_.on_event(event);
+  const ros2::AnyEvent* decoded = decoder_.decode(event);
+  if (decoded == nullptr) return;
+  if (!event.vpid || !event.vtid) lacks_thread_context_ = true;
+  ros2_.on_event({event.timestamp_ns, event.vpid.value_or(0), event.vtid.value_or(0)}, *decoded);
+}
+
+void TraceAnalysis::on_loss(const Loss& loss) {
+  overview_.on_loss(loss);
+}
+
+TraceResults TraceAnalysis::finish() {
+  TraceResults results{overview_.overview(), ros2_.finish(), warnings_};
+  results.ros2.lacks_thread_context = lacks_thread_context_;
+  return results;
+}
+
+}  // namespace tracing

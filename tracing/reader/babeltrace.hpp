@@ -1,0 +1,35 @@
+// libbabeltrace2 for C++: owned references, and its errors as exceptions. Private to the reader.
+#pragma once
+
+#include <babeltrace2/babeltrace.h>
+
+#include <memory>
+#include <string>
+
+namespace tracing::babeltrace {
+
+template <class T, void (*put)(const T*)>
+struct PutReference {
+  void operator()(const T* object) const { put(object); }
+};
+
+using Graph = std::unique_ptr<bt_graph, PutReference<bt_graph, bt_graph_put_ref>>;
+using Plugin = std::unique_ptr<const bt_plugin, PutReference<bt_plugin, bt_plugin_put_ref>>;
+using Value = std::unique_ptr<bt_value, PutReference<bt_value, bt_value_put_ref>>;
+using ConstValue = std::unique_ptr<const bt_value, PutReference<bt_value, bt_value_put_ref>>;
+using QueryExecutor = std::unique_ptr<bt_query_executor, PutReference<bt_query_executor, bt_query_executor_put_ref>>;
+using Message = std::unique_ptr<const bt_message, PutReference<bt_message, bt_message_put_ref>>;
+using StreamReference = std::unique_ptr<const bt_stream, PutReference<bt_stream, bt_stream_put_ref>>;
+using EventClassReference = std::unique_ptr<const bt_event_class, PutReference<bt_event_class, bt_event_class_put_ref>>;
+
+// Throws TraceReadError from the causes that the library has noted for this thread, and clears them.
+// `what` is the message up to the library's own innermost reason, which is appended.
+[[noreturn]] void throw_noted_error(const std::string& what, const std::string& remedy);
+
+// For calls that fail only for want of memory, and for wrong use of the library.
+void check(int status, const char* call);
+
+// By default the library prints nothing; throws TraceReadError when the plugin is not installed.
+Plugin find_plugin(const char* name);
+
+}  // namespace tracing::babeltrace

@@ -1,0 +1,83 @@
+// One recorded event as the reader shows it: views into the reader's memory, nothing is copied.
+//
+// Everything in an Event is valid until TraceSink::on_event returns; its EventClass and Stream live as long as the
+// TraceReader.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct bt_field;  // libbabeltrace2's
+
+namespace tracing {
+
+// One data stream of a trace: in LTTng, the buffers of one channel on one CPU.
+struct Stream {
+  std::string name;                  // path of the stream file
+  std::size_t trace = 0;             // which trace below the directory, counted from 0
+  std::optional<std::int64_t> vpid;  // only with buffers per process (PER_PID): the process that wrote it
+};
+
+// What all events of one name in one trace have in common.
+struct EventClass {
+  std::string name;                 // "ros2:rcl_init"
+  std::size_t id = 0;               // counts from 0 within one reader: an index for the caller's own tables
+  std::size_t trace = 0;            // as in Stream
+  std::vector<std::string> fields;  // of the payload, in order
+
+  std::optional<std::size_t> index_of(std::string_view field) const;
+};
+
+// The value of one field. Asking for another type than was recorded gives nullopt.
+class FieldValue {
+ public:
+  explicit FieldValue(const bt_field* field) : field_(field) {}
+
+  std::optional<std::uint64_t> unsigned_integer() const;  // only of unsigned fields, such as pointers and sizes
+  std::optional<std::int64_t> integer() const;            // of any integer that fits
+  std::optional<double> real() const;
+  std::optional<std::string_view> string() const;
+
+  bool is_array() const;
+  std::size_t size() const;                        // elements of an array or sequence, 0 of anything else
+  FieldValue operator[](std::size_t index) const;  // of an array; index < size()
+
+ private:
+  const bt_field* field_;
+};
+
+struct Event {
+  const EventClass* event_class = nullptr;
+  std::int64_t timestamp_ns = 0;  // since the epoch, on the tracer's clock
+
+  // Recorded only when the session enabled these contexts (ros2_tracing's default does); cpu_id is LTTng's own.
+  std::optional<std::int64_t> cpu_id;
+  std::optional<std::int64_t> vpid;
+  std::optional<std::int64_t> vtid;
+  std::optional<std::string_view> procname;  // at most 15 characters; of the thread, not of the executable
+
+  const bt_field* payload = nullptr;  // for field(); null when the event has no fields
+
+  std::string_view name() const { return event_class->name; }
+  FieldValue field(std::size_t index) const;  // index < event_class->fields.size()
+  std::optional<FieldValue> field(std::string_view field_name) const;
+};
+
+// Events that the tracer could not keep, as the trace itself says.
+struct Loss {
+  enum class Kind {
+    kEvents,   // newest events dropped while the buffers were full
+    kPackets,  // oldest packets overwritten: an unknown number of events each
+  };
+  Kind kind = Kind::kEvents;
+  const Stream* stream = nullptr;
+  std::optional<std::int64_t> begin_ns;  // the loss lies within this time range, if the trace tells it
+  std::optional<std::int64_t> end_ns;
+  std::optional<std::uint64_t> count;  // nullopt: some
+};
+
+}  // namespace tracing

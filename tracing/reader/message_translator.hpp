@@ -1,0 +1,38 @@
+// Turns libbabeltrace2's messages into events and losses. Private to the reader.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <unordered_map>
+
+#include "tracing/reader/babeltrace.hpp"
+#include "tracing/reader/trace_reader.hpp"
+
+namespace tracing {
+
+// What the metadata say about an event class is looked up once, at its first event; after that an event costs one
+// look-up by address and no allocation.
+class MessageTranslator {
+ public:
+  MessageTranslator();
+  ~MessageTranslator();
+
+  void translate(const bt_message* message, TraceSink& sink);
+
+ private:
+  struct KnownClass;
+
+  void translate_event(const bt_message* message, TraceSink& sink);
+  void translate_loss(const bt_message* message, Loss::Kind kind, TraceSink& sink);
+  const KnownClass& known_class(const bt_event* event);
+  const Stream& known_stream(const bt_stream* stream);
+  std::size_t known_trace(const bt_trace* trace);
+
+  std::unordered_map<const bt_event_class*, std::unique_ptr<KnownClass>> classes_;
+  std::deque<Stream> streams_;
+  std::unordered_map<const bt_stream*, const Stream*> stream_index_;
+  std::unordered_map<const bt_trace*, std::size_t> traces_;
+  std::deque<babeltrace::StreamReference> stream_references_;  // keeps the addresses above from being reused
+};
+
+}  // namespace tracing

@@ -1,0 +1,35 @@
+// Turns recorded events of ros2_tracing into structs.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracing/reader/event.hpp"
+#include "tracing/reader/ros2_events.hpp"
+
+namespace tracing::ros2 {
+
+class Decoder {
+ public:
+  // `report` is told once per event class about fields that are missing or of another type than expected:
+  // "ros2:rmw_publish has no field timestamp". Such events are decoded all the same, extra fields are ignored.
+  explicit Decoder(std::function<void(const std::string&)> report);
+  ~Decoder();
+
+  // The event as a struct, valid until the next call; null when it is not one of the 42.
+  const AnyEvent* decode(const Event& event);
+
+  // What is known about an event class since its first event.
+  struct Plan;
+
+ private:
+  const Plan& plan_for(const Event& event);
+
+  std::function<void(const std::string&)> report_;
+  std::vector<std::unique_ptr<Plan>> plans_;  // by EventClass::id
+  AnyEvent decoded_;
+};
+
+}  // namespace tracing::ros2

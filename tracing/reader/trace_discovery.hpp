@@ -1,0 +1,18 @@
+// Finds the CTF traces below a directory. Private to the reader.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tracing/reader/babeltrace.hpp"
+
+namespace tracing {
+
+// Directories to be read as one trace: the chunks of a rotated session have one identity and continue each other.
+using TraceDirectories = std::vector<std::filesystem::path>;
+
+// One entry per trace, in the order of their paths. Throws TraceReadError when there is none.
+std::vector<TraceDirectories> find_traces(const bt_component_class_source* ctf_fs,
+                                          const std::filesystem::path& directory);
+
+}  // namespace tracing

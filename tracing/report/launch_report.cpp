@@ -1,0 +1,73 @@
+// `launch report DIRECTORY`: reads a trace and prints what it tells. An executable of its own, which `launch` executes,
+// so that the launcher doesn't carry the reading libraries while a system runs.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "tracing/analysis/trace_analysis.hpp"
+#include "tracing/report/report.hpp"
+
+namespace {
+
+enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
+
+struct Arguments {
+  std::string directory;
+  bool json = false;
+  bool summary = false;
+};
+
+void print_error(const tracing::TraceReadError& error) {
+  fmt::print(stderr, "launch report: error: {}\n", error.what());
+  if (!error.remedy().empty()) fmt::print(stderr, "    = help: {}\n", error.remedy());
+}
+
+int print_summary(const Arguments& arguments) {
+  tracing::OverviewCounter counter;
+  tracing::TraceReader(arguments.directory).read(counter);
+  fmt::print("{}\n", summary_line(counter.overview()));
+  return kSuccess;
+}
+
+int print_report(const Arguments& arguments) {
+  tracing::TraceAnalysis analysis;
+  // The paths of the streams are of this form, so that they can be shown relative to it.
+  tracing::Report report{std::filesystem::weakly_canonical(arguments.directory), {}, ""};
+  tracing::TraceReader reader(arguments.directory);
+  ExitCode exit_code = kSuccess;
+  try {
+    reader.read(analysis);
+    report.results = analysis.finish();
+  } catch (const tracing::TraceReadError& error) {
+    report.results = analysis.finish();
+    if (report.results.overview.events == 0) throw;
+    report.error = error.what();
+    print_error(error);
+    exit_code = kFailure;
+  }
+  fmt::print("{}", arguments.json ? json_report(report) : text_report(report));
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Reads a trace and reports events, losses, callback durations and topic latencies.", "launch report");
+  app.add_option("directory", arguments.directory, "Directory of the trace, or one that holds several")->required();
+  CLI::Option* json = app.add_flag("--json", arguments.json, "Print one JSON object instead of text");
+  app.add_flag("--summary", arguments.summary, "Print one line: events, processes, losses")->excludes(json);
+  app.footer("Exit code: 0, 1 when the trace can't be read (to its end), 2 for wrong arguments.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  }
+
+  try {
+    return arguments.summary ? print_summary(arguments) : print_report(arguments);
+  } catch (const tracing::TraceReadError& error) {
+    print_error(error);
+    return kFailure;
+  }
+}

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tracing/report/report.hpp"
+#include "tracing/report/text_table.hpp"
+
+namespace tracing {
+
+namespace {
+
+std::string trace_section(const Report& report) {
+  const TraceOverview& overview = report.results.overview;
+  std::string text = fmt::format("Trace      {}\n", report.directory.string());
+  if (!report.error.empty()) text += fmt::format("Damaged    {}\n", report.error);
+  if (overview.begin_ns) {
+    text += fmt::format("Recorded   {}, for {}\n", format_time(*overview.begin_ns),
+                        format_duration(static_cast<double>(*overview.end_ns - *overview.begin_ns)));
+  }
+  text += fmt::format("Events     {} of {}\n", overview.events, format_count(overview.processes.size(), "process"));
+  return text + fmt::format("Losses     {}\n", overview.losses.empty() ? "no events lost" : loss_phrase(overview));
+}
+
+// Paths below the trace's directory are shown relative to it.
+std::string stream_label(const std::string& stream, const std::filesystem::path& directory) {
+  const std::string below = std::filesystem::path(stream).lexically_relative(directory);
+  return below.empty() || below.starts_with("..") ? stream : below;
+}
+
+std::string loss_section(const Report& report) {
+  const TraceOverview& overview = report.results.overview;
+  if (overview.losses.empty()) return "";
+  const TextTable table(56, {10, 10, 12, 12});
+  std::string text = "\n" + table.row("Losses by stream", {"events", "packets", "from", "to"});
+  const auto since_begin = [&](const std::optional<std::int64_t>& time) -> std::string {
+    if (!time || !overview.begin_ns) return "?";
+    return fmt::format("{:+.3f} s", static_cast<double>(*time - *overview.begin_ns) / 1e9);
+  };
+  for (const LossResult& loss : overview.losses) {
+    const bool nothing_counted = loss.events == 0 && loss.packets == 0;
+    text += table.row("  " + stream_label(loss.stream, report.directory),
+                      {nothing_counted ? "some" : fmt::format("{}{}", loss.events, loss.uncounted ? "+" : ""),
+                       fmt::format("{}", loss.packets), since_begin(loss.begin_ns), since_begin(loss.end_ns)});
+  }
+  std::string doubtful;
+  for (const ProcessResult& process : overview.processes) {
+    if (process.doubtful) doubtful += (doubtful.empty() ? "" : ", ") + process_label(process);
+  }
+  return text + fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful);
+}
+
+// Processes are columns: as many as fit, then the table goes on below with the next ones.
+std::string event_section(const TraceOverview& overview) {
+  constexpr std::size_t kLabel = 42;
+  constexpr std::size_t kTotal = 10;
+  std::string text;
+  std::size_t first = 0;
+  while (first < overview.processes.size()) {
+    std::vector<std::size_t> widths{kTotal};
+    std::vector<std::string> titles{"total"};
+    std::size_t used = kLabel + kTotal;
+    std::size_t end = first;
+    for (; end < overview.processes.size(); ++end) {
+      const std::string title = process_label(overview.processes[end]);
+      const std::size_t width = std::max<std::size_t>(title.size() + 2, 10);
+      if (end > first && used + width > kReportWidth) break;
+      titles.push_back(title);
+      widths.push_back(width);
+      used += width;
+    }
+    const TextTable table(kLabel, widths);
+    text += "\n" + table.row("Events by process", titles);
+    for (const EventCount& count : overview.event_counts) {
+      std::vector<std::string> cells{fmt::format("{}", count.total)};
+      for (std::size_t process = first; process < end; ++process) {
+        cells.push_back(fmt::format("{}", count.by_process[process]));
+      }
+      text += table.row("  " + count.name, cells);
+    }
+    first = end;
+  }
+  return text;
+}
+
+std::string owner_label(const CallbackResult& callback) {
+  switch (callback.owner) {
+    case CallbackResult::Owner::kSubscription:
+      return "subscription " + callback.owner_name;
+    case CallbackResult::Owner::kService:
+      return "service " + callback.owner_name;
+    case CallbackResult::Owner::kTimer:
+      return "timer " + format_duration(static_cast<double>(callback.period_ns));
+    case CallbackResult::Owner::kUnknown:
+      return fmt::format("callback {:#x}", callback.address);
+  }
+  return "";
+}
+
+std::string node_label(const CallbackResult& callback, const TraceOverview& overview) {
+  const auto process =
+      std::find_if(overview.processes.begin(), overview.processes.end(),
+                   [&](const ProcessResult& candidate) { return candidate.vpid.value_or(0) == callback.vpid; });
+  const std::string label = process == overview.processes.end() ? "?" : process_label(*process);
+  return callback.node.empty() ? fmt::format("node unknown, {}", label) : fmt::format("{}, {}", callback.node, label);
+}
+
+std::string callback_section(const TraceResults& results) {
+  if (results.ros2.callbacks.empty()) return "";
+  constexpr std::size_t kDuration = 8;
+  const TextTable table(36, {8, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
+  std::string text = "\n" + table.row("Callbacks", {"count", "mean", "stddev", "min", "p50", "p90", "p99", "max"});
+  std::string last_node;
+  for (const CallbackResult& callback : results.ros2.callbacks) {
+    const std::string node = node_label(callback, results.overview);
+    if (node != last_node) text += fmt::format("{}\n", node);
+    last_node = node;
+    const DurationSummary& took = callback.durations;
+    std::vector<std::string> cells{fmt::format("{}", took.count)};
+    if (took.count > 0) {
+      cells.push_back(format_duration(took.mean_ns));
+      cells.push_back(took.count == 1 ? "-" : format_duration(took.stddev_ns));
+      for (const std::int64_t value : {took.min_ns, took.p50_ns, took.p90_ns, took.p99_ns, took.max_ns}) {
+        cells.push_back(format_duration(static_cast<double>(value)));
+      }
+    }
+    text += table.row("  " + owner_label(callback), cells);
+    if (!callback.symbol.empty()) text += fmt::format("    {}\n", callback.symbol);
+    if (callback.intra_process > 0) text += fmt::format("    {} of them intra-process\n", callback.intra_process);
+    if (callback.unfinished > 0) text += fmt::format("    {} more without an end\n", callback.unfinished);
+  }
+  return text;
+}
+
+std::string topic_section(const Ros2Results& ros2) {
+  constexpr std::size_t kDuration = 8;
+  const TextTable table(23, {10, 9, 9, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
+  std::string text;
+  std::size_t silent = 0;
+  for (const TopicResult& topic : ros2.topics) {
+    if (topic.published == 0 && topic.received == 0) {
+      ++silent;
+      continue;
+    }
+    const DurationSummary& latency = topic.latency;
+    std::vector<std::string> cells{fmt::format("{}", topic.published), fmt::format("{}", topic.received),
+                                   fmt::format("{}", topic.published_only)};
+    if (latency.count > 0) {
+      cells.push_back(format_duration(latency.mean_ns));
+      for (const std::int64_t value :
+           {latency.min_ns, latency.p50_ns, latency.p90_ns, latency.p99_ns, latency.max_ns}) {
+        cells.push_back(format_duration(static_cast<double>(value)));
+      }
+    }
+    text += table.row("  " + topic.name, cells);
+    if (topic.received_only > 0) {
+      text += fmt::format("    {} of those received were published outside the trace\n", topic.received_only);
+    }
+  }
+  if (!text.empty()) {
+    const std::string header =
+        table.row("Topics", {"published", "received", "untaken", "mean", "min", "p50", "p90", "p99", "max"});
+    text = "\n" + header + text +
+           "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n";
+  }
+  if (silent == 0) return text;
+  return text +
+         fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
+}
+
+std::string notes(const TraceResults& results) {
+  std::string text;
+  const auto note = [&text](const std::string& sentence) { text += fmt::format("  {}\n", sentence); };
+  const Ros2Results& ros2 = results.ros2;
+  if (ros2.lacks_thread_context) {
+    note("The session had no context vpid or vtid: processes and threads can't be told apart.");
+  }
+  if (ros2.unknown_messages > 0) {
+    note(fmt::format("{} of publishers or subscriptions whose creation is not in the trace: was it started late?",
+                     format_count(ros2.unknown_messages, "message")));
+  }
+  const auto estimated = [](const DurationSummary& summary) { return !summary.percentiles_are_exact; };
+  if (std::any_of(ros2.callbacks.begin(), ros2.callbacks.end(),
+                  [&](const CallbackResult& callback) { return estimated(callback.durations); }) ||
+      std::any_of(ros2.topics.begin(), ros2.topics.end(),
+                  [&](const TopicResult& topic) { return estimated(topic.latency); })) {
+    note(fmt::format("Percentiles of more than {} values are estimates from a random sample.",
+                     DurationStatistics::kKept));
+  }
+  for (const std::string& warning : results.warnings) {
+    note(fmt::format("{} (recorded by another version of ros2_tracing?)", warning));
+  }
+  return text.empty() ? "" : "\nNotes\n" + text;
+}
+
+}  // namespace
+
+std::string text_report(const Report& report) {
+  return trace_section(report) + loss_section(report) + event_section(report.results.overview) +
+         callback_section(report.results) + topic_section(report.results.ros2) + notes(report.results);
+}
+
+}  // namespace tracing

@@ -1,0 +1,31 @@
+// Names of context fields ("vpid", "perf:thread:cycles", "$app.provider:type") and what LTTng calls them.
+#pragma once
+
+#include <lttng/domain.h>
+#include <lttng/event.h>
+
+#include <string>
+
+namespace tracing {
+
+// One context field, ready for lttng_add_context(). Owns the strings that the C structure points to.
+class ContextField {
+ public:
+  // Throws TraceError, with a suggestion, for a name that is unknown or does not exist in this domain.
+  ContextField(const std::string& name, lttng_domain_type domain);
+  ContextField(const ContextField&) = delete;
+  ContextField& operator=(const ContextField&) = delete;
+
+  lttng_event_context* get() { return &context_; }
+
+ private:
+  void set_known_field(const std::string& name, lttng_domain_type domain);
+  void set_perf_counter(const std::string& name, lttng_domain_type domain);
+  void set_application_context(const std::string& name);
+
+  lttng_event_context context_{};
+  std::string application_provider_;
+  std::string application_type_;
+};
+
+}  // namespace tracing

@@ -1,0 +1,55 @@
+// A Tracer without LTTng, for tests: records its calls, and fails or blocks where it is told to.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+
+// Set it up before it is called. Everything else may be called from any thread.
+class FakeTracer : public Tracer {
+ public:
+  // What the calls give back or throw.
+  SetupReport setup_report;  // its trace directory is filled in by start()
+  LossAccount losses;
+  std::optional<TraceError> start_error;
+  std::optional<TraceError> finish_error;
+  std::optional<TraceError> verb_error;  // of pause, resume and record_snapshot
+
+  // From now on finish() does not return before release() is called or its give_up says true.
+  void block_finish();
+  void release();
+  // Returns once a blocked finish() is waiting.
+  void wait_until_finishing();
+
+  // "start NAME", "finish NAME", "give up NAME", "pause NAME", … with the LTTng session's name, in the order of calls.
+  std::vector<std::string> calls() const;
+  // The sessions started and not finished.
+  std::vector<std::string> open_sessions() const;
+  // What start() was given last.
+  std::optional<TraceConfig> last_config() const;
+
+  SetupReport start(const TraceConfig& config) override;
+  LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) override;
+  void pause(const std::string& lttng_session_name) override;
+  void resume(const std::string& lttng_session_name) override;
+  void record_snapshot(const std::string& lttng_session_name) override;
+
+ private:
+  void record(const std::string& call);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> calls_;
+  std::vector<std::string> open_sessions_;
+  std::optional<TraceConfig> last_config_;
+  bool finish_blocked_ = false;
+  bool finishing_ = false;
+};
+
+}  // namespace tracing

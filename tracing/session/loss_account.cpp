@@ -1,0 +1,75 @@
+#include "tracing/session/loss_account.hpp"
+
+#include <fmt/core.h>
+#include <lttng/lttng.h>
+
+#include <cstdlib>
+#include <memory>
+#include <numeric>
+
+#include "tracing/session/channels.hpp"
+#include "tracing/session/lttng_error.hpp"
+
+namespace tracing {
+namespace {
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
+// LTTng 2.13 now and then returns the count of a userspace channel with the highest bit set.
+constexpr std::uint64_t kCountBits = ~(std::uint64_t{1} << 63);
+
+void read_domain(const std::string& session, const lttng_domain& domain, LossAccount& account) {
+  const DomainHandle handle = domain_handle(session, domain.type);
+  const std::string doing = fmt::format("read the lost events of session '{}'", session);
+  lttng_channel* listed = nullptr;
+  const int count = check_lttng(lttng_list_channels(handle.get(), &listed), doing);
+  const std::unique_ptr<lttng_channel, Free> channels(listed);
+  for (int i = 0; i < count; ++i) {
+    ChannelLoss loss{.domain = domain_name(domain.type), .channel = listed[i].name};
+    check_lttng(lttng_channel_get_discarded_event_count(&listed[i], &loss.discarded_events), doing);
+    check_lttng(lttng_channel_get_lost_packet_count(&listed[i], &loss.lost_packets), doing);
+    loss.discarded_events &= kCountBits;
+    loss.lost_packets &= kCountBits;
+    account.channels.push_back(std::move(loss));
+  }
+}
+
+}  // namespace
+
+std::uint64_t LossAccount::discarded_events() const {
+  return std::accumulate(channels.begin(), channels.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const ChannelLoss& loss) { return sum + loss.discarded_events; });
+}
+
+std::uint64_t LossAccount::lost_packets() const {
+  return std::accumulate(channels.begin(), channels.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const ChannelLoss& loss) { return sum + loss.lost_packets; });
+}
+
+LossAccount read_losses(const std::string& lttng_session_name) {
+  LossAccount account;
+  lttng_domain* listed = nullptr;
+  const int count = check_lttng(lttng_list_domains(lttng_session_name.c_str(), &listed),
+                                fmt::format("list the domains of session '{}'", lttng_session_name));
+  const std::unique_ptr<lttng_domain, Free> domains(listed);
+  for (int i = 0; i < count; ++i) read_domain(lttng_session_name, listed[i], account);
+  return account;
+}
+
+std::string describe_losses(const LossAccount& losses) {
+  std::string text;
+  const auto add = [&text](std::uint64_t count, const char* what, const ChannelLoss& loss) {
+    if (count == 0) return;
+    text += fmt::format("{}{} {}{} lost in {} channel {}", text.empty() ? "" : "\n", count, what, count == 1 ? "" : "s",
+                        loss.domain, loss.channel);
+  };
+  for (const ChannelLoss& loss : losses.channels) {
+    add(loss.discarded_events, "event", loss);
+    add(loss.lost_packets, "packet", loss);
+  }
+  return text.empty() ? "no events lost" : text;
+}
+
+}  // namespace tracing

@@ -1,0 +1,17 @@
+// Reads what the tracer's counters say about events that it could not keep.
+#pragma once
+
+#include <string>
+
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+
+// The losses per channel so far. The session must still exist; the numbers are final once it is stopped and no data is
+// pending. Throws TraceError.
+LossAccount read_losses(const std::string& lttng_session_name);
+
+// One line per channel with losses ("12 events lost in ust channel ros2"), or "no events lost".
+std::string describe_losses(const LossAccount& losses);
+
+}  // namespace tracing

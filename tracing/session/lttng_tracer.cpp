@@ -1,0 +1,198 @@
+#include <fmt/core.h>
+#include <lttng/lttng.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include "tracing/session/channels.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/lttng_error.hpp"
+#include "tracing/session/session_daemon.hpp"
+#include "tracing/session/setup_checks.hpp"
+#include "tracing/session/snapshot.hpp"
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// LTTng has no event for "all data is written" or "the session is gone", and its own waiting calls look only every 200
+// and 500 ms. The state is asked for instead, soon at first and then less often.
+class Polling {
+ public:
+  void pause() {
+    std::this_thread::sleep_for(interval_);
+    interval_ = std::min(interval_ * 2, kLongest);
+  }
+
+ private:
+  static constexpr milliseconds kShortest{1};
+  static constexpr milliseconds kLongest{10};
+  milliseconds interval_ = kShortest;
+};
+
+class StepTimer {
+ public:
+  explicit StepTimer(std::vector<SetupStep>& steps) : steps_(steps) {}
+  void finished(std::string name) {
+    const auto now = steady_clock::now();
+    steps_.push_back({std::move(name), now - std::exchange(begin_, now)});
+  }
+
+ private:
+  std::vector<SetupStep>& steps_;
+  steady_clock::time_point begin_ = steady_clock::now();
+};
+
+bool session_exists(const std::string& name) {
+  lttng_session* sessions = nullptr;
+  const int count = check_lttng(lttng_list_sessions(&sessions), "list the trace sessions");
+  const bool found =
+      std::any_of(sessions, sessions + count, [&](const lttng_session& session) { return session.name == name; });
+  std::free(sessions);
+  return found;
+}
+
+// Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the
+// first one, so each further one gets a directory of its own inside: whoever reads the trace directory reads all of
+// them.
+std::string recording_directory(const TraceConfig& config) {
+  const std::filesystem::path directory = config.trace_directory();
+  if (!std::filesystem::exists(directory / "ust") && !std::filesystem::exists(directory / "kernel")) {
+    return directory.string();
+  }
+  for (int number = 1;; ++number) {
+    const std::filesystem::path appended = directory / fmt::format("appended-{}", number);
+    if (!std::filesystem::exists(appended)) return appended.string();
+  }
+}
+
+// A session that is destroyed again unless its set-up succeeds.
+class NewSession {
+ public:
+  explicit NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
+    const int result = config.records_snapshots()
+                           ? lttng_create_session_snapshot(name_.c_str(), nullptr)
+                           : lttng_create_session(name_.c_str(), recording_directory(config).c_str());
+    if (result == -LTTNG_ERR_EXIST_SESS) {
+      throw TraceError(fmt::format("trace session '{}' exists already", name_),
+                       fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
+    }
+    check_lttng(result, fmt::format("create trace session '{}'", name_));
+  }
+  ~NewSession() {
+    if (!kept_) lttng_destroy_session_no_wait(name_.c_str());
+  }
+  NewSession(const NewSession&) = delete;
+  NewSession& operator=(const NewSession&) = delete;
+
+  void keep() { kept_ = true; }
+
+ private:
+  std::string name_;
+  bool kept_ = false;
+};
+
+void stop(const std::string& name) {
+  // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
+  // length for its own thread that writes the metadata.
+  const int result = lttng_stop_tracing_no_wait(name.c_str());
+  if (result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) check_lttng(result, fmt::format("stop trace session '{}'", name));
+}
+
+// Stops the session and reads its losses once they are final, or as they are when give_up says so. A session that fails
+// in this can't be used any more and is destroyed.
+LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up) {
+  try {
+    stop(name);
+    const std::string doing = fmt::format("write the data of trace session '{}'", name);
+    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0; data.pause()) {
+      if (give_up && give_up()) break;
+    }
+    return read_losses(name);
+  } catch (const TraceError&) {
+    lttng_destroy_session_no_wait(name.c_str());
+    throw;
+  }
+}
+
+class LttngTracer : public Tracer {
+ public:
+  SetupReport start(const TraceConfig& config) override;
+  LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) override;
+  void pause(const std::string& lttng_session_name) override;
+  void resume(const std::string& lttng_session_name) override;
+  void record_snapshot(const std::string& lttng_session_name) override;
+};
+
+SetupReport LttngTracer::start(const TraceConfig& config) {
+  SetupReport report{.trace_directory = config.trace_directory(), .steps = {}, .warnings = {}};
+  StepTimer timer(report.steps);
+
+  check_config(config);
+  const std::vector<DomainPlan> domains = plan_domains(config, report.warnings);
+  for (std::string& warning : perf_warnings(config.context_fields_ust)) report.warnings.push_back(std::move(warning));
+  timer.finished("checks");
+
+  report.started_daemon = ensure_session_daemon();
+  timer.finished("session daemon");
+  if (!config.events_kernel.empty() || !config.syscalls.empty()) {
+    check_kernel_tracer();
+    timer.finished("kernel tracer");
+  }
+
+  const std::string session_name = config.lttng_session_name();
+  NewSession session(config);
+  if (config.records_snapshots()) {
+    add_snapshot_output(config);
+  }
+  timer.finished("create session");
+  for (const DomainPlan& domain : domains) {
+    enable_channel(session_name, domain);
+    timer.finished("channel " + domain.channel);
+    enable_events(session_name, domain);
+    timer.finished("events " + domain.channel);
+    add_contexts(session_name, domain);
+    timer.finished("context fields " + domain.channel);
+  }
+  check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
+  timer.finished("start");
+  session.keep();
+  return report;
+}
+
+LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
+  const std::string name = config.lttng_session_name();
+  const LossAccount losses = stop_and_account(name, give_up);
+  check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
+  for (Polling gone; session_exists(name); gone.pause()) {
+    if (give_up && give_up()) break;
+  }
+  return losses;
+}
+
+void LttngTracer::pause(const std::string& name) {
+  // Waits for the data: whoever pauses wants to look at the trace.
+  check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
+}
+
+void LttngTracer::resume(const std::string& name) {
+  check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
+}
+
+void LttngTracer::record_snapshot(const std::string& name) {
+  record_and_clear(name);
+}
+
+}  // namespace
+
+std::unique_ptr<Tracer> make_lttng_tracer() {
+  return std::make_unique<LttngTracer>();
+}
+
+}  // namespace tracing

@@ -1,0 +1,26 @@
+// The LTTng session daemon: found, started when none runs, and known to be usable.
+#pragma once
+
+#include <string>
+
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+
+// `lttng-sessiond` is not installed: no trace is possible on this machine.
+class SessionDaemonMissing : public TraceError {
+ public:
+  using TraceError::TraceError;
+};
+
+// Makes sure that a session daemon answers and that it lives in the same container as we do. Starts one when there is
+// none; that one survives this process and holds none of its files open. Returns whether it was started. Blocks until
+// the daemon is ready, about 20 ms. Throws TraceError.
+bool ensure_session_daemon();
+
+// Throws unless the process of the pid file `pid_file` is a running session daemon. A socket on a shared HOME can be
+// reached from another container, whose daemon would then record nothing of ours, silently (LTTng bug 1371). No such
+// file is no objection.
+void check_daemon_is_here(const std::string& pid_file);
+
+}  // namespace tracing

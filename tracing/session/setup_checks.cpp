@@ -1,0 +1,87 @@
+#include "tracing/session/setup_checks.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <lttng/lttng.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+
+#include "tracing/session/channels.hpp"
+#include "tracing/session/perf_counters.hpp"
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+void check_config(const TraceConfig& config) {
+  if (config.session_name.empty()) throw TraceError("the trace session's name is empty", "give it a session-name");
+  const std::string session = config.lttng_session_name();
+  if (session.find('/') != std::string::npos) {
+    throw TraceError(fmt::format("trace session name '{}' contains a '/'", session),
+                     "the directory that will hold the trace is given by base-path");
+  }
+  if (session.size() >= LTTNG_NAME_MAX) {
+    throw TraceError(fmt::format("trace session name '{}' is longer than {} characters", session, LTTNG_NAME_MAX - 1));
+  }
+  if (config.events_ust.empty() && config.events_kernel.empty() && config.syscalls.empty()) {
+    throw TraceError(fmt::format("no events enabled for trace session '{}'", session),
+                     "name some in events-ust, events-kernel or syscalls");
+  }
+  std::error_code ignored;
+  if (const std::string directory = config.trace_directory();
+      !config.append_trace && std::filesystem::exists(directory, ignored)) {
+    throw TraceError(fmt::format("trace directory {} exists already", directory),
+                     "set append-trace to true to add to it, or choose another session-name");
+  }
+  check_writable(config.base_path);
+}
+
+void check_writable(const std::string& base_path) {
+  std::filesystem::path existing = base_path;
+  std::error_code error;
+  while (!std::filesystem::exists(existing, error) && existing.has_relative_path()) existing = existing.parent_path();
+
+  std::string reason;
+  if (!std::filesystem::is_directory(existing, error)) {
+    reason = fmt::format("{} is not a directory", existing.string());
+  } else if (faccessat(AT_FDCWD, existing.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    reason = fmt::format("{}: {}", existing.string(), std::strerror(errno));
+  } else {
+    return;
+  }
+  throw TraceError(fmt::format("cannot write traces to {}: {}", base_path, reason),
+                   "choose another base-path, or set ROS_TRACE_DIR");
+}
+
+void check_kernel_tracer() {
+  const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_KERNEL);
+  lttng_event* tracepoints = nullptr;
+  const int count = lttng_list_tracepoints(handle.get(), &tracepoints);
+  std::free(tracepoints);
+  if (count >= 0) return;
+  throw TraceError(fmt::format("kernel events cannot be recorded: {}", lttng_strerror(count)),
+                   "install the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as root or as a member "
+                   "of the group `tracing`; or trace without events-kernel and syscalls");
+}
+
+std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust) {
+  constexpr std::string_view kPrefix = "perf:thread:";
+  std::vector<std::string> warnings;
+  for (const std::string& name : context_fields_ust) {
+    if (!name.starts_with(kPrefix)) continue;
+    const auto counter = find_perf_counter(name.substr(kPrefix.size()));
+    if (!counter) continue;
+    if (const std::string reason = why_not_countable(*counter); !reason.empty()) {
+      warnings.push_back(
+          fmt::format("context field '{}' cannot be counted here ({}): LTTng will record no events; leave it "
+                      "out, or see whether /proc/sys/kernel/perf_event_paranoid forbids it",
+                      name, reason));
+    }
+  }
+  return warnings;
+}
+
+}  // namespace tracing

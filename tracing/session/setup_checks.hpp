@@ -1,0 +1,23 @@
+// What can be known to fail before a session is created. All throw TraceError.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracing/session/trace_config.hpp"
+
+namespace tracing {
+
+// The session's name can be one, something is to be recorded, and the trace directory is free and can be created.
+void check_config(const TraceConfig& config);
+
+// The base directory, or what exists of the path to it, is a directory where this user may write.
+void check_writable(const std::string& base_path);
+
+// Events of the kernel can be recorded: its modules are there and this user may use them. Needs a session daemon.
+void check_kernel_tracer();
+
+// One for each thread counter that cannot be counted here: LTTng would record no event at all then, without an error.
+std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust);
+
+}  // namespace tracing

@@ -1,0 +1,16 @@
+// The output of snapshot sessions, and recording one.
+#pragma once
+
+#include <string>
+
+#include "tracing/session/trace_config.hpp"
+
+namespace tracing {
+
+// Where the snapshots of `config`'s session go. Each makes a directory of its own below the trace directory.
+void add_snapshot_output(const TraceConfig& config);
+
+// Writes what the buffers of the session hold, then empties them, so that the next snapshot starts after this one.
+void record_and_clear(const std::string& lttng_session_name);
+
+}  // namespace tracing

@@ -1,0 +1,20 @@
+// `launch trace`: tracing from the command line, as `ros2 trace` does it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+
+// `arguments` are those after `launch trace`. Without a verb the interactive form runs: it asks for Enter on stdin,
+// once to start and once to stop. Blocks. Returns the exit code: 0; 1 when a session could not be controlled (the
+// reason is on stderr); 2 for wrong usage or when LTTng is not installed. Call it before the program has threads: it
+// takes SIGINT and SIGTERM for itself.
+int run_trace_command(const std::vector<std::string>& arguments);
+
+// The same with a tracer of the caller's.
+int run_trace_command(const std::vector<std::string>& arguments, Tracer& tracer);
+
+}  // namespace tracing

@@ -1,0 +1,131 @@
+#include "tracing/session/trace_options.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+namespace tracing {
+namespace {
+
+constexpr int kUsageError = 2;
+
+// As typed; the defaults that depend on the environment are not filled in yet.
+struct SessionArguments {
+  std::string session_name;
+  std::string path;
+  std::vector<std::string> context_fields = default_context_fields();
+  bool dual_session = false;
+};
+
+std::map<std::string, std::string> environment() {
+  std::map<std::string, std::string> variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const std::size_t equals = text.find('=');
+    if (equals != std::string::npos) variables.emplace(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return variables;
+}
+
+// An option that takes any number of names; without names it means "none". It appears as `{name}` to the parser then.
+void add_names(CLI::App& command, const std::string& option, std::vector<std::string>& names, const std::string& kind,
+               const std::string& help) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          option,
+          [&names](const std::vector<std::string>& given) {
+            names = given;
+            std::erase(names, std::string());
+          },
+          help)
+      ->expected(0, CLI::detail::expected_max_vector_size)
+      ->option_text(fmt::format("[{}…]", kind));
+}
+
+void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOptions& options) {
+  TraceConfig& config = options.config;
+  command
+      .add_option("-p,--path", arguments.path,
+                  "directory that will hold the trace directory (default: $ROS_TRACE_DIR, $ROS_HOME/tracing or "
+                  "~/.ros/tracing)")
+      ->option_text("DIR");
+  add_names(command, "-u,--ust", config.events_ust, "EVENT", "userspace events (default: all ROS 2 events)");
+  add_names(command, "-k,--kernel", config.events_kernel, "EVENT", "kernel events (default: none)");
+  add_names(command, "--syscall", config.syscalls, "NAME", "system calls (default: none)");
+  add_names(command, "-c,--context", arguments.context_fields, "FIELD",
+            "context fields of every event (default: procname vpid vtid)");
+  command.add_flag("-l,--list", options.list_names, "print the names of the enabled events and context fields");
+  command.add_flag("-a,--append-trace", config.append_trace, "add to a trace directory that exists already");
+  command.add_flag("--snapshot-mode", config.snapshot_mode, "keep the newest events in memory until record_snapshot");
+  command.add_option("--subbuffer-size-ust", config.subbuffer_size_ust, "sub-buffers of the userspace channel")
+      ->option_text("BYTES");
+  command.add_option("--subbuffer-size-kernel", config.subbuffer_size_kernel, "sub-buffers of the kernel channel")
+      ->option_text("BYTES");
+}
+
+void add_dual_session(CLI::App& command, SessionArguments& arguments) {
+  command.add_flag("-d,--dual-session", arguments.dual_session, "act on a dual session, whose snapshot half exists");
+}
+
+CLI::App* add_verb(CLI::App& command, const std::string& name, const std::string& help, SessionArguments& arguments) {
+  CLI::App* verb = command.add_subcommand(name, help);
+  verb->add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
+  add_dual_session(*verb, arguments);
+  return verb;
+}
+
+void complete(TraceOptions& options, const SessionArguments& arguments) {
+  TraceConfig& config = options.config;
+  config.session_name = arguments.session_name.empty() ? "session" + session_timestamp() : arguments.session_name;
+  config.base_path = trace_base_path(arguments.path, environment());
+  config.context_fields_ust = arguments.context_fields;
+  config.context_fields_kernel = arguments.context_fields;
+  options.dual_session = arguments.dual_session;
+  // All verbs but record_snapshot act on the half that runs on demand.
+  config.dual_runtime = arguments.dual_session && options.verb != TraceVerb::kRecordSnapshot;
+  config.dual_session = arguments.dual_session && options.verb == TraceVerb::kRecordSnapshot;
+}
+
+}  // namespace
+
+std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<std::string>& arguments) {
+  TraceOptions options;
+  SessionArguments session;
+  CLI::App command("Record a trace of ROS 2 applications. Without a verb: interactively.", "launch trace");
+  command.require_subcommand(0, 1);
+  command
+      .add_option("-s,--session-name", session.session_name, "name of the session (default: session-YYYYMMDDHHMMSS)")
+      ->option_text("NAME");
+  add_session_options(command, session, options);
+  add_dual_session(command, session);
+
+  CLI::App* start = add_verb(command, "start", "configure and start a session, return at once", session);
+  add_session_options(*start, session, options);
+  const std::map<CLI::App*, TraceVerb> verbs = {
+      {start, TraceVerb::kStart},
+      {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},
+      {add_verb(command, "resume", "record again after a pause", session), TraceVerb::kResume},
+      {add_verb(command, "stop", "stop recording and end the session", session), TraceVerb::kStop},
+      {add_verb(command, "record_snapshot", "write what a snapshot session holds", session),
+       TraceVerb::kRecordSnapshot},
+  };
+
+  try {
+    command.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = command.get_subcommands();
+    return ParserMessage{0, chosen.empty() ? command.help() : chosen.front()->help()};
+  } catch (const CLI::ParseError& error) {
+    return ParserMessage{kUsageError, error.what()};
+  }
+  for (const auto& [verb, value] : verbs) {
+    if (verb->parsed()) options.verb = value;
+  }
+  complete(options, session);
+  return options;
+}
+
+}  // namespace tracing

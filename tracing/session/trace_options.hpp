@@ -1,0 +1,29 @@
+// The command line of `launch trace`, parsed.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tracing/session/trace_config.hpp"
+
+namespace tracing {
+
+enum class TraceVerb { kInteractive, kStart, kPause, kResume, kStop, kRecordSnapshot };
+
+struct TraceOptions {
+  TraceVerb verb = TraceVerb::kInteractive;
+  TraceConfig config;         // of the verbs without session options only the name is filled in
+  bool list_names = false;    // -l
+  bool dual_session = false;  // -d
+};
+
+// What the parser wants printed in place of running something: help on stdout (exit code 0), or an error on stderr (2).
+struct ParserMessage {
+  int exit_code = 0;
+  std::string text;
+};
+
+std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<std::string>& arguments);
+
+}  // namespace tracing
