@@ -22,7 +22,7 @@ class DescriptorWatch {
   // Readable whenever run_batch() has something to do.
   int fd() const { return epoll_->get(); }
 
-  // As EventLoop::on_readable() and EventLoop::on_exit().
+  // As EventLoop::on_readable() and EventLoop::on_exit(). A descriptor can have one of the two at a time.
   EventLoop::SourcePtr on_readable(int fd, EventLoop::Callback callback);
   EventLoop::SourcePtr on_exit(int pidfd, EventLoop::Callback callback);
 

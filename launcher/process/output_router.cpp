@@ -187,11 +187,6 @@ void OutputRouter::message(LogLevel level, std::string_view logger, std::string_
   }
 }
 
-void OutputRouter::flush() {
-  // Every call above hands its text to the kernel before it returns; what is left to do is to write begun lines when
-  // their streams close.
-}
-
 // `text` holds one or more lines, without the last line end.
 void OutputRouter::Impl::write_lines(Child& owner, Stream& stream, const std::string& label, OutputStream which,
                                      const OutputTargets& targets, std::string_view text) {

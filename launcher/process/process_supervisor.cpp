@@ -2,24 +2,20 @@
 
 #include <poll.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <deque>
 #include <exception>
 #include <system_error>
 #include <utility>
 
+#include "launcher/process/child_output.hpp"
 #include "launcher/process/generated_files.hpp"
 
 namespace launch {
 namespace {
 
-constexpr std::size_t kReadSize = 64 * 1024;  // capacity of a pipe
-// What is read at most from a stream of a process that has exited, while descendants may go on writing into it.
-constexpr std::size_t kDrainLimit = 1024 * 1024;
 // How long the destructor waits for a process that it has killed. Only a process that hangs in the kernel takes so
 // long.
 constexpr int kReapTimeoutMilliseconds = 1000;
@@ -32,17 +28,15 @@ bool asks_to_end(int signal) {
   return signal == SIGINT || signal == SIGTERM || signal == SIGKILL || signal == SIGQUIT || signal == SIGHUP;
 }
 
-struct Stream {
-  OutputStream which;
-  UniqueFd fd;
-  EventLoop::SourcePtr source;
-
-  bool open() const { return static_cast<bool>(fd); }
-};
-
 struct Supervised {
-  ProcessId id = 0;
-  std::string label;
+  Supervised(EventLoop& loop, OutputRouter& router, ProcessId number, ProcessSpec given)
+      : id(number),
+        label(given.name + "-" + std::to_string(number)),
+        spec(std::move(given)),
+        output(loop, router, {id, label, spec.output}) {}
+
+  const ProcessId id;
+  const std::string label;
   ProcessSpec spec;
   ProcessState state = ProcessState::kStarting;
   std::int64_t retries = 0;
@@ -54,12 +48,9 @@ struct Supervised {
   bool exited = false;    // a zombie, kept because descendants hold its output open
   bool signalled = false;
   Duration started{0};
-  Stream out{OutputStream::kOut, {}, {}};
-  Stream err{OutputStream::kErr, {}, {}};
+  ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;
-
-  bool output_open() const { return out.open() || err.open(); }
 };
 
 }  // namespace
@@ -73,7 +64,7 @@ struct ProcessSupervisor::Impl {
   };
 
   Impl(EventLoop& event_loop, ProcessRunner& process_runner, OutputRouter& router)
-      : loop(event_loop), runner(process_runner), output(router), buffer(kReadSize) {}
+      : loop(event_loop), runner(process_runner), output(router) {}
 
   // Runs the handler of the table. An event raised meanwhile, by a handler or by an observer, waits until it is done:
   // observers see the events of a process in order, and handlers run on a settled state.
@@ -104,12 +95,6 @@ struct ProcessSupervisor::Impl {
   void start_timer(Supervised& process, Duration delay);
   void reap_after_kill(Supervised& process);
 
-  void watch(Supervised& process, Stream& stream);
-  void read_available(Supervised& process, Stream& stream, std::size_t limit);
-  void drain(Supervised& process);
-  void close(Supervised& process, Stream& stream);
-  void close_output(Supervised& process);
-
   static const std::array<std::array<Handler, kEvents>, kStates> kTable;
 
   EventLoop& loop;
@@ -122,7 +107,6 @@ struct ProcessSupervisor::Impl {
   std::deque<Pending> pending;
   bool handling = false;
   GeneratedFiles files;
-  std::vector<char> buffer;
 };
 
 // clang-format off
@@ -187,10 +171,7 @@ void ProcessSupervisor::Impl::spawn(Supervised& process) {
   process.state = ProcessState::kRunning;
   process.unreaped = true;
   process.started = loop.now();
-  process.out.fd = std::move(process.process.out);
-  process.err.fd = std::move(process.process.err);
-  watch(process, process.out);
-  watch(process, process.err);
+  process.output.follow(process.process, [this, &process] { handle(process, Event::kOutputClosed); });
   process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
   notify(process, ProcessStarted{process.process.pid});
 }
@@ -237,15 +218,15 @@ void ProcessSupervisor::Impl::end_unasked(Supervised& process) {
     return;
   }
   process.exit_source.reset();
-  drain(process);
+  process.output.drain();
   const bool again = respawns(process);
   if (again) {
     // A wrapper has died and its program lives on: two of it would be worse than none for a moment.
     runner.signal_group(process.process, SIGKILL);
-    close_output(process);
+    process.output.close();
   }
   process.exited = true;
-  if (process.output_open()) {
+  if (process.output.is_open()) {
     report_exit(process, runner.outcome(process.process), again);
   } else {
     process.unreaped = false;
@@ -256,10 +237,10 @@ void ProcessSupervisor::Impl::end_unasked(Supervised& process) {
 
 void ProcessSupervisor::Impl::end_signalled(Supervised& process) {
   process.exit_source.reset();
-  drain(process);
+  process.output.drain();
   process.exited = true;
   const bool again = respawns(process);
-  if (process.output_open() && process.state != ProcessState::kKilling) {
+  if (process.output.is_open() && process.state != ProcessState::kKilling) {
     report_exit(process, runner.outcome(process.process), again);
     if (process.state != ProcessState::kTerminating) {
       process.state = ProcessState::kTerminating;
@@ -272,7 +253,7 @@ void ProcessSupervisor::Impl::end_signalled(Supervised& process) {
   runner.signal_group(process.process, SIGKILL);
   process.unreaped = false;
   const ProcessExit exit = runner.reap(process.process);
-  close_output(process);
+  process.output.close();
   process.timer.reset();
   report_exit(process, exit, again);
   conclude(process);
@@ -355,65 +336,8 @@ void ProcessSupervisor::Impl::reap_after_kill(Supervised& process) {
   runner.signal_group(process.process, SIGKILL);
   process.unreaped = false;
   runner.reap(process.process);
-  close_output(process);
+  process.output.close();
   process.timer.reset();
-}
-
-void ProcessSupervisor::Impl::watch(Supervised& process, Stream& stream) {
-  if (!stream.open()) {
-    return;
-  }
-  stream.source = loop.on_readable(stream.fd.get(), [this, &process, &stream] {
-    read_available(process, stream, kReadSize);
-    if (!process.output_open()) {
-      handle(process, Event::kOutputClosed);
-    }
-  });
-}
-
-void ProcessSupervisor::Impl::read_available(Supervised& process, Stream& stream, std::size_t limit) {
-  const OutputRouting& routing = process.spec.output;
-  const OutputTargets& targets = stream.which == OutputStream::kOut ? routing.out : routing.err;
-  for (std::size_t total = 0; total < limit;) {
-    const ssize_t size = ::read(stream.fd.get(), buffer.data(), buffer.size());
-    if (size > 0) {
-      output.write(process.id, process.label, stream.which, targets, {buffer.data(), static_cast<std::size_t>(size)});
-      total += static_cast<std::size_t>(size);
-    } else if (size < 0 && errno == EINTR) {
-      continue;
-    } else if (size < 0 && errno == EAGAIN) {
-      return;
-    } else {
-      // The end, which is an error (EIO) for a pseudo-terminal.
-      close(process, stream);
-      return;
-    }
-  }
-}
-
-// What a process wrote before its exit is shown before its exit is reported.
-void ProcessSupervisor::Impl::drain(Supervised& process) {
-  for (Stream* stream : {&process.out, &process.err}) {
-    if (stream->open()) {
-      read_available(process, *stream, kDrainLimit);
-    }
-  }
-}
-
-void ProcessSupervisor::Impl::close(Supervised& process, Stream& stream) {
-  if (!stream.open()) {
-    return;
-  }
-  const OutputRouting& routing = process.spec.output;
-  stream.source.reset();
-  stream.fd.reset();
-  output.close_stream(process.id, process.label, stream.which,
-                      stream.which == OutputStream::kOut ? routing.out : routing.err);
-}
-
-void ProcessSupervisor::Impl::close_output(Supervised& process) {
-  close(process, process.out);
-  close(process, process.err);
 }
 
 ProcessSupervisor::ProcessSupervisor(EventLoop& loop, ProcessRunner& runner, OutputRouter& output)
@@ -432,7 +356,7 @@ ProcessSupervisor::~ProcessSupervisor() {
         if (::poll(&exited, 1, kReapTimeoutMilliseconds) == 1) {
           impl_->runner.reap(process->process);
         }
-        impl_->close_output(*process);
+        process->output.close();
       }
     }
   } catch (const std::exception&) {
@@ -448,15 +372,11 @@ ProcessId ProcessSupervisor::start(ProcessSpec spec) {
   if (impl_->shutting_down) {
     return 0;
   }
-  auto process = std::make_unique<Supervised>();
-  process->id = static_cast<ProcessId>(impl_->processes.size() + 1);
-  process->label = spec.name + "-" + std::to_string(process->id);
-  process->spec = std::move(spec);
-  impl_->processes.push_back(std::move(process));
+  const auto id = static_cast<ProcessId>(impl_->processes.size() + 1);
+  impl_->processes.push_back(std::make_unique<Supervised>(impl_->loop, impl_->output, id, std::move(spec)));
   ++impl_->active;
-  Supervised& added = *impl_->processes.back();
-  impl_->handle(added, Event::kStart);
-  return added.id;
+  impl_->handle(*impl_->processes.back(), Event::kStart);
+  return id;
 }
 
 void ProcessSupervisor::shutdown() {

@@ -1,0 +1,54 @@
+// Standard output and error of one child, on their way from its pipes to the OutputRouter.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/output_router.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+class ChildOutput {
+ public:
+  // Whose output it is. The references must stay valid.
+  struct Owner {
+    ProcessId id;
+    const std::string& label;
+    const OutputRouting& routing;
+  };
+
+  ChildOutput(EventLoop& loop, OutputRouter& router, Owner owner) : loop_(loop), router_(router), owner_(owner) {}
+
+  // Takes the read ends, which must not block, from a started process and follows them. `on_end` is called from the
+  // loop when both have ended, but not by drain() or close().
+  void follow(Process& process, EventLoop::Callback on_end);
+  bool is_open() const { return streams_[0].fd || streams_[1].fd; }
+
+  // Reads what is there. Bounded, because descendants of an ended child may go on writing.
+  void drain();
+  // Stops following; a begun line is written.
+  void close();
+
+ private:
+  struct Stream {
+    OutputStream which;
+    UniqueFd fd{};
+    EventLoop::SourcePtr source{};
+  };
+
+  const OutputTargets& targets(const Stream& stream) const;
+  void read(Stream& stream, std::size_t limit);
+  void close(Stream& stream);
+
+  EventLoop& loop_;
+  OutputRouter& router_;
+  Owner owner_;
+  EventLoop::Callback on_end_;
+  std::array<Stream, 2> streams_{{{OutputStream::kOut}, {OutputStream::kErr}}};
+};
+
+}  // namespace launch
