@@ -52,7 +52,7 @@ std::string find_in_package(const std::string& package, const std::string& name,
 
 std::string find_launch_file(const std::vector<std::string>& words, const Scope& scope) {
   std::error_code ignored;
-  if (fs::exists(words.front(), ignored)) {
+  if (fs::exists(words.front(), ignored) && !fs::is_directory(words.front(), ignored)) {
     if (words.size() > 1) {
       throw LaunchError(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", words[1]), {});
     }

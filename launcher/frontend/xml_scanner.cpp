@@ -21,6 +21,10 @@ constexpr std::size_t kMaximumErrors = 20;
 // tinyxml2 stops at 100.
 constexpr std::size_t kMaximumDepth = 90;
 
+// Of versions and encoding names.
+constexpr std::string_view kDeclarationCharacters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._:-";
+
 constexpr std::string_view kBlanks = " \t\r\n";
 
 bool is_blank(char c) { return kBlanks.find(c) != std::string_view::npos; }
@@ -124,6 +128,11 @@ class XmlScanner {
         fatal("malformed XML declaration", name_begin, end, "write <?xml version=\"1.0\"?>");
         return;
       }
+      const std::string_view value = text_.substr(position_ + 1, close - position_ - 1);
+      if (value.empty() || value.find_first_not_of(kDeclarationCharacters) != std::string_view::npos) {
+        fatal(fmt::format("malformed {} in the XML declaration", name), position_, close + 1);
+        return;
+      }
       if (name == "encoding") {
         encoding(position_ + 1, close);
       }
@@ -224,7 +233,7 @@ class XmlScanner {
     }
     position_ = begin + 2;
     const std::string_view target = take_name();
-    if (target.empty()) {
+    if (target.empty() || (position_ != end && !is_blank(text_[position_]))) {
       error("a processing instruction needs a name", begin, begin + 2);
     } else if (lower(target) == "xml") {
       error("the XML declaration must stand at the very start of the file", begin, begin + 2 + target.size(),

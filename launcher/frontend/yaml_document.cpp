@@ -53,13 +53,16 @@ class TreeBuilder : public YAML::EventHandler {
     }
     node.where = node.scalar.text.text().empty() ? source_.range(at, 0) : node.scalar.text.range();
     node.scalar.type = Scalar::Type::kNull;
+    check_colon(node);
     add(std::move(node), anchor);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     YamlNode node;
-    auto [text, closed] = locate_yaml_scalar(source_, position(mark), value);
+    scalar_begin_ = position(mark);
+    auto [text, end, closed] = locate_yaml_scalar(source_, scalar_begin_, value);
+    scalar_end_ = end;
     if (!closed) {
       const SourceRange begin = text.range();
       throw LaunchError("the quoted text is not closed", {begin.file, begin.begin - 1, begin.begin},
@@ -85,6 +88,8 @@ class TreeBuilder : public YAML::EventHandler {
       throw LaunchError(fmt::format("the aliases expand to more than {} nodes", kMaximumNodes),
                         source_.range(position(mark), 1));
     }
+    scalar_begin_ = position(mark);
+    scalar_end_ = std::min(source_.text().find_first_of(" :", scalar_begin_), source_.text().size());
     add(YamlNode(found->second.node), YAML::NullAnchor);
   }
 
@@ -127,6 +132,20 @@ class TreeBuilder : public YAML::EventHandler {
     node.where = source_.range(position(mark), 1);
     open_.push_back(
         {std::move(node), anchor, nodes_, position(mark), style == YAML::EmitterStyle::Flow, std::nullopt});
+  }
+
+  // yaml-cpp takes a line without a colon for a key without a value.
+  void check_colon(const YamlNode& value) const {
+    if (!value.scalar.text.text().empty() || open_.empty() || open_.back().is_flow || !open_.back().key ||
+        open_.back().key->kind != YamlNode::Kind::kScalar) {
+      return;
+    }
+    const std::string_view text = source_.text();
+    const bool explicit_key = text.substr(0, scalar_begin_).ends_with("? ");
+    const std::size_t next = text.find_first_not_of(' ', scalar_end_);
+    if (!explicit_key && (next == std::string_view::npos || text[next] != ':')) {
+      throw LaunchError("expected 'KEY: VALUE'", open_.back().key->where, "a ':' with a space after it is missing");
+    }
   }
 
   void close() {
@@ -236,6 +255,9 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
+  // The scalar read last: the key, when the value of a key follows.
+  std::size_t scalar_begin_ = 0;
+  std::size_t scalar_end_ = 0;
 };
 
 // A tab in the indentation of the line at `at`, or of the line before: the cause of most errors there.
@@ -253,6 +275,37 @@ std::optional<std::size_t> find_indenting_tab(std::string_view text, std::size_t
     at = line_begin - 1;
   }
   return std::nullopt;
+}
+
+// The line before the one that begins at `line_begin`, when it should be an entry of a mapping and lacks its ':'. The
+// parser then takes both lines for one text, and complains about the ':' of the second.
+std::optional<SourceRange> find_line_without_colon(const LocatedText& source, std::size_t line_begin) {
+  const std::string_view text = source.text();
+  // Bytes [first, last) of the next line above `end` that is not blank; list dashes count as indentation.
+  struct Line {
+    std::size_t begin, first, last;
+  };
+  const auto line_above = [&](std::size_t end) -> std::optional<Line> {
+    const std::size_t last = end == 0 ? std::string_view::npos : text.find_last_not_of(" \r\n", end - 1);
+    if (last == std::string_view::npos) {
+      return std::nullopt;
+    }
+    const std::size_t begin = text.rfind('\n', last) + 1;
+    return Line{begin, text.find_first_not_of(" -", begin), last + 1};
+  };
+  const auto has_colon = [&](const Line& line) {
+    const std::string_view content = text.substr(line.begin, line.last - line.begin);
+    return content.find(": ") != std::string_view::npos || content.ends_with(':');
+  };
+  const std::optional<Line> line = line_above(line_begin);
+  if (!line || has_colon(*line) || line->first >= line->last) {
+    return std::nullopt;
+  }
+  const std::optional<Line> above = line_above(line->begin);
+  // Deeper than a line with a value: the second line of that value.
+  const bool continues = above && has_colon(*above) && text[above->last - 1] != ':' &&
+                         line->first - line->begin > above->first - above->begin;
+  return continues ? std::nullopt : std::optional(source.range(line->first, line->last - line->first));
 }
 
 // What is wrong at byte `at`, in the words of a launch file. yaml-cpp tells which rule was broken, not why.
@@ -280,11 +333,13 @@ Diagnostic explain(const std::string& rule, std::size_t at, const LocatedText& s
     return diagnostic("a closing bracket without an opening one");
   }
   if (rule == MAP_VALUE) {
+    if (const std::optional<SourceRange> line = find_line_without_colon(source, line_begin)) {
+      return {Severity::kError, "expected 'KEY: VALUE'", *line, "a ':' with a space after it is missing"};
+    }
     if (before.find(": ") != std::string_view::npos) {
       return diagnostic("': ' inside a text without quotes", "quote the text");
     }
-    return diagnostic("a mapping can't start here",
-                      "align the key with its neighbours, and write a space after each ':'");
+    return diagnostic("a mapping can't start here", "align the key with its neighbours");
   }
   if (rule == END_OF_MAP || rule == END_OF_SEQ) {
     if (!starts_line) {

@@ -27,6 +27,7 @@ class ScalarLocator {
       result_ = LocatedText({}, source_.range(position_, 0));
       flow(first);
       closed = !reaches_end();
+      position_ += closed ? 1 : 0;
     } else if (first == '|' || first == '>') {
       block(first == '>');
     } else {
@@ -36,7 +37,7 @@ class ScalarLocator {
     if (!rest_.empty()) {
       take(rest_.size(), 0);
     }
-    return {std::move(result_), closed};
+    return {std::move(result_), position_, closed};
   }
 
  private:

@@ -10,6 +10,7 @@ namespace launch {
 
 struct YamlScalarPlace {
   LocatedText text;  // the decoded text with the place of each of its characters, quotes left out
+  std::size_t end = 0;  // byte of the source behind the scalar and its closing quote
   // False when the text ends before the closing quote, which yaml-cpp lets pass.
   bool closed = true;
 };

@@ -31,8 +31,8 @@ struct LogDirectory {
 class OutputRouter {
  public:
   struct Options {
-    int screen_fd = 1;          // children's lines and launcher messages, as ROS 2 does
-    std::string log_directory;  // empty: no files are written
+    int screen_fd = 1;            // children's lines and launcher messages, as ROS 2 does
+    std::string log_directory{};  // empty: no files are written
     LogLevel screen_level = LogLevel::kInfo;
     bool colour = false;
   };

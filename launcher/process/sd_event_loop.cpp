@@ -17,15 +17,15 @@
 #include <vector>
 
 #include "launcher/base/unique_fd.hpp"
+#include "launcher/process/descriptor_watch.hpp"
 #include "launcher/process/event_loop.hpp"
 
 namespace launch {
 namespace {
 
 // Signals overtake everything. All other sources share one priority, in which sd-event takes the source first that has
-// waited longest: a child that floods its output can't starve timers, exits or posts, as it could with a ranking.
+// waited longest: a child that floods its output can't starve timers or posts, as it could with a ranking.
 constexpr std::int64_t kSignalPriority = SD_EVENT_PRIORITY_IMPORTANT;
-constexpr std::int64_t kPriority = SD_EVENT_PRIORITY_NORMAL;
 
 constexpr std::uint64_t kTimerAccuracyMicroseconds = 100;
 
@@ -50,8 +50,8 @@ class SdEventLoop final : public EventLoop {
   SdEventLoop();
   ~SdEventLoop() override;
 
-  SourcePtr on_readable(int fd, Callback callback) override;
-  SourcePtr on_exit(int pidfd, Callback callback) override;
+  SourcePtr on_readable(int fd, Callback callback) override { return watch_.on_readable(fd, std::move(callback)); }
+  SourcePtr on_exit(int pidfd, Callback callback) override { return watch_.on_exit(pidfd, std::move(callback)); }
   SourcePtr after(Duration delay, Callback callback) override;
   SourcePtr on_signal(std::initializer_list<int> signals, std::function<void(int)> callback) override;
   void post(Callback callback) override;
@@ -83,12 +83,10 @@ class SdEventLoop final : public EventLoop {
     std::shared_ptr<Registration> registration_;
   };
 
-  static int readable(sd_event_source* source, int fd, std::uint32_t events, void* data);
-  static int exited(sd_event_source* source, int fd, std::uint32_t events, void* data);
+  static int descriptors_ready(sd_event_source* source, int fd, std::uint32_t events, void* data);
   static int expired(sd_event_source* source, std::uint64_t microseconds, void* data);
   static int signalled(sd_event_source* source, const signalfd_siginfo* info, void* data);
   static int posted(sd_event_source* source, int fd, std::uint32_t events, void* data);
-  static int settled(sd_event_source* source, void* data);
 
   // The border between sd-event's C frames and callbacks that may throw: run() throws it again.
   template <typename Function>
@@ -102,16 +100,13 @@ class SdEventLoop final : public EventLoop {
 
   bool interrupted() const { return quit_ || failure_; }
   void run_posted();
-  void deliver_exits();
 
   std::unique_ptr<sd_event, EventDeleter> event_;
   bool quit_ = false;
   std::exception_ptr failure_;
 
-  // Exits wait two rounds (see settled()).
-  SdSource settle_;
-  std::deque<std::shared_ptr<Registration>> noticed_exits_;
-  std::deque<std::shared_ptr<Registration>> settled_exits_;
+  DescriptorWatch watch_;
+  SdSource watch_source_;
 
   UniqueFd post_fd_;
   SdSource post_source_;
@@ -125,10 +120,9 @@ SdEventLoop::SdEventLoop() {
   event_.reset(event);
 
   sd_event_source* source = nullptr;
-  check(sd_event_add_defer(event, &source, &SdEventLoop::settled, this), "cannot create an event source");
-  settle_.reset(source);
-  check(sd_event_source_set_priority(source, kPriority), "cannot set the priority of an event source");
-  check(sd_event_source_set_enabled(source, SD_EVENT_OFF), "cannot disable an event source");
+  check(sd_event_add_io(event, &source, watch_.fd(), EPOLLIN, &SdEventLoop::descriptors_ready, this),
+        "cannot watch descriptors");
+  watch_source_.reset(source);
 
   post_fd_.reset(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!post_fd_) {
@@ -141,73 +135,12 @@ SdEventLoop::SdEventLoop() {
 
 SdEventLoop::~SdEventLoop() = default;
 
-EventLoop::SourcePtr SdEventLoop::on_readable(int fd, Callback callback) {
-  auto registration = std::make_shared<Registration>(*this);
-  registration->callback = std::move(callback);
-  sd_event_source* source = nullptr;
-  // Edge triggered and re-armed after each callback: with level triggering every turn of the loop would report every
-  // descriptor that still waits for its turn, and the work for N busy children would grow with N squared.
-  check(sd_event_add_io(event_.get(), &source, fd, EPOLLIN | EPOLLET, &SdEventLoop::readable, registration.get()),
-        "cannot watch a descriptor");
-  registration->sources.emplace_back(source);
-  return std::make_unique<Handle>(std::move(registration));
-}
-
-int SdEventLoop::readable(sd_event_source* source, int, std::uint32_t, void* data) {
-  const auto registration = static_cast<Registration*>(data)->shared_from_this();
-  registration->loop.guard([&] {
-    registration->callback();
-    if (!registration->cancelled) {
-      check(sd_event_source_set_io_events(source, EPOLLIN | EPOLLET), "cannot watch a descriptor");
-    }
-  });
-  return 0;
-}
-
-EventLoop::SourcePtr SdEventLoop::on_exit(int pidfd, Callback callback) {
-  auto registration = std::make_shared<Registration>(*this);
-  registration->callback = std::move(callback);
-  sd_event_source* source = nullptr;
-  // Not sd_event_add_child_pidfd(): that reaps by itself, and the supervisor has to signal the group before.
-  check(sd_event_add_io(event_.get(), &source, pidfd, EPOLLIN | EPOLLET, &SdEventLoop::exited, registration.get()),
-        "cannot watch a process");
-  registration->sources.emplace_back(source);
-  return std::make_unique<Handle>(std::move(registration));
-}
-
-int SdEventLoop::exited(sd_event_source* source, int, std::uint32_t, void* data) {
-  const auto registration = static_cast<Registration*>(data)->shared_from_this();
-  SdEventLoop& loop = registration->loop;
-  loop.guard([&] {
-    check(sd_event_source_set_enabled(source, SD_EVENT_OFF), "cannot disable an event source");
-    loop.noticed_exits_.push_back(registration);
-    check(sd_event_source_set_enabled(loop.settle_.get(), SD_EVENT_ONESHOT), "cannot enable an event source");
-  });
-  return 0;
-}
-
-// Output that was readable when an exit was noticed is delivered before the exit. sd-event knows the age of a pending
-// source in iterations, so sources noticed in one iteration have no order. Exits are therefore queued, and delivered
-// by the second run of this source after that: it became pending in a later iteration than all that output.
-int SdEventLoop::settled(sd_event_source*, void* data) {
+int SdEventLoop::descriptors_ready(sd_event_source*, int, std::uint32_t, void* data) {
   auto& loop = *static_cast<SdEventLoop*>(data);
-  loop.guard([&] { loop.deliver_exits(); });
+  loop.guard([&] {
+    loop.watch_.run_batch([&](const Callback& callback) { loop.guard(callback); }, [&] { return loop.interrupted(); });
+  });
   return 0;
-}
-
-void SdEventLoop::deliver_exits() {
-  while (!settled_exits_.empty() && !interrupted()) {
-    const auto registration = std::move(settled_exits_.front());
-    settled_exits_.pop_front();
-    if (!registration->cancelled) {
-      guard(registration->callback);
-    }
-  }
-  settled_exits_.insert(settled_exits_.end(), noticed_exits_.begin(), noticed_exits_.end());
-  noticed_exits_.clear();
-  if (!settled_exits_.empty()) {
-    check(sd_event_source_set_enabled(settle_.get(), SD_EVENT_ONESHOT), "cannot enable an event source");
-  }
 }
 
 EventLoop::SourcePtr SdEventLoop::after(Duration delay, Callback callback) {

@@ -148,9 +148,13 @@ void RunningCommand::write(const std::string& text) {
   }
 }
 
-void RunningCommand::close_input() { close_fd(in_); }
+void RunningCommand::close_input() {
+  close_fd(in_);
+}
 
-void RunningCommand::send_signal(int number) { syscall(SYS_pidfd_send_signal, pidfd_, number, nullptr, 0); }
+void RunningCommand::send_signal(int number) {
+  syscall(SYS_pidfd_send_signal, pidfd_, number, nullptr, 0);
+}
 
 CommandResult RunningCommand::wait(milliseconds timeout) {
   if (ended_) return result_;
@@ -196,7 +200,9 @@ CommandResult run_command(const Command& command, milliseconds timeout, const st
   return running.wait(timeout);
 }
 
-CommandResult run_command(const std::vector<std::string>& argv) { return run_command(Command{.argv = argv}); }
+CommandResult run_command(const std::vector<std::string>& argv) {
+  return run_command(Command{.argv = argv});
+}
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -39,7 +39,7 @@ constexpr int kUsableDomains = 101;
 void bring_up_loopback() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   check(fd, "socket");
-  ifreq interface{};
+  ifreq interface {};
   std::strcpy(interface.ifr_name, "lo");
   check(ioctl(fd, SIOCGIFFLAGS, &interface), "read the flags of lo");
   interface.ifr_flags = static_cast<short>(interface.ifr_flags | IFF_UP | IFF_RUNNING | IFF_MULTICAST);
@@ -101,7 +101,9 @@ std::map<pid_t, ProcessInfo> descendants() {
 }
 
 // lttng-sessiond, its lttng-runas helpers, lttng-consumerd, lttng-relayd: meant to survive who started them.
-bool is_lttng_daemon(const ProcessInfo& process) { return process.name.starts_with("lttng-"); }
+bool is_lttng_daemon(const ProcessInfo& process) {
+  return process.name.starts_with("lttng-");
+}
 
 fs::path make_directory() {
   const char* parent = std::getenv("TMPDIR");
@@ -119,7 +121,8 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
     enter_namespaces();
   } else {
     domain = static_cast<int>(getpid() % kUsableDomains) + 1;
-    not_isolated_ = "not root: the network and /dev/shm are shared with the machine, LTTNG_HOME and ROS_DOMAIN_ID differ";
+    not_isolated_ =
+        "not root: the network and /dev/shm are shared with the machine, LTTNG_HOME and ROS_DOMAIN_ID differ";
   }
 
   for (char** entry = environ; *entry != nullptr;) {
@@ -132,7 +135,7 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
     }
   }
   const std::map<std::string, fs::path> folders = {
-      {"HOME", "home"},    {"LTTNG_HOME", "lttng"},        {"ROS_HOME", "ros"},
+      {"HOME", "home"},       {"LTTNG_HOME", "lttng"},     {"ROS_HOME", "ros"},
       {"ROS_LOG_DIR", "log"}, {"ROS_TRACE_DIR", "traces"}, {"TMPDIR", "tmp"},
   };
   for (const auto& [variable, folder] : folders) {

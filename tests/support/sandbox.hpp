@@ -18,8 +18,8 @@ namespace test_support {
 // and DDS shared memory of its own) and lo is the only network, up, with multicast (hence Fast DDS discovery among the
 // test's own nodes only). Otherwise LTTNG_HOME and ROS_DOMAIN_ID keep tests apart; not_isolated() says what they share.
 //
-// HOME, LTTNG_HOME, ROS_HOME, ROS_LOG_DIR, ROS_TRACE_DIR and TMPDIR point into directory(). All other ROS_* variables and
-// AMENT_PREFIX_PATH are unset; ROS_DOMAIN_ID is set. Whatever the test's processes leave behind becomes a child of
+// HOME, LTTNG_HOME, ROS_HOME, ROS_LOG_DIR, ROS_TRACE_DIR and TMPDIR point into directory(). All other ROS_* variables
+// and AMENT_PREFIX_PATH are unset; ROS_DOMAIN_ID is set. Whatever the test's processes leave behind becomes a child of
 // the test and is killed and reaped at the end; leaving anything but LTTng's daemons fails the test. The
 // directory is removed unless KEEP_TEST_DIRS is set. Environment, namespaces and working directory are then as before.
 class Sandbox {

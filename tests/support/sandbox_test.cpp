@@ -1,8 +1,8 @@
 #include "tests/support/sandbox.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -14,12 +14,12 @@
 
 namespace {
 
+using std::chrono::milliseconds;
 using test_support::Command;
 using test_support::CommandResult;
 using test_support::run_command;
 using test_support::RunningCommand;
 using test_support::Sandbox;
-using std::chrono::milliseconds;
 
 TEST(Sandbox, GivesDirectoriesOfItsOwnAndTakesThemAway) {
   setenv("ROS_DISTRO", "some", 1);
@@ -97,10 +97,9 @@ TEST(Command, GivesOutputAndExitCode) {
 }
 
 TEST(Command, TakesInputEnvironmentAndDirectory) {
-  const CommandResult result = run_command({.argv = {"sh", "-c", "cat; echo $VARIABLE; pwd"},
-                                            .environment = {{"VARIABLE", "value"}},
-                                            .directory = "/"},
-                                           test_support::kCommandTimeout, "input\n");
+  const CommandResult result = run_command(
+      {.argv = {"sh", "-c", "cat; echo $VARIABLE; pwd"}, .environment = {{"VARIABLE", "value"}}, .directory = "/"},
+      test_support::kCommandTimeout, "input\n");
   EXPECT_EQ(result.out, "input\nvalue\n/\n");
 }
 
@@ -116,7 +115,8 @@ TEST(Command, IsKilledWhenItsTimeIsOver) {
 }
 
 TEST(Command, WaitsForOutputAndTakesSignals) {
-  RunningCommand command({.argv = {"sh", "-c", "trap 'echo caught; exit 5' USR1; echo ready; while read line; do :; done"}});
+  RunningCommand command(
+      {.argv = {"sh", "-c", "trap 'echo caught; exit 5' USR1; echo ready; while read line; do :; done"}});
   EXPECT_TRUE(command.wait_for_output("ready\n"));
   EXPECT_FALSE(command.wait_for_output("never", milliseconds(20)));
   command.send_signal(SIGUSR1);

@@ -18,8 +18,8 @@ constexpr const char* kUserspaceChannel = "ros2";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint64_t kSubbuffers = 2;
 constexpr std::uint64_t kSubbuffersOfSnapshot = 4;
-constexpr unsigned int kReadTimer = 200;   // µs: the consumer polls, no traced process has to wake it
-constexpr unsigned int kSwitchTimer = 0;   // off: a sub-buffer is handed over when it is full
+constexpr unsigned int kReadTimer = 200;  // µs: the consumer polls, no traced process has to wake it
+constexpr unsigned int kSwitchTimer = 0;  // off: a sub-buffer is handed over when it is full
 constexpr std::uint64_t kLargestSubbuffer = std::uint64_t{1} << 40;
 
 lttng_domain make_domain(lttng_domain_type type) {
@@ -41,13 +41,15 @@ std::vector<std::string> without_repetitions(const std::vector<std::string>& nam
 // LTTng refuses sizes that are no power of two or less than a page.
 std::uint64_t usable_subbuffer_size(std::uint64_t given, lttng_domain_type domain, std::vector<std::string>& warnings) {
   if (given > kLargestSubbuffer) {
-    throw TraceError(fmt::format("sub-buffer size of {} bytes for the {} domain is too large", given, domain_name(domain)));
+    throw TraceError(
+        fmt::format("sub-buffer size of {} bytes for the {} domain is too large", given, domain_name(domain)));
   }
   const std::uint64_t usable = std::bit_ceil(std::max<std::uint64_t>(given, static_cast<std::uint64_t>(getpagesize())));
   if (usable != given) {
-    warnings.push_back(fmt::format("sub-buffer size of {} bytes for the {} domain is rounded up to {}: LTTng needs a "
-                                   "power of two, at least a page",
-                                   given, domain_name(domain), usable));
+    warnings.push_back(
+        fmt::format("sub-buffer size of {} bytes for the {} domain is rounded up to {}: LTTng needs a "
+                    "power of two, at least a page",
+                    given, domain_name(domain), usable));
   }
   return usable;
 }
@@ -67,7 +69,9 @@ void enable_event(lttng_handle* handle, const std::string& name, lttng_event_typ
 
 }  // namespace
 
-void HandleDeleter::operator()(lttng_handle* handle) const { lttng_destroy_handle(handle); }
+void HandleDeleter::operator()(lttng_handle* handle) const {
+  lttng_destroy_handle(handle);
+}
 
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_type type) {
   lttng_domain domain = make_domain(type);
@@ -76,7 +80,9 @@ DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_t
   return handle;
 }
 
-std::string domain_name(lttng_domain_type domain) { return domain == LTTNG_DOMAIN_KERNEL ? "kernel" : "ust"; }
+std::string domain_name(lttng_domain_type domain) {
+  return domain == LTTNG_DOMAIN_KERNEL ? "kernel" : "ust";
+}
 
 std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std::string>& warnings) {
   std::vector<DomainPlan> plans;
@@ -90,13 +96,14 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
                      .overwrite = config.records_snapshots()});
   }
   if (!config.events_kernel.empty() || !config.syscalls.empty()) {
-    plans.push_back({.domain = LTTNG_DOMAIN_KERNEL,
-                     .channel = kKernelChannel,
-                     .events = without_repetitions(config.events_kernel),
-                     .syscalls = without_repetitions(config.syscalls),
-                     .context_fields = without_repetitions(config.context_fields_kernel),
-                     .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_kernel, LTTNG_DOMAIN_KERNEL, warnings),
-                     .overwrite = config.records_snapshots()});
+    plans.push_back(
+        {.domain = LTTNG_DOMAIN_KERNEL,
+         .channel = kKernelChannel,
+         .events = without_repetitions(config.events_kernel),
+         .syscalls = without_repetitions(config.syscalls),
+         .context_fields = without_repetitions(config.context_fields_kernel),
+         .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_kernel, LTTNG_DOMAIN_KERNEL, warnings),
+         .overwrite = config.records_snapshots()});
   }
   for (const DomainPlan& plan : plans) {
     for (const std::string& name : plan.context_fields) ContextField{name, plan.domain};
@@ -107,7 +114,7 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
 void enable_channel(const std::string& lttng_session_name, const DomainPlan& plan) {
   lttng_domain domain = make_domain(plan.domain);
   const std::unique_ptr<lttng_channel, decltype(&lttng_channel_destroy)> channel(lttng_channel_create(&domain),
-                                                                                &lttng_channel_destroy);
+                                                                                 &lttng_channel_destroy);
   if (!channel) throw lttng_error(LTTNG_ERR_NOMEM, "create a channel");
   plan.channel.copy(channel->name, sizeof channel->name - 1);
   channel->attr.overwrite = plan.overwrite ? 1 : 0;

@@ -13,7 +13,8 @@ std::string remedy_for(int code) {
   switch (code) {
     case LTTNG_ERR_NO_SESSIOND:
     case LTTNG_ERR_CONNECT_FAIL:
-      return "no LTTng session daemon runs for this user any more: its sessions are gone, their traces end where they are";
+      return "no LTTng session daemon runs for this user any more: its sessions are gone, their traces end where they "
+             "are";
     case LTTNG_ERR_SESS_NOT_FOUND:
     case LTTNG_ERR_SESSION_NOT_EXIST:
     case LTTNG_ERR_NO_SESSION:

@@ -58,8 +58,9 @@ bool session_exists(const std::string& name) {
   return found;
 }
 
-// Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the first
-// one, so each further one gets a directory of its own inside: whoever reads the trace directory reads all of them.
+// Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the
+// first one, so each further one gets a directory of its own inside: whoever reads the trace directory reads all of
+// them.
 std::string recording_directory(const TraceConfig& config) {
   const std::filesystem::path directory = config.trace_directory();
   if (!std::filesystem::exists(directory / "ust") && !std::filesystem::exists(directory / "kernel")) {
@@ -75,8 +76,9 @@ std::string recording_directory(const TraceConfig& config) {
 class NewSession {
  public:
   explicit NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
-    const int result = config.records_snapshots() ? lttng_create_session_snapshot(name_.c_str(), nullptr)
-                                                  : lttng_create_session(name_.c_str(), recording_directory(config).c_str());
+    const int result = config.records_snapshots()
+                           ? lttng_create_session_snapshot(name_.c_str(), nullptr)
+                           : lttng_create_session(name_.c_str(), recording_directory(config).c_str());
     if (result == -LTTNG_ERR_EXIST_SESS) {
       throw TraceError(fmt::format("trace session '{}' exists already", name_),
                        fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
@@ -95,6 +97,29 @@ class NewSession {
   std::string name_;
   bool kept_ = false;
 };
+
+void stop(const std::string& name) {
+  // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
+  // length for its own thread that writes the metadata.
+  const int result = lttng_stop_tracing_no_wait(name.c_str());
+  if (result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) check_lttng(result, fmt::format("stop trace session '{}'", name));
+}
+
+// Stops the session and reads its losses once they are final, or as they are when give_up says so. A session that fails
+// in this can't be used any more and is destroyed.
+LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up) {
+  try {
+    stop(name);
+    const std::string doing = fmt::format("write the data of trace session '{}'", name);
+    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0; data.pause()) {
+      if (give_up && give_up()) break;
+    }
+    return read_losses(name);
+  } catch (const TraceError&) {
+    lttng_destroy_session_no_wait(name.c_str());
+    throw;
+  }
+}
 
 class LttngTracer : public Tracer {
  public:
@@ -143,23 +168,10 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
-  if (const int result = lttng_stop_tracing_no_wait(name.c_str()); result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) {
-    check_lttng(result, fmt::format("stop trace session '{}'", name));
-  }
-
-  bool given_up = false;
-  Polling data;
-  while (check_lttng(lttng_data_pending(name.c_str()), fmt::format("write the data of trace session '{}'", name)) > 0) {
-    if ((given_up = give_up && give_up())) break;
-    data.pause();
-  }
-
-  LossAccount losses = read_losses(name);
+  const LossAccount losses = stop_and_account(name, give_up);
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
-  Polling gone;
-  while (!given_up && session_exists(name)) {
+  for (Polling gone; session_exists(name); gone.pause()) {
     if (give_up && give_up()) break;
-    gone.pause();
   }
   return losses;
 }
@@ -173,10 +185,14 @@ void LttngTracer::resume(const std::string& name) {
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
 }
 
-void LttngTracer::record_snapshot(const std::string& name) { record_and_clear(name); }
+void LttngTracer::record_snapshot(const std::string& name) {
+  record_and_clear(name);
+}
 
 }  // namespace
 
-std::unique_ptr<Tracer> make_lttng_tracer() { return std::make_unique<LttngTracer>(); }
+std::unique_ptr<Tracer> make_lttng_tracer() {
+  return std::make_unique<LttngTracer>();
+}
 
 }  // namespace tracing

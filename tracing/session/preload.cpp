@@ -58,7 +58,9 @@ PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string
       wanted.emplace_back(rule.library);
     }
   }
-  const auto wants = [&](const char* library) { return std::find(wanted.begin(), wanted.end(), library) != wanted.end(); };
+  const auto wants = [&](const char* library) {
+    return std::find(wanted.begin(), wanted.end(), library) != wanted.end();
+  };
   if (wants(kFastProfile) && wants(kProfile)) {
     plan.warnings.push_back(fmt::format(
         "events of both function profilers are enabled: the fast one ({}) is used, its exit events carry no address",
@@ -69,8 +71,8 @@ PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string
     std::string path = find_library(library);
     if (path.empty()) path = find_library(library + kInterfaceVersion);
     if (path.empty()) {
-      plan.warnings.push_back(
-          fmt::format("{} is not installed: the events that it provides will be missing (package liblttng-ust1)", library));
+      plan.warnings.push_back(fmt::format(
+          "{} is not installed: the events that it provides will be missing (package liblttng-ust1)", library));
     } else {
       plan.libraries.push_back(std::move(path));
     }

@@ -23,7 +23,9 @@ namespace {
 constexpr const char* kDaemon = "lttng-sessiond";
 constexpr const char* kInstallRemedy = "install LTTng: sudo apt-get install lttng-tools liblttng-ust-dev";
 
-bool daemon_answers() { return lttng_session_daemon_alive() == 1; }
+bool daemon_answers() {
+  return lttng_session_daemon_alive() == 1;
+}
 
 // Root's daemon lives in the global run directory, whatever LTTNG_HOME says. Everybody else has one of their own; the
 // members of group `tracing` are served by root's daemon where one runs, and the other file does not exist then.
@@ -54,8 +56,8 @@ ProcessStat read_process_stat(pid_t pid) {
   return {line.substr(open + 1, close - open - 1), line[close + 2]};
 }
 
-// What the started daemon says goes to a memory file: a pipe of ours would be held open for the daemon's whole life, and
-// the terminal would get LTTng's messages in place of ours.
+// What the started daemon says goes to a memory file: a pipe of ours would be held open for the daemon's whole life,
+// and the terminal would get LTTng's messages in place of ours.
 class DaemonOutput {
  public:
   DaemonOutput() : fd_(memfd_create("lttng-sessiond-output", MFD_CLOEXEC)) {}
@@ -82,7 +84,8 @@ class DaemonOutput {
 
 [[noreturn]] void throw_spawn_error(int error) {
   if (error == ENOENT) {
-    throw SessionDaemonMissing(fmt::format("cannot trace: {} is not installed or not in PATH", kDaemon), kInstallRemedy);
+    throw SessionDaemonMissing(fmt::format("cannot trace: {} is not installed or not in PATH", kDaemon),
+                               kInstallRemedy);
   }
   throw TraceError(fmt::format("cannot start {}: {}", kDaemon, std::strerror(error)), kInstallRemedy);
 }
@@ -128,9 +131,10 @@ void start_daemon() {
   const std::string said = output.first_line();
   throw TraceError(
       fmt::format("{} was started but does not answer{}{}", kDaemon, said.empty() ? "" : ": ", said),
-      fmt::format("run `{} --verbose` to see why; a daemon of another container that shares HOME is kept apart by another "
-                  "LTTNG_HOME",
-                  kDaemon));
+      fmt::format(
+          "run `{} --verbose` to see why; a daemon of another container that shares HOME is kept apart by another "
+          "LTTNG_HOME",
+          kDaemon));
 }
 
 }  // namespace

@@ -5,24 +5,17 @@
 #include <lttng/lttng.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <string_view>
 
 #include "tracing/session/channels.hpp"
+#include "tracing/session/perf_counters.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
-namespace {
-
-constexpr const char* kParanoidFile = "/proc/sys/kernel/perf_event_paranoid";
-constexpr int kParanoidLimit = 2;  // perf_event_open(2): from here on only privileged users may count kernel events
-
-}  // namespace
-
 void check_config(const TraceConfig& config) {
   if (config.session_name.empty()) throw TraceError("the trace session's name is empty", "give it a session-name");
   const std::string session = config.lttng_session_name();
@@ -75,12 +68,20 @@ void check_kernel_tracer() {
 }
 
 std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust) {
-  const bool wanted = std::any_of(context_fields_ust.begin(), context_fields_ust.end(),
-                                  [](const std::string& name) { return name.starts_with("perf:thread:"); });
-  int level = 0;
-  if (!wanted || !(std::ifstream(kParanoidFile) >> level) || level < kParanoidLimit) return {};
-  return {fmt::format("perf:thread: context fields with {} at {}: the trace may be empty; lower it to 1", kParanoidFile,
-                      level)};
+  constexpr std::string_view kPrefix = "perf:thread:";
+  std::vector<std::string> warnings;
+  for (const std::string& name : context_fields_ust) {
+    if (!name.starts_with(kPrefix)) continue;
+    const auto counter = find_perf_counter(name.substr(kPrefix.size()));
+    if (!counter) continue;
+    if (const std::string reason = why_not_countable(*counter); !reason.empty()) {
+      warnings.push_back(
+          fmt::format("context field '{}' cannot be counted here ({}): LTTng will record no events; leave it "
+                      "out, or see whether /proc/sys/kernel/perf_event_paranoid forbids it",
+                      name, reason));
+    }
+  }
+  return warnings;
 }
 
 }  // namespace tracing

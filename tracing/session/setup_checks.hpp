@@ -17,7 +17,7 @@ void check_writable(const std::string& base_path);
 // Events of the kernel can be recorded: its modules are there and this user may use them. Needs a session daemon.
 void check_kernel_tracer();
 
-// For thread counters that the kernel does not let this user read: the trace would be empty, without any error.
+// One for each thread counter that cannot be counted here: LTTng would record no event at all then, without an error.
 std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust);
 
 }  // namespace tracing

@@ -37,7 +37,7 @@ void record_and_clear(const std::string& name) {
     throw lttng_error(code, doing);
   }
   const std::unique_ptr<lttng_clear_handle, decltype(&lttng_clear_handle_destroy)> handle(started,
-                                                                                        &lttng_clear_handle_destroy);
+                                                                                          &lttng_clear_handle_destroy);
   lttng_error_code result = LTTNG_ERR_UNK;
   if (lttng_clear_handle_wait_for_completion(handle.get(), kWaitForever) != LTTNG_CLEAR_HANDLE_STATUS_COMPLETED ||
       lttng_clear_handle_get_result(handle.get(), &result) != LTTNG_CLEAR_HANDLE_STATUS_OK || result != LTTNG_OK) {

@@ -89,7 +89,8 @@ void run_interactively(const TraceOptions& options, Tracer& tracer) {
     case EnterOrSignal::Answer::kSignal:
       return;  // nothing exists yet
     case EnterOrSignal::Answer::kInputEnded:
-      throw TraceError("the input ended before tracing was started", "without a terminal use `launch trace start NAME`");
+      throw TraceError("the input ended before tracing was started",
+                       "without a terminal use `launch trace start NAME`");
     case EnterOrSignal::Answer::kEnter:
       break;
   }

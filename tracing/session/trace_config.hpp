@@ -9,7 +9,7 @@
 namespace tracing {
 
 // The 42 events of provider `ros2`, and those that describe objects once (initialisation events).
-const std::vector<std::string>& default_ros_events();       // "ros2:rcl_init", …
+const std::vector<std::string>& default_ros_events();  // "ros2:rcl_init", …
 const std::vector<std::string>& initialisation_ros_events();
 // procname vpid vtid
 const std::vector<std::string>& default_context_fields();
@@ -23,7 +23,7 @@ struct TraceConfig {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields_ust = default_context_fields();
   std::vector<std::string> context_fields_kernel = default_context_fields();
-  std::uint64_t subbuffer_size_ust = 8 * 4096;     // bytes, rounded up to a power of two
+  std::uint64_t subbuffer_size_ust = 8 * 4096;  // bytes, rounded up to a power of two
   std::uint64_t subbuffer_size_kernel = 32 * 4096;
   bool snapshot_mode = false;
   bool dual_session = false;  // the snapshot half of a dual session: always a snapshot session

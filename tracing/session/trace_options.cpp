@@ -47,9 +47,10 @@ void add_names(CLI::App& command, const std::string& option, std::vector<std::st
 
 void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOptions& options) {
   TraceConfig& config = options.config;
-  command.add_option("-p,--path", arguments.path,
-                     "directory that will hold the trace directory (default: $ROS_TRACE_DIR, $ROS_HOME/tracing or "
-                     "~/.ros/tracing)")
+  command
+      .add_option("-p,--path", arguments.path,
+                  "directory that will hold the trace directory (default: $ROS_TRACE_DIR, $ROS_HOME/tracing or "
+                  "~/.ros/tracing)")
       ->option_text("DIR");
   add_names(command, "-u,--ust", config.events_ust, "EVENT", "userspace events (default: all ROS 2 events)");
   add_names(command, "-k,--kernel", config.events_kernel, "EVENT", "kernel events (default: none)");
@@ -95,7 +96,8 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   SessionArguments session;
   CLI::App command("Record a trace of ROS 2 applications. Without a verb: interactively.", "launch trace");
   command.require_subcommand(0, 1);
-  command.add_option("-s,--session-name", session.session_name, "name of the session (default: session-YYYYMMDDHHMMSS)")
+  command
+      .add_option("-s,--session-name", session.session_name, "name of the session (default: session-YYYYMMDDHHMMSS)")
       ->option_text("NAME");
   add_session_options(command, session, options);
   add_dual_session(command, session);
@@ -107,7 +109,8 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},
       {add_verb(command, "resume", "record again after a pause", session), TraceVerb::kResume},
       {add_verb(command, "stop", "stop recording and end the session", session), TraceVerb::kStop},
-      {add_verb(command, "record_snapshot", "write what a snapshot session holds", session), TraceVerb::kRecordSnapshot},
+      {add_verb(command, "record_snapshot", "write what a snapshot session holds", session),
+       TraceVerb::kRecordSnapshot},
   };
 
   try {

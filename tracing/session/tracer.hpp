@@ -26,7 +26,7 @@ class TraceError : public std::runtime_error {
 
 // Events that the tracer could not keep, as its counters say just before the session is destroyed.
 struct ChannelLoss {
-  std::string domain;   // "ust" or "kernel"
+  std::string domain;  // "ust" or "kernel"
   std::string channel;
   std::uint64_t discarded_events = 0;  // event-loss mode: newest events dropped while buffers were full
   std::uint64_t lost_packets = 0;      // overwrite mode: oldest packets overwritten

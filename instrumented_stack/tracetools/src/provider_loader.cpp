@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 namespace tracetools {
 namespace {
@@ -16,10 +18,23 @@ bool environment_says_yes(const char* variable) {
   return value != nullptr && std::strcmp(value, "1") == 0;
 }
 
-void* provider = nullptr;
+// The provider stands beside this library. Not left to the run path: under a sanitizer it is that of the sanitizer's
+// library, which intercepts dlopen.
+std::string provider_path() {
+  Dl_info self;
+  std::string folder;
+  if (dladdr(reinterpret_cast<const void*>(&provider_is_loaded), &self) != 0) {
+    const std::string_view path = self.dli_fname;
+    folder = path.substr(0, path.rfind('/') + 1);
+  }
+  return folder + "libtracetools_provider.so";
+}
 
-// A constructor of the library and not a C++ static: the tracepoints of this library were registered by constructors of
-// LTTng's macros, and destructors of static objects elsewhere may still fire events after ours would have run.
+bool loaded = false;
+
+// Runs when the library is loaded, before main and before the static objects of whatever links it. There is no
+// counterpart: threads may fire events until the very end of the process, when closing the probes would pull the code
+// from under them.
 [[gnu::constructor]] void open_provider() {
   if (environment_says_yes("TRACETOOLS_RUNTIME_DISABLE")) {
     if (environment_says_yes("TRACETOOLS_VERBOSE")) {
@@ -27,22 +42,17 @@ void* provider = nullptr;
     }
     return;
   }
-  // Found next to this library by its run path. Global, for the tracepoints here look the probes' symbols up.
-  provider = dlopen("libtracetools_provider.so", RTLD_NOW | RTLD_GLOBAL);
-  if (provider == nullptr) {
+  // Global, for the tracepoints of this library look the probes' symbols up.
+  loaded = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL) != nullptr;
+  if (!loaded) {
     std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
-  }
-}
-
-[[gnu::destructor]] void close_provider() {
-  if (provider != nullptr) {
-    dlclose(provider);
-    provider = nullptr;
   }
 }
 
 }  // namespace
 
-bool provider_is_loaded() noexcept { return provider != nullptr; }
+bool provider_is_loaded() noexcept {
+  return loaded;
+}
 
 }  // namespace tracetools

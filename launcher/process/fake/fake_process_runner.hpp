@@ -16,19 +16,19 @@ namespace launch {
 struct FakeScript {
   struct Output {
     Duration at{0};  // after the start
-    std::string text;
+    std::string text{};
     bool to_err = false;
   };
 
-  std::optional<Duration> exits_after;     // by itself
-  int exit_code = 0;                       // then; -N: killed by signal N
-  std::set<int> ignores;                   // signals without effect (not SIGKILL)
-  Duration dies_after{0};                  // time from a deadly signal to the exit
-  std::optional<int> exit_code_on_signal;  // for a process that handles signals; else it dies of the signal
-  std::vector<Output> output;
+  std::optional<Duration> exits_after{};     // by itself
+  int exit_code = 0;                         // then; -N: killed by signal N
+  std::set<int> ignores{};                   // signals without effect (not SIGKILL)
+  Duration dies_after{0};                    // time from a deadly signal to the exit
+  std::optional<int> exit_code_on_signal{};  // for a process that handles signals; else it dies of the signal
+  std::vector<Output> output{};
   // Descendants hold its output open after its exit, for this long or until SIGKILL. They ignore `ignores` as well.
-  std::optional<Duration> descendants_for;
-  std::optional<int> spawn_error;  // errno of a start that fails
+  std::optional<Duration> descendants_for{};
+  std::optional<int> spawn_error{};  // errno of a start that fails
 };
 
 // Records what it is asked for. The processes are no real ones, so their pids (from 1,000,001 on) must not be

@@ -101,7 +101,9 @@ TEST(Cdr, HeaderNestsTheTime) {
   expect_bytes(message, "ff ff ff ff  05 00 00 00  04 00 00 00  6d 61 70 00");
 }
 
-TEST(Cdr, EmptyMessageIsOneByte) { expect_bytes(std_msgs::msg::Empty(), "00"); }
+TEST(Cdr, EmptyMessageIsOneByte) {
+  expect_bytes(std_msgs::msg::Empty(), "00");
+}
 
 TEST(Cdr, PrimitivesAreAlignedToTheirSize) {
   expect_bytes(some_primitives(),
@@ -112,14 +114,14 @@ TEST(Cdr, PrimitivesAreAlignedToTheirSize) {
 
 TEST(Cdr, SequencesCarryTheirLengthAndArraysDoNot) {
   expect_bytes(some_sequences(),
-               "01 00 00 00  01 00 00 00  00 00 00 00 00 00 f0 3f"     // first, doubles
-               "01 00 01 00  02 00 00 00  00 01 00 00"                 // flags, switches
+               "01 00 00 00  01 00 00 00  00 00 00 00 00 00 f0 3f"                // first, doubles
+               "01 00 01 00  02 00 00 00  00 01 00 00"                            // flags, switches
                "02 00 00 00  02 00 00 00  61 00 00 00  01 00 00 00  00 00 00 00"  // names
-               "02 00 00 00  ff ff 02 00"                              // numbers
-               "01 00 00 00  00 00 80 3f  00 00 00 00 00 00 00 40"     // points
-               "00 00 00 00  00 00 00 00  00 00 00 00 00 00 00 00"     // corners[0]
-               "00 00 00 00  00 00 00 00  00 00 00 00 00 00 f0 3f"     // corners[1]
-               "01 00 00 00  01 00 00 00  7a 00 00 00  09");           // wides, last
+               "02 00 00 00  ff ff 02 00"                                         // numbers
+               "01 00 00 00  00 00 80 3f  00 00 00 00 00 00 00 40"                // points
+               "00 00 00 00  00 00 00 00  00 00 00 00 00 00 00 00"                // corners[0]
+               "00 00 00 00  00 00 00 00  00 00 00 00 00 00 f0 3f"                // corners[1]
+               "01 00 00 00  01 00 00 00  7a 00 00 00  09");                      // wides, last
 }
 
 TEST(Cdr, EmptySequenceIsFollowedByNoPadding) {
@@ -129,12 +131,12 @@ TEST(Cdr, EmptySequenceIsFollowedByNoPadding) {
   message.last = 9;
   // `flags` follows the length of `doubles` without the padding that a double would need; so does corners[0].x.
   expect_bytes(message,
-               "00 00 00 00  00 00 00 00"                              // first, doubles
-               "01 00 00 00  00 00 00 00"                              // flags, switches
-               "00 00 00 00  00 00 00 00  00 00 00 00"                 // names, numbers, points
-               "00 00 80 3f  00 00 00 00 00 00 00 00"                  // corners[0]
-               "00 00 00 00  00 00 00 00  00 00 00 00 00 00 00 00"     // corners[1]
-               "00 00 00 00  09");                                     // wides, last
+               "00 00 00 00  00 00 00 00"                           // first, doubles
+               "01 00 00 00  00 00 00 00"                           // flags, switches
+               "00 00 00 00  00 00 00 00  00 00 00 00"              // names, numbers, points
+               "00 00 80 3f  00 00 00 00 00 00 00 00"               // corners[0]
+               "00 00 00 00  00 00 00 00  00 00 00 00 00 00 00 00"  // corners[1]
+               "00 00 00 00  09");                                  // wides, last
 }
 
 TEST(Cdr, DiscoveryMessageIsThatOfRmwDdsCommon) {
@@ -212,7 +214,8 @@ TEST(Cdr, MoreElementsThanTheBoundAreRefused) {
   Bounded message;
   EXPECT_TRUE(deserialize(bytes_of("01 00 00 00 00 00 00 00  04 00 00 00 01 02 03 04  00 00 00 00"), message));
   EXPECT_EQ(message.bytes.size(), 4u);
-  EXPECT_FALSE(deserialize(bytes_of("01 00 00 00 00 00 00 00  05 00 00 00 01 02 03 04 05 00 00 00  00 00 00 00"), message));
+  EXPECT_FALSE(
+      deserialize(bytes_of("01 00 00 00 00 00 00 00  05 00 00 00 01 02 03 04 05 00 00 00  00 00 00 00"), message));
 }
 
 TEST(Cdr, BoolOtherThanZeroAndOneIsRefused) {

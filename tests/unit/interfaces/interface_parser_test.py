@@ -66,8 +66,8 @@ class AcceptedText(unittest.TestCase):
         self.assertEqual(file.service.response.fields[0].name, 'sum')
 
     def test_file_names_are_those_of_ros(self):
-        for name, expected in (('String', 'string'), ('ColorRGBA', 'color_rgba'), ('UInt8MultiArray', 'u_int8_multi_array'),
-                               ('PointCloud2', 'point_cloud2'), ('Point32', 'point32'), ('UUID', 'uuid'),
+        for name, expected in (('String', 'string'), ('ColorRGBA', 'color_rgba'), ('PointCloud2', 'point_cloud2'),
+                               ('UInt8MultiArray', 'u_int8_multi_array'), ('Point32', 'point32'), ('UUID', 'uuid'),
                                ('Pose2D', 'pose2_d'), ('Float64MultiArray', 'float64_multi_array')):
             self.assertEqual(snake_case(name), expected)
 
@@ -96,10 +96,10 @@ class Mistakes(unittest.TestCase):
                                            'DEPENDENCIES of rosidl_generate_interfaces\n  geometry_msgs/Pose p\n  ^')
 
     def test_names(self):
-        self.check('int32 Bad', "msg/Test.msg:1:7: error: 'Bad' is not a field name: it must be lower case letters, digits "
-                                'and single underscores, starting with a letter\n  int32 Bad\n        ^')
-        self.check('int32 lower=1', "msg/Test.msg:1:7: error: 'lower' is not a constant name: it must be capitals, digits "
-                                    'and single underscores, starting with a letter\n  int32 lower=1\n        ^')
+        self.check('int32 Bad', "msg/Test.msg:1:7: error: 'Bad' is not a field name: it must be lower case letters, "
+                                'digits and single underscores, starting with a letter\n  int32 Bad\n        ^')
+        self.check('int32 lower=1', "msg/Test.msg:1:7: error: 'lower' is not a constant name: it must be capitals, "
+                                    'digits and single underscores, starting with a letter\n  int32 lower=1\n        ^')
         self.check('int32', 'msg/Test.msg:1:6: error: the name is missing: a line is `type name` or `type NAME=value`\n'
                             '  int32\n       ^')
         self.check('int32 a\nint8 a', "msg/Test.msg:2:6: error: there is already a member 'a'\n  int8 a\n       ^")

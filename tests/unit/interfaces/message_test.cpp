@@ -9,6 +9,7 @@
 #include "std_msgs/msg/color_rgba.hpp"
 #include "std_msgs/msg/header.hpp"
 #include "std_msgs/msg/string.hpp"
+#include "test_interfaces/msg/awkward.hpp"
 #include "test_interfaces/msg/defaults.hpp"
 #include "test_interfaces/msg/nested.hpp"
 #include "test_interfaces/msg/primitives.hpp"
@@ -93,6 +94,15 @@ TEST(Message, ComparesMemberByMember) {
   EXPECT_EQ(a, b);
   b.stamp.nanosec = 1;
   EXPECT_NE(a, b);
+}
+
+TEST(Message, MayHaveAFieldCalledAsAParameterOfTheGeneratedCode) {
+  test_interfaces::msg::Awkward a;
+  test_interfaces::msg::Awkward b;
+  EXPECT_EQ(a, b);
+  b.other = 1;
+  EXPECT_NE(a, b);
+  EXPECT_EQ(a.words, (std::array<std::string, 2>{"a", "b"}));
 }
 
 TEST(Message, HasThePointerAliasesOfRos) {

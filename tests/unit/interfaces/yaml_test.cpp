@@ -20,6 +20,7 @@ TEST(Yaml, PrintsAMemberPerLine) {
 frame_id: "a \"b\"\n\x01"
 )");
   EXPECT_EQ(to_yaml(message, true), R"({stamp: {sec: 3, nanosec: 0}, frame_id: "a \"b\"\n\x01"})");
+  EXPECT_EQ(rosidl_generator_traits::to_yaml(message), to_yaml(message));
 }
 
 TEST(Yaml, PrintsSequences) {

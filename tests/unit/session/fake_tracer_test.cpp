@@ -21,7 +21,9 @@ TraceConfig config_named(const std::string& name) {
   return config;
 }
 
-bool never() { return false; }
+bool never() {
+  return false;
+}
 
 TEST(FakeTracer, RecordsCallsAndOpenSessions) {
   FakeTracer tracer;

@@ -1,8 +1,11 @@
 // The real tracer on a session daemon of the test's own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/mount.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -30,7 +33,9 @@ using tracing::SetupStep;
 using tracing::TraceConfig;
 using tracing::TraceError;
 
-bool never() { return false; }
+bool never() {
+  return false;
+}
 
 struct LttngTracer : testing::Test {
   TraceConfig config_named(const std::string& name) const {
@@ -54,6 +59,11 @@ struct LttngTracer : testing::Test {
   std::unique_ptr<tracing::Tracer> tracer = make_lttng_tracer();
 };
 
+std::string daemon_pid_file() {
+  const std::string home = std::string(getenv("LTTNG_HOME")) + "/.lttng";
+  return (geteuid() == 0 ? "/run/lttng" : home) + "/lttng-sessiond.pid";
+}
+
 std::vector<std::string> step_names(const SetupReport& report) {
   std::vector<std::string> names;
   for (const SetupStep& step : report.steps) names.push_back(step.name);
@@ -65,9 +75,8 @@ TEST_F(LttngTracer, RecordsEveryEventOfTwoApplications) {
   const SetupReport report = tracer->start(config);
   EXPECT_EQ(report.trace_directory, config.trace_directory());
   EXPECT_THAT(report.warnings, IsEmpty());
-  EXPECT_THAT(step_names(report),
-              testing::ElementsAre("checks", "session daemon", "create session", "channel ros2", "events ros2",
-                                   "context fields ros2", "start"));
+  EXPECT_THAT(step_names(report), testing::ElementsAre("checks", "session daemon", "create session", "channel ros2",
+                                                       "events ros2", "context fields ros2", "start"));
   TracedApp first(60, 100);
   TracedApp second(60, 100);
   first.end();
@@ -185,21 +194,19 @@ TEST_F(LttngTracer, DaemonThatDoesNotStartIsAnErrorWithItsOwnWords) {
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string path = getenv("PATH");
   setenv("PATH", (program.parent_path().string() + ":" + path).c_str(), 1);
-  EXPECT_EQ(start_error(config_named("run")),
-            "lttng-sessiond was started but does not answer: Error: no room\n"
-            "run `lttng-sessiond --verbose` to see why; a daemon of another container that shares HOME is kept apart by "
-            "another LTTNG_HOME");
+  EXPECT_EQ(
+      start_error(config_named("run")),
+      "lttng-sessiond was started but does not answer: Error: no room\n"
+      "run `lttng-sessiond --verbose` to see why; a daemon of another container that shares HOME is kept apart by "
+      "another LTTNG_HOME");
   setenv("PATH", path.c_str(), 1);
 }
 
 TEST_F(LttngTracer, StoppedDaemonIsAnErrorAndDoesNotBlock) {
   ASSERT_TRUE(tracing::ensure_session_daemon());
-  const std::string home = std::string(getenv("LTTNG_HOME")) + "/.lttng";
-  const std::string pid_file = (geteuid() == 0 ? "/run/lttng" : home) + "/lttng-sessiond.pid";
-  const pid_t pid = std::stoi(read_file(pid_file));
+  const pid_t pid = std::stoi(read_file(daemon_pid_file()));
   kill(pid, SIGSTOP);
-  while (read_file("/proc/" + std::to_string(pid) + "/stat").find(") T ") == std::string::npos) {
-  }
+  ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);  // an orphan by now, so it is the sandbox's child
   EXPECT_EQ(start_error(config_named("run")), "the LTTng session daemon (process " + std::to_string(pid) +
                                                   ") is stopped and answers nobody\ncontinue it with `kill -CONT " +
                                                   std::to_string(pid) + "`");
@@ -221,9 +228,10 @@ TEST_F(LttngTracer, KernelEventsWithoutAKernelTracerAreAnErrorAndNoSessionIsLeft
     GTEST_SKIP() << "skipped, because this machine has the kernel tracer";
   }
   EXPECT_THAT(error, testing::StartsWith("kernel events cannot be recorded: "));
-  EXPECT_THAT(error, testing::EndsWith("\ninstall the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as "
-                                       "root or as a member of the group `tracing`; or trace without events-kernel and "
-                                       "syscalls"));
+  EXPECT_THAT(error,
+              testing::EndsWith("\ninstall the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as "
+                                "root or as a member of the group `tracing`; or trace without events-kernel and "
+                                "syscalls"));
   EXPECT_EQ(listed_sessions(), "");
 }
 
@@ -249,9 +257,9 @@ TEST_F(LttngTracer, OddSubbufferSizesAreRoundedUpWithAWarning) {
 TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2Tracing) {
   tracer->start(config_named("run"));
   const std::string listing = run_command({"lttng", "list", "run"}).out;
-  for (const char* expected : {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
-                               "Sub-buffer size:  32768 bytes", "Sub-buffer count: 2", "Switch timer:     inactive",
-                               "Read timer:       200 us", "Output mode:      mmap"}) {
+  for (const char* expected :
+       {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard", "Sub-buffer size:  32768 bytes",
+        "Sub-buffer count: 2", "Switch timer:     inactive", "Read timer:       200 us", "Output mode:      mmap"}) {
     EXPECT_THAT(listing, testing::HasSubstr(expected));
   }
   tracer->finish(config_named("run"), never);
@@ -294,6 +302,26 @@ TEST_F(LttngTracer, FinishOfASessionThatSomebodyDestroyedIsAnError) {
   }
 }
 
+TEST_F(LttngTracer, FinishAfterTheDaemonWasKilledIsAnErrorAndDoesNotBlock) {
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  const pid_t pid = std::stoi(read_file(daemon_pid_file()));
+  const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+  kill(pid, SIGKILL);
+  pollfd death{pidfd, POLLIN, 0};
+  ASSERT_EQ(poll(&death, 1, 10000), 1);
+  close(pidfd);
+  try {
+    tracer->finish(config, never);
+    FAIL() << "no error";
+  } catch (const TraceError& error) {
+    EXPECT_STREQ(error.what(), "cannot stop trace session 'run': No session daemon is available");
+    EXPECT_EQ(error.remedy(),
+              "no LTTng session daemon runs for this user any more: its sessions are gone, their traces end where they "
+              "are");
+  }
+}
+
 TEST_F(LttngTracer, PausedSessionRecordsNothingUntilItIsResumed) {
   const TraceConfig config = config_named("run");
   tracer->start(config);
@@ -313,8 +341,9 @@ TEST_F(LttngTracer, SnapshotsHoldWhatCameSinceTheLastOne) {
   TraceConfig config = config_named("run");
   config.snapshot_mode = true;
   tracer->start(config);
-  EXPECT_THAT(run_command({"lttng", "list", "run"}).out,
-              testing::AllOf(testing::HasSubstr("Event-loss mode:  overwrite"), testing::HasSubstr("Sub-buffer count: 4")));
+  EXPECT_THAT(
+      run_command({"lttng", "list", "run"}).out,
+      testing::AllOf(testing::HasSubstr("Event-loss mode:  overwrite"), testing::HasSubstr("Sub-buffer count: 4")));
   TracedApp app(10, 10);
   EXPECT_FALSE(std::filesystem::exists(config.trace_directory()));
   tracer->record_snapshot("run");
@@ -338,7 +367,9 @@ TEST_F(LttngTracer, SnapshotOfAnOrdinarySessionIsAnError) {
     tracer->record_snapshot("run");
     FAIL() << "no error";
   } catch (const TraceError& error) {
-    EXPECT_STREQ(error.what(), "cannot record a snapshot of session 'run': Snapshot command can't be applied to a non-snapshot session");
+    EXPECT_STREQ(
+        error.what(),
+        "cannot record a snapshot of session 'run': Snapshot command can't be applied to a non-snapshot session");
   }
   tracer->finish(config_named("run"), never);
 }

@@ -17,9 +17,15 @@ using tracing::append_preload;
 using tracing::plan_preload;
 using tracing::PreloadPlan;
 
-std::string installed(const std::string& name) { return "/lib/" + name; }
-std::string only_versioned(const std::string& name) { return name.ends_with(".so") ? "" : "/lib/" + name; }
-std::string missing(const std::string&) { return ""; }
+std::string installed(const std::string& name) {
+  return "/lib/" + name;
+}
+std::string only_versioned(const std::string& name) {
+  return name.ends_with(".so") ? "" : "/lib/" + name;
+}
+std::string missing(const std::string&) {
+  return "";
+}
 
 TEST(Preload, RosEventsNeedNothing) {
   EXPECT_THAT(plan_preload({"ros2:rcl_init", "ros2:*", "lttng_ust_statedump:*"}, installed).libraries, IsEmpty());
@@ -30,9 +36,11 @@ TEST(Preload, EachProviderHasItsLibrary) {
   const auto library_of = [](const std::string& event) { return plan_preload({event}, installed).libraries; };
   EXPECT_THAT(library_of("lttng_ust_libc:malloc"), ElementsAre("/lib/liblttng-ust-libc-wrapper.so"));
   EXPECT_THAT(library_of("lttng_ust_libc:posix_memalign"), ElementsAre("/lib/liblttng-ust-libc-wrapper.so"));
-  EXPECT_THAT(library_of("lttng_ust_pthread:pthread_mutex_unlock"), ElementsAre("/lib/liblttng-ust-pthread-wrapper.so"));
+  EXPECT_THAT(library_of("lttng_ust_pthread:pthread_mutex_unlock"),
+              ElementsAre("/lib/liblttng-ust-pthread-wrapper.so"));
   EXPECT_THAT(library_of("lttng_ust_dl:dlopen"), ElementsAre("/lib/liblttng-ust-dl.so"));
-  EXPECT_THAT(library_of("lttng_ust_cyg_profile_fast:func_entry"), ElementsAre("/lib/liblttng-ust-cyg-profile-fast.so"));
+  EXPECT_THAT(library_of("lttng_ust_cyg_profile_fast:func_entry"),
+              ElementsAre("/lib/liblttng-ust-cyg-profile-fast.so"));
   EXPECT_THAT(library_of("lttng_ust_cyg_profile:func_exit"), ElementsAre("/lib/liblttng-ust-cyg-profile.so"));
 }
 

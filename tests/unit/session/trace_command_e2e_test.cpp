@@ -35,15 +35,18 @@ struct TraceCommandE2e : testing::Test {
   void expect_recorded(const CommandResult& result) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
-    EXPECT_EQ(result.out, "userspace tracing enabled (42 events)\n"
-                          "kernel tracing disabled\n"
-                          "syscalls tracing disabled\n"
-                          "context (3 fields)\n"
-                          "writing tracing session to: " + trace + "\n"
-                          "press enter to start...\n"
-                          "press enter to stop...\n"
-                          "stopping & destroying tracing session\n"
-                          "no events lost\n");
+    EXPECT_EQ(result.out,
+              "userspace tracing enabled (42 events)\n"
+              "kernel tracing disabled\n"
+              "syscalls tracing disabled\n"
+              "context (3 fields)\n"
+              "writing tracing session to: " +
+                  trace +
+                  "\n"
+                  "press enter to start...\n"
+                  "press enter to stop...\n"
+                  "stopping & destroying tracing session\n"
+                  "no events lost\n");
     EXPECT_TRUE(result.output_closed) << "the session daemon holds our output open";
     EXPECT_EQ(read_trace(trace).complaints, "");
     EXPECT_EQ(read_trace(trace).events["ros2:rclcpp_callback_register"], 30);
@@ -111,7 +114,8 @@ TEST_F(TraceCommandE2e, VerbOnASessionThatDoesNotExistIsAnError) {
 }
 
 TEST_F(TraceCommandE2e, WithoutLttngTheExitCodeIsTwo) {
-  const CommandResult result = run_command({.argv = {TRACE_COMMAND, "start", "run"}, .environment = {{"PATH", "/nowhere"}}});
+  const CommandResult result =
+      run_command({.argv = {TRACE_COMMAND, "start", "run"}, .environment = {{"PATH", "/nowhere"}}});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err,
             "error: cannot trace: lttng-sessiond is not installed or not in PATH\n"

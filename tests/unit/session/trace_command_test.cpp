@@ -63,8 +63,9 @@ TEST(TraceCommand, CreatesNothingWhenTheInputEndsBeforeTheFirstEnter) {
   FakeTracer tracer;
   const Outcome result = run({"-s", "run"}, tracer);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.err,
-            "error: the input ended before tracing was started\nhint: without a terminal use `launch trace start NAME`\n");
+  EXPECT_EQ(
+      result.err,
+      "error: the input ended before tracing was started\nhint: without a terminal use `launch trace start NAME`\n");
   EXPECT_THAT(tracer.calls(), IsEmpty());
 }
 

@@ -11,8 +11,8 @@
 
 namespace {
 
-using tracing::TraceConfig;
 using tracing::trace_base_path;
+using tracing::TraceConfig;
 
 TEST(TraceConfig, DefaultsAreThoseOfRos2Tracing) {
   const TraceConfig config;
@@ -70,7 +70,8 @@ TEST(TraceConfig, HalvesOfADualSessionHaveNamesAndDirectoriesOfTheirOwn) {
 }
 
 TEST(TraceBasePath, GivenPathComesFirst) {
-  EXPECT_EQ(trace_base_path("/given", {{"ROS_TRACE_DIR", "/dir"}, {"ROS_HOME", "/ros"}, {"HOME", "/home/me"}}), "/given");
+  EXPECT_EQ(trace_base_path("/given", {{"ROS_TRACE_DIR", "/dir"}, {"ROS_HOME", "/ros"}, {"HOME", "/home/me"}}),
+            "/given");
 }
 
 TEST(TraceBasePath, ComesFromTheEnvironmentOtherwise) {

@@ -36,10 +36,27 @@ TEST(TraceOptions, WithoutArgumentsAreTheDefaultsOfTheInteractiveForm) {
 }
 
 TEST(TraceOptions, AreAllTakenByTheInteractiveForm) {
-  const TraceOptions options =
-      options_of({"-s", "run", "-p", "/traces", "-u", "ros2:*", "my:event", "-k", "sched_switch", "--syscall", "openat",
-                  "close", "-c", "vpid", "-l", "-a", "--snapshot-mode", "--subbuffer-size-ust", "65536",
-                  "--subbuffer-size-kernel", "262144"});
+  const TraceOptions options = options_of({"-s",
+                                           "run",
+                                           "-p",
+                                           "/traces",
+                                           "-u",
+                                           "ros2:*",
+                                           "my:event",
+                                           "-k",
+                                           "sched_switch",
+                                           "--syscall",
+                                           "openat",
+                                           "close",
+                                           "-c",
+                                           "vpid",
+                                           "-l",
+                                           "-a",
+                                           "--snapshot-mode",
+                                           "--subbuffer-size-ust",
+                                           "65536",
+                                           "--subbuffer-size-kernel",
+                                           "262144"});
   EXPECT_EQ(options.config.session_name, "run");
   EXPECT_EQ(options.config.base_path, "/traces");
   EXPECT_THAT(options.config.events_ust, ElementsAre("ros2:*", "my:event"));
@@ -95,8 +112,9 @@ TEST(TraceOptions, WrongUsageIsExitCodeTwo) {
 
 TEST(TraceOptions, HelpIsExitCodeZero) {
   EXPECT_EQ(message_of({"--help"}).exit_code, 0);
-  EXPECT_THAT(message_of({"--help"}).text, testing::AllOf(testing::HasSubstr("launch trace"), testing::HasSubstr("--ust"),
-                                                          testing::HasSubstr("record_snapshot")));
+  EXPECT_THAT(message_of({"--help"}).text,
+              testing::AllOf(testing::HasSubstr("launch trace"), testing::HasSubstr("--ust"),
+                             testing::HasSubstr("record_snapshot")));
   EXPECT_THAT(message_of({"pause", "--help"}).text, testing::HasSubstr("stop recording, keep the session"));
 }
 

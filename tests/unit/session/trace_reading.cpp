@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <sstream>
 
 namespace trace_test {
@@ -14,19 +13,20 @@ ReadTrace read_trace(const std::string& directory) {
   const auto result = run_command({"babeltrace2", directory});
   if (result.exit_code != 0) trace.complaints = "exit code " + std::to_string(result.exit_code) + "\n";
 
+  // "[time] (+delta) host ros2:rcl_init: { … }"
   std::istringstream out(result.out);
-  const std::regex event_name(R"( (ros2:\w+|lttng_ust\w*:\w+): )");
   for (std::string line; std::getline(out, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, event_name)) ++trace.events[match[1]];
+    const std::size_t end = line.find(": {");
+    const std::size_t begin = line.rfind(' ', end) + 1;
+    if (end != std::string::npos) ++trace.events[line.substr(begin, end - begin)];
     trace.lines.push_back(line);
   }
+  const std::string discarded = "Tracer discarded ";
   std::istringstream err(result.err);
-  const std::regex discarded(R"(Tracer discarded (\d+) events? )");
   for (std::string line; std::getline(err, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, discarded)) {
-      trace.discarded += std::stoull(match[1]);
+    const std::size_t found = line.find(discarded);
+    if (found != std::string::npos && line.find(" event", found) != std::string::npos) {
+      trace.discarded += std::stoull(line.substr(found + discarded.size()));
     } else {
       trace.complaints += line + "\n";
     }

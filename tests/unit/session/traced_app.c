@@ -1,6 +1,6 @@
 // Usage: traced_app COUNT BYTES
-// Fires one ros2:rcl_init and COUNT events ros2:rclcpp_callback_register with a symbol of BYTES characters, says "fired",
-// and ends when its stdin does. For every line on stdin it fires COUNT events more and says "fired" again.
+// Fires one ros2:rcl_init and COUNT events ros2:rclcpp_callback_register with a symbol of BYTES characters and says
+// "fired". For every line on stdin it fires COUNT events more and says so again; it ends when stdin does.
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #include "traced_app_tracepoints.h"

@@ -17,6 +17,8 @@ TEST(DisabledMacros, DoNotEvaluateTheirArguments) {
   EXPECT_EQ(evaluations, 0);
 }
 
-TEST(DisabledMacros, AreNeverEnabled) { EXPECT_FALSE(TRACETOOLS_TRACEPOINT_ENABLED(rcl_take)); }
+TEST(DisabledMacros, AreNeverEnabled) {
+  EXPECT_FALSE(TRACETOOLS_TRACEPOINT_ENABLED(rcl_take));
+}
 
 }  // namespace

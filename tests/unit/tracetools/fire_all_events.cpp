@@ -8,7 +8,9 @@
 
 namespace {
 
-const void* at(uintptr_t address) { return reinterpret_cast<const void*>(address); }
+const void* at(uintptr_t address) {
+  return reinterpret_cast<const void*>(address);
+}
 
 }  // namespace
 
@@ -64,5 +66,5 @@ int main() {
   TRACETOOLS_TRACEPOINT(message_link_partial_sync, subs, 1, pubs, 0);
 
   const auto threads = std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
-  std::printf("%d threads\n", static_cast<int>(threads));
+  std::printf("%d\n", static_cast<int>(threads));
 }

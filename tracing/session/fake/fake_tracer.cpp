@@ -74,9 +74,13 @@ LossAccount FakeTracer::finish(const TraceConfig& config, const std::function<bo
   return losses;
 }
 
-void FakeTracer::pause(const std::string& lttng_session_name) { record("pause " + lttng_session_name); }
+void FakeTracer::pause(const std::string& lttng_session_name) {
+  record("pause " + lttng_session_name);
+}
 
-void FakeTracer::resume(const std::string& lttng_session_name) { record("resume " + lttng_session_name); }
+void FakeTracer::resume(const std::string& lttng_session_name) {
+  record("resume " + lttng_session_name);
+}
 
 void FakeTracer::record_snapshot(const std::string& lttng_session_name) {
   record("record_snapshot " + lttng_session_name);

@@ -15,7 +15,7 @@ namespace tracing {
 class FakeTracer : public Tracer {
  public:
   // What the calls give back or throw.
-  SetupReport setup_report;             // its trace directory is filled in by start()
+  SetupReport setup_report;  // its trace directory is filled in by start()
   LossAccount losses;
   std::optional<TraceError> start_error;
   std::optional<TraceError> finish_error;

@@ -4,7 +4,7 @@
 //   -r, --remap [node:]FROM:=TO   -p, --param [node:]NAME:=VALUE   --params-file FILE   -e, --enclave PATH
 //   --log-level LEVEL | LOGGER:=LEVEL   --log-config-file FILE   --log-file-name PREFIX
 //   --enable-rosout-logs, --disable-rosout-logs, and the same for stdout and external-lib
-// Before `--ros-args` the old form `FROM:=TO` is no longer accepted: such arguments are left to the application.
+// Outside, the old form `FROM:=TO` is still taken as a remap rule, with a warning; the rest is left to the application.
 #pragma once
 
 #include <stdbool.h>

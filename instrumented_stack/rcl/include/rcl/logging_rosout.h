@@ -16,10 +16,7 @@ extern "C" {
 rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t* node);
 rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node);
 
-// Lets the loggers `logger.sublogger` of a node publish, counted; remove as often as added.
-rcl_ret_t rcl_logging_rosout_add_sublogger(const char* logger_name, const char* sublogger_name);
-rcl_ret_t rcl_logging_rosout_remove_sublogger(const char* logger_name, const char* sublogger_name);
-
+// Publishes on behalf of the node with the longest logger name that is `name` or an ancestor of it.
 void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
                                        rcutils_time_point_value_t timestamp, const char* format, va_list* args);
 

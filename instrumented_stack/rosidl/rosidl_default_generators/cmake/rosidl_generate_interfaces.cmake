@@ -1,8 +1,8 @@
 # rosidl_generate_interfaces(<pkg> <file>... [DEPENDENCIES <pkg>...])
 #
 # Makes a package of messages and services: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the headers
-# <pkg>/msg/<name>.hpp and <pkg>/srv/<name>.hpp. Files are given as "msg/<Name>.msg" or "srv/<Name>.srv", relative to the
-# current folder. DEPENDENCIES are the packages whose messages they use; outside the stack find_package them first.
+# <pkg>/msg/<name>.hpp and <pkg>/srv/<name>.hpp. Files are given as "msg/<Name>.msg" or "srv/<Name>.srv", relative to
+# the current folder. DEPENDENCIES are the packages whose messages they use; outside the stack find_package them first.
 # SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
 include_guard(GLOBAL)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed

@@ -61,10 +61,11 @@ def _printing(message: Message) -> str:
                      f'"{m.name}", message.{m.name});' for i, m in enumerate(message.fields))
     unused = '' if message.fields else '[[maybe_unused]] '
     block = block or "  out << std::string(indentation, ' ') << \"{}\\n\";"
-    return f'''void to_block_style_yaml({unused}const {message.name}& message, std::ostream& out, std::size_t indentation) {{
+    parameters = f'{unused}const {message.name}& message, std::ostream& out'
+    return f'''void to_block_style_yaml({parameters}, std::size_t indentation) {{
 {block}
 }}
-void to_flow_style_yaml({unused}const {message.name}& message, std::ostream& out) {{
+void to_flow_style_yaml({parameters}) {{
   out << '{{';
 {flow}
   out << '}}';

@@ -60,31 +60,31 @@ def _struct(message: Message) -> str:
 
 def _constructor(message: Message) -> str:
     """See rosidl_runtime_cpp::MessageInitialization for what each argument must set."""
-    initialization = 'rosidl_runtime_cpp::MessageInitialization'
     nested = [m for m in message.members if m.type.is_message and not m.type.is_sequence]
-    lists = [f'{m.name}({"_init" if not m.type.is_array else ""})' for m in nested if not m.type.is_array]
-    plain = [m for m in message.members if not m.type.is_message and m.default is None
-             and not m.type.is_sequence and (not m.type.is_string or m.type.is_array)]
+    numbers = [m for m in message.members
+               if not m.type.is_message and not m.type.is_sequence and not m.type.is_string]
     defaults = [m for m in message.members if m.default is not None]
-    body: List[str] = []
-    for m in nested:
-        if m.type.is_array:
-            body.append(f'    {m.name}.fill({cpp_types.element_type(m.type)}(_init));')
-    zeroed = [f'      {_zero(m)}' for m in plain if not m.type.is_string]
-    if zeroed:
-        body += [f'    if (_init == {initialization}::ALL || _init == {initialization}::ZERO) {{', *zeroed, '    }']
-    if defaults:
-        body += [f'    if (_init == {initialization}::ALL || _init == {initialization}::DEFAULTS_ONLY) {{',
-                 *(f'      {_assign_default(m)}' for m in defaults)]
-        zeroed = [f'      {_zero(m)}' for m in defaults if not m.type.is_sequence and not m.type.is_string]
-        if zeroed:
-            body += [f'    }} else if (_init == {initialization}::ZERO) {{', *zeroed]
-        body.append('    }')
-    parameter = '_init' if body or lists else ''
-    head = f'  explicit {message.name}({initialization} {parameter} = {initialization}::ALL)'.replace('  =', ' =')
-    if lists:
-        head += '\n      : ' + ', '.join(lists)
-    return head + (' {\n' + '\n'.join(body) + '\n  }\n' if body else ' {}\n')
+
+    initializers = [f'{m.name}(_init)' for m in nested if not m.type.is_array]
+    body = [f'{m.name}.fill({cpp_types.element_type(m.type)}(_init));' for m in nested if m.type.is_array]
+    body += _if_any('ALL', 'ZERO', [_zero(m) for m in numbers if m.default is None])
+    body += _if_any('ALL', 'DEFAULTS_ONLY', [_assign_default(m) for m in defaults])
+    body += _if_any('ZERO', 'ZERO', [_zero(m) for m in numbers if m.default is not None])
+
+    parameter = ' _init' if body or initializers else ''
+    kind = 'rosidl_runtime_cpp::MessageInitialization'
+    head = f'  explicit {message.name}({kind}{parameter} = {kind}::ALL)'
+    if initializers:
+        head += '\n      : ' + ', '.join(initializers)
+    return head + (' {\n' + ''.join(f'    {line}\n' for line in body) + '  }\n' if body else ' {}\n')
+
+
+def _if_any(one: str, other: str, statements: List[str]) -> List[str]:
+    """The statements under the condition that the message is to be initialised in one of two ways."""
+    if not statements:
+        return []
+    conditions = [f'_init == rosidl_runtime_cpp::MessageInitialization::{way}' for way in dict.fromkeys((one, other))]
+    return [f'if ({" || ".join(conditions)}) {{', *(f'  {statement}' for statement in statements), '}']
 
 
 def _zero(member: Field) -> str:
@@ -149,9 +149,10 @@ def _pointers(name: str) -> str:
 
 
 def _comparison(message: Message) -> str:
-    equal = ' &&\n           '.join(f'{m.name} == other.{m.name}' for m in message.members)
-    return f'''  bool operator==(const {message.name}& other) const {{
+    # A field can be called `other`, but no field begins with an underscore.
+    equal = ' &&\n           '.join(f'{m.name} == _other.{m.name}' for m in message.members)
+    return f'''  bool operator==(const {message.name}& _other) const {{
     return {equal};
   }}
-  bool operator!=(const {message.name}& other) const {{ return !(*this == other); }}
+  bool operator!=(const {message.name}& _other) const {{ return !(*this == _other); }}
 '''

@@ -34,7 +34,10 @@ class InterfaceError(Exception):
 
 
 def parse_file(path: str, text: str, package: str, namespace: str, known_types: Collection[str]) -> InterfaceFile:
-    """Parses one file. `known_types` are the messages it may use: 'std_msgs/msg/Header', those of `package` included."""
+    """Parses one file.
+
+    `known_types` are the messages it may use, 'std_msgs/msg/Header' for example, those of `package` included.
+    """
     name = re.sub(r'.*/|\.\w+$', '', path)
     lines = text.splitlines()
     if not MESSAGE_NAME.fullmatch(name):
@@ -121,8 +124,8 @@ def _parse_line(line: _Line, message: Message, known_types: Collection[str]) -> 
                                           _parse_value(line, type_)))
         return
     if not FIELD_NAME.fullmatch(name.group()):
-        raise line.error(name_column, f"'{name.group()}' is not a field name: it must be lower case letters, digits and "
-                         'single underscores, starting with a letter')
+        raise line.error(name_column, f"'{name.group()}' is not a field name: it must be lower case letters, digits "
+                         'and single underscores, starting with a letter')
     default = None
     if line.rest:
         if type_.is_message:
@@ -135,8 +138,8 @@ def _constant_name(line: _Line, column: int, name: str, type_: Type) -> str:
     if type_.is_message or type_.is_array or type_.is_sequence:
         raise line.error(column, 'a constant must be a single primitive')
     if not CONSTANT_NAME.fullmatch(name):
-        raise line.error(column, f"'{name}' is not a constant name: it must be capitals, digits and single underscores, "
-                         'starting with a letter')
+        raise line.error(column, f"'{name}' is not a constant name: it must be capitals, digits and single "
+                         'underscores, starting with a letter')
     if not line.rest and not type_.is_string:
         raise line.error(line.position, 'the value is missing')
     return name

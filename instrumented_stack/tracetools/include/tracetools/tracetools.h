@@ -47,9 +47,9 @@ bool ros_trace_compile_status(void);
 bool ros_trace_runtime_status(void);
 
 /// For each event: record it if a session wants it; whether a session wants it; record it without asking.
-#define TRACETOOLS_DECLARE_EVENT(name, parameters, ...) \
-  void ros_trace_##name parameters;                     \
-  bool ros_trace_enabled_##name(void);                  \
+#define TRACETOOLS_DECLARE_EVENT(name, parameters, arguments) \
+  void ros_trace_##name parameters;                           \
+  bool ros_trace_enabled_##name(void);                        \
   void ros_trace_do_##name parameters;
 
 TRACETOOLS_EVENTS(TRACETOOLS_DECLARE_EVENT)

@@ -4,11 +4,23 @@
 #include <functional>
 #include <typeinfo>
 
+#include "tracetools/config.h"
+
 /// Readable names of callables, for the event rclcpp_callback_register.
 ///
 /// Every function returns memory from malloc, to be freed by the caller, or null when there is no name: a function that
-/// the dynamic symbol table does not hold (static, or a stripped executable), or one that was not mangled (extern "C").
+/// the dynamic symbol table does not hold (static, or a stripped executable), one that was not mangled (extern "C"), or
+/// tracepoints that are disabled.
 namespace tracetools {
+
+#ifdef TRACETOOLS_DISABLED
+
+template <typename Callable>
+char* get_symbol(const Callable&) {
+  return nullptr;
+}
+
+#else
 
 namespace detail {
 
@@ -35,6 +47,8 @@ template <typename Callable>
 char* get_symbol(const Callable& callable) {
   return detail::demangle_symbol(typeid(callable).name());
 }
+
+#endif  // TRACETOOLS_DISABLED
 
 }  // namespace tracetools
 

@@ -13,7 +13,8 @@
 
 namespace rosidl_runtime_cpp {
 
-/// A std::vector of at most UpperBound elements: what would make it longer throws std::length_error and leaves it alone.
+/// A std::vector of at most UpperBound elements: what would make it longer throws std::length_error and leaves it
+/// alone.
 template <typename T, std::size_t UpperBound, typename Allocator = std::allocator<T>>
 class BoundedVector : protected std::vector<T, Allocator> {
   using Base = std::vector<T, Allocator>;
@@ -34,8 +35,7 @@ class BoundedVector : protected std::vector<T, Allocator> {
 
   BoundedVector() = default;
   explicit BoundedVector(const Allocator& allocator) noexcept : Base(allocator) {}
-  explicit BoundedVector(size_type count, const Allocator& allocator = Allocator())
-      : Base(checked(count), allocator) {}
+  explicit BoundedVector(size_type count, const Allocator& allocator = Allocator()) : Base(checked(count), allocator) {}
   BoundedVector(size_type count, const T& value, const Allocator& allocator = Allocator())
       : Base(checked(count), value, allocator) {}
   BoundedVector(std::initializer_list<T> values, const Allocator& allocator = Allocator())

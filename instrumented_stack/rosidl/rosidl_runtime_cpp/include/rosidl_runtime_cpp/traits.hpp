@@ -1,6 +1,7 @@
 #ifndef ROSIDL_RUNTIME_CPP__TRAITS_HPP_
 #define ROSIDL_RUNTIME_CPP__TRAITS_HPP_
 
+#include <string>
 #include <type_traits>
 
 /// Facts about message and service types, specialised by the generated code of each interface package.
@@ -33,6 +34,12 @@ struct has_fixed_size : std::false_type {};
 /// There is an upper bound of the serialised size.
 template <typename T>
 struct has_bounded_size : std::false_type {};
+
+/// The message as YAML. The generated function, which has more options, is found through the type of its argument.
+template <typename Message, typename = std::enable_if_t<is_message<Message>::value>>
+std::string to_yaml(const Message& message) {
+  return to_yaml(message, false);
+}
 
 }  // namespace rosidl_generator_traits
 

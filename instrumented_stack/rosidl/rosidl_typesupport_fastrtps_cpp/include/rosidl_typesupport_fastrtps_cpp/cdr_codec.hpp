@@ -1,10 +1,8 @@
 #ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_CODEC_HPP_
 #define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_CODEC_HPP_
 
-#include <array>
 #include <cstddef>
 #include <limits>
-#include <type_traits>
 
 namespace eprosima::fastcdr {
 class Cdr;
@@ -16,7 +14,7 @@ struct MaxSize;
 
 /// How a message type is turned into CDR bytes and back. Generated code specialises it for each message:
 ///   write      throws if the buffer is too small
-///   read       throws if the bytes are cut short or break a bound of the type
+///   read       throws if the bytes are cut short or hold a longer sequence than the type allows
 ///   end_after  the position after the message, if it is written at `position`
 ///   add_to     adds the message to an upper bound
 /// Positions are bytes from the beginning of the payload, which alignment counts from.

@@ -2,7 +2,6 @@
 #define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_MEMBERS_HPP_
 
 #include <fastcdr/Cdr.h>
-#include <fastcdr/exceptions/BadParamException.h>
 
 #include <array>
 #include <cstddef>
@@ -36,7 +35,8 @@ struct is_sequence<std::vector<T>> : std::true_type {};
 template <typename T, std::size_t N>
 struct is_sequence<rosidl_runtime_cpp::BoundedVector<T, N>> : std::true_type {};
 
-/// A bool is excluded from what is copied as a block: reading must check that it is 0 or 1, and std::vector<bool> holds bits.
+/// A bool is excluded from what is copied as a block: reading must check that it is 0 or 1, and std::vector<bool> holds
+/// bits.
 template <typename T>
 inline constexpr bool is_block_of_primitives = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
@@ -80,10 +80,9 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
 inline std::size_t read_length(eprosima::fastcdr::Cdr& cdr, std::size_t least_element_size) {
   uint32_t length = 0;
   cdr.deserialize(length);
-  const auto begin = cdr.getState();
+  eprosima::fastcdr::Cdr::state begin = cdr.getState();
   const bool enough = cdr.jump(length * least_element_size);
-  eprosima::fastcdr::Cdr::state state = begin;
-  cdr.setState(state);
+  cdr.setState(begin);
   if (!enough) {
     throw std::length_error("a length in the message goes beyond the message");
   }

@@ -27,8 +27,8 @@ typedef struct message_type_support_callbacks_t {
   const char* message_name_;
   /// Writes the message. False if the buffer is too small.
   bool (*cdr_serialize)(const void* untyped_ros_message, eprosima::fastcdr::Cdr& cdr);
-  /// Reads into the message. False if the bytes are cut short or break a bound of the type; the message is then valid,
-  /// but holds a part only.
+  /// Reads into the message. False if the bytes are cut short or hold a longer sequence than the type allows; the
+  /// message is then valid, but holds a part only. The bound of a string is not checked, as nowhere in ROS 2.
   bool (*cdr_deserialize)(eprosima::fastcdr::Cdr& cdr, void* untyped_ros_message);
   /// What cdr_serialize would write, exactly.
   uint32_t (*get_serialized_size)(const void* untyped_ros_message);

@@ -40,8 +40,7 @@ struct Callbacks {
     CdrCodec<Message>::add_to(size);
     bounds_info = ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
     if (size.bounded) {
-      bounds_info =
-          size.plain ? ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE : ROSIDL_TYPESUPPORT_FASTRTPS_BOUNDED_TYPE;
+      bounds_info = size.plain ? ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE : ROSIDL_TYPESUPPORT_FASTRTPS_BOUNDED_TYPE;
     }
     return size.end;
   }
@@ -70,8 +69,8 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
       service_namespace, service_name, get_message_type_support_handle<typename Service::Request>(),
       get_message_type_support_handle<typename Service::Response>()};
   static const rosidl_service_type_support_t handle{typesupport_identifier, &callbacks,
-                                                    itself<rosidl_service_type_support_t>,
-                                                    callbacks.request_members_, callbacks.response_members_};
+                                                    itself<rosidl_service_type_support_t>, callbacks.request_members_,
+                                                    callbacks.response_members_};
   return &handle;
 }
 

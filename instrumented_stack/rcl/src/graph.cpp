@@ -1,0 +1,32 @@
+#include "rcl/graph.h"
+
+#include "rcl/error_handling.h"
+#include "rmw/rmw.h"
+
+rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t* names_and_types) {
+  return rmw_names_and_types_fini(names_and_types);
+}
+
+rcl_ret_t rcl_count_publishers(const rcl_node_t* node, const char* topic_name, size_t* count) {
+  return rcl_node_is_valid(node) ? rmw_count_publishers(rcl_node_get_rmw_handle(node), topic_name, count)
+                                 : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_count_subscribers(const rcl_node_t* node, const char* topic_name, size_t* count) {
+  return rcl_node_is_valid(node) ? rmw_count_subscribers(rcl_node_get_rmw_handle(node), topic_name, count)
+                                 : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_node_names(const rcl_node_t* node, rcl_allocator_t, rcutils_string_array_t* node_names,
+                             rcutils_string_array_t* node_namespaces) {
+  return rcl_node_is_valid(node) ? rmw_get_node_names(rcl_node_get_rmw_handle(node), node_names, node_namespaces)
+                                 : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator, bool no_demangle,
+                                        rcl_names_and_types_t* topic_names_and_types) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RCL_RET_INVALID_ARGUMENT);
+  return rcl_node_is_valid(node) ? rmw_get_topic_names_and_types(rcl_node_get_rmw_handle(node), allocator, no_demangle,
+                                                                 topic_names_and_types)
+                                 : RCL_RET_NODE_INVALID;
+}

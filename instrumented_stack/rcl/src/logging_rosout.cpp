@@ -1,0 +1,131 @@
+#include "rcl/logging_rosout.h"
+
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "rcl/error_handling.h"
+#include "rcl/publisher.h"
+#include "rcl_interfaces/msg/log.hpp"
+#include "rosidl_typesupport_cpp/message_type_support.hpp"
+
+namespace {
+
+constexpr const char* kTopic = "/rosout";
+
+struct Entry {
+  rcl_node_t* node;
+  rcl_publisher_t publisher;
+};
+
+// By logger name. The entries keep their addresses: those of publishers are handles in traces.
+struct Publishers {
+  std::mutex mutex;
+  std::map<std::string, Entry, std::less<>> by_logger;
+};
+
+// Never destroyed: nodes of static storage may go after it.
+Publishers& publishers() {
+  static Publishers& instance = *new Publishers;
+  return instance;
+}
+
+// Publishing can log again in this thread, through a failing middleware; that is not to be published.
+thread_local bool is_publishing = false;
+
+// The entry of the longest name that is `name` or an ancestor.
+Entry* find_for(Publishers& all, std::string_view name) {
+  while (!name.empty()) {
+    const auto found = all.by_logger.find(name);
+    if (found != all.by_logger.end()) {
+      return &found->second;
+    }
+    const std::size_t separator = name.rfind(RCUTILS_LOGGING_SEPARATOR_CHAR);
+    name = separator == std::string_view::npos ? std::string_view() : name.substr(0, separator);
+  }
+  return nullptr;
+}
+
+std::string formatted(const char* format, va_list* args) {
+  va_list copy;
+  va_copy(copy, *args);
+  const int length = std::vsnprintf(nullptr, 0, format, copy);
+  va_end(copy);
+  std::string text(length < 0 ? 0 : static_cast<std::size_t>(length), '\0');
+  va_copy(copy, *args);
+  std::vsnprintf(text.data(), text.size() + 1, format, copy);
+  va_end(copy);
+  return text;
+}
+
+}  // namespace
+
+rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t* node) {
+  if (!rcl_node_is_valid(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  Publishers& all = publishers();
+  std::lock_guard lock(all.mutex);
+  const auto [entry, is_new] =
+      all.by_logger.try_emplace(rcl_node_get_logger_name(node), Entry{node, rcl_get_zero_initialized_publisher()});
+  if (!is_new) {
+    return RCL_RET_OK;
+  }
+  rcl_publisher_options_t options = rcl_publisher_get_default_options();
+  options.qos = rcl_node_get_options(node)->rosout_qos;
+  const rcl_ret_t result = rcl_publisher_init(
+      &entry->second.publisher, node,
+      rosidl_typesupport_cpp::get_message_type_support_handle<rcl_interfaces::msg::Log>(), kTopic, &options);
+  if (result != RCL_RET_OK) {
+    all.by_logger.erase(entry);
+  }
+  return result;
+}
+
+rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node) {
+  if (!rcl_node_is_valid_except_context(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  Publishers& all = publishers();
+  std::lock_guard lock(all.mutex);
+  const auto entry = all.by_logger.find(std::string_view(rcl_node_get_logger_name(node)));
+  if (entry == all.by_logger.end() || entry->second.node != node) {
+    return RCL_RET_OK;
+  }
+  const rcl_ret_t result = rcl_publisher_fini(&entry->second.publisher, node);
+  all.by_logger.erase(entry);
+  return result;
+}
+
+void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
+                                       rcutils_time_point_value_t timestamp, const char* format, va_list* args) {
+  if (is_publishing) {
+    return;
+  }
+  is_publishing = true;
+  {
+    Publishers& all = publishers();
+    std::lock_guard lock(all.mutex);
+    Entry* entry = find_for(all, name == nullptr ? "" : name);
+    // Logging goes on after shutdown; publishing does not.
+    if (entry != nullptr && rcl_context_is_valid(entry->node->context)) {
+      rcl_interfaces::msg::Log message;
+      message.stamp.sec = static_cast<int32_t>(RCUTILS_NS_TO_S(timestamp));
+      message.stamp.nanosec = static_cast<uint32_t>(timestamp % RCUTILS_S_TO_NS(1));
+      message.level = static_cast<uint8_t>(severity);
+      message.name = name;
+      message.msg = formatted(format, args);
+      if (location != nullptr) {
+        message.file = location->file_name;
+        message.function = location->function_name;
+        message.line = static_cast<uint32_t>(location->line_number);
+      }
+      if (rcl_publish(&entry->publisher, &message, nullptr) != RCL_RET_OK) {
+        rcl_reset_error();
+      }
+    }
+  }
+  is_publishing = false;
+}

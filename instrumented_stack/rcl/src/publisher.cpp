@@ -1,0 +1,152 @@
+#include "rcl/publisher.h"
+
+#include <string>
+
+#include "rcl/error_handling.h"
+#include "rmw/rmw.h"
+#include "tracetools/tracetools.h"
+
+struct rcl_publisher_impl_s {
+  rcl_publisher_options_t options;
+  rmw_qos_profile_t actual_qos;
+  rcl_context_t* context;
+  rmw_publisher_t* rmw_handle;
+};
+
+rcl_publisher_t rcl_get_zero_initialized_publisher(void) {
+  return {};
+}
+
+rcl_publisher_options_t rcl_publisher_get_default_options(void) {
+  return {rmw_qos_profile_default, rcl_get_default_allocator(), rmw_get_default_publisher_options()};
+}
+
+rcl_ret_t rcl_publisher_init(rcl_publisher_t* publisher, const rcl_node_t* node,
+                             const rosidl_message_type_support_t* type_support, const char* topic_name,
+                             const rcl_publisher_options_t* options) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(publisher, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_name, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(options, RCL_RET_INVALID_ARGUMENT);
+  if (publisher->impl != nullptr) {
+    RCL_SET_ERROR_MSG("the publisher is initialized already");
+    return RCL_RET_ALREADY_INIT;
+  }
+  if (!rcl_node_is_valid(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  char* resolved = nullptr;
+  if (const rcl_ret_t result = rcl_node_resolve_name(node, topic_name, options->allocator, false, false, &resolved);
+      result != RCL_RET_OK) {
+    return result == RCL_RET_UNKNOWN_SUBSTITUTION ? RCL_RET_TOPIC_NAME_INVALID : result;
+  }
+  rmw_publisher_t* handle = rmw_create_publisher(rcl_node_get_rmw_handle(node), type_support, resolved, &options->qos,
+                                                 &options->rmw_publisher_options);
+  options->allocator.deallocate(resolved, options->allocator.state);
+  if (handle == nullptr) {
+    return RCL_RET_ERROR;
+  }
+  rmw_qos_profile_t actual_qos;
+  if (const rmw_ret_t result = rmw_publisher_get_actual_qos(handle, &actual_qos); result != RMW_RET_OK) {
+    (void)rmw_destroy_publisher(rcl_node_get_rmw_handle(node), handle);
+    return result;
+  }
+  actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
+  publisher->impl = new rcl_publisher_impl_s{*options, actual_qos, node->context, handle};
+  TRACETOOLS_TRACEPOINT(rcl_publisher_init, static_cast<const void*>(publisher), static_cast<const void*>(node),
+                        static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_publisher_fini(rcl_publisher_t* publisher, rcl_node_t* node) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(publisher, RCL_RET_PUBLISHER_INVALID);
+  if (!rcl_node_is_valid_except_context(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  rmw_ret_t result = RMW_RET_OK;
+  if (publisher->impl != nullptr) {
+    result = rmw_destroy_publisher(rcl_node_get_rmw_handle(node), publisher->impl->rmw_handle);
+    delete publisher->impl;
+    publisher->impl = nullptr;
+  }
+  return result;
+}
+
+rcl_ret_t rcl_publish(const rcl_publisher_t* publisher, const void* ros_message,
+                      rmw_publisher_allocation_t* allocation) {
+  if (!rcl_publisher_is_valid(publisher)) {
+    return RCL_RET_PUBLISHER_INVALID;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RCL_RET_INVALID_ARGUMENT);
+  TRACETOOLS_TRACEPOINT(rcl_publish, static_cast<const void*>(publisher), ros_message);
+  return rmw_publish(publisher->impl->rmw_handle, ros_message, allocation);
+}
+
+rcl_ret_t rcl_publish_serialized_message(const rcl_publisher_t* publisher,
+                                         const rcl_serialized_message_t* serialized_message,
+                                         rmw_publisher_allocation_t* allocation) {
+  if (!rcl_publisher_is_valid(publisher)) {
+    return RCL_RET_PUBLISHER_INVALID;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RCL_RET_INVALID_ARGUMENT);
+  TRACETOOLS_TRACEPOINT(rcl_publish, static_cast<const void*>(publisher), static_cast<const void*>(serialized_message));
+  return rmw_publish_serialized_message(publisher->impl->rmw_handle, serialized_message, allocation);
+}
+
+rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid(publisher) ? rmw_publisher_assert_liveliness(publisher->impl->rmw_handle)
+                                           : RCL_RET_PUBLISHER_INVALID;
+}
+
+rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t* publisher, rmw_duration_t timeout) {
+  return rcl_publisher_is_valid(publisher)
+             ? rmw_publisher_wait_for_all_acked(publisher->impl->rmw_handle, rmw_time_from_nsec(timeout))
+             : RCL_RET_PUBLISHER_INVALID;
+}
+
+const char* rcl_publisher_get_topic_name(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid_except_context(publisher) ? publisher->impl->rmw_handle->topic_name : nullptr;
+}
+
+const rcl_publisher_options_t* rcl_publisher_get_options(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid_except_context(publisher) ? &publisher->impl->options : nullptr;
+}
+
+rmw_publisher_t* rcl_publisher_get_rmw_handle(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid_except_context(publisher) ? publisher->impl->rmw_handle : nullptr;
+}
+
+rcl_context_t* rcl_publisher_get_context(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid_except_context(publisher) ? publisher->impl->context : nullptr;
+}
+
+const rmw_qos_profile_t* rcl_publisher_get_actual_qos(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid_except_context(publisher) ? &publisher->impl->actual_qos : nullptr;
+}
+
+rcl_ret_t rcl_publisher_get_subscription_count(const rcl_publisher_t* publisher, size_t* subscription_count) {
+  return rcl_publisher_is_valid(publisher)
+             ? rmw_publisher_count_matched_subscriptions(publisher->impl->rmw_handle, subscription_count)
+             : RCL_RET_PUBLISHER_INVALID;
+}
+
+bool rcl_publisher_is_valid_except_context(const rcl_publisher_t* publisher) {
+  RCUTILS_CHECK_FOR_NULL_WITH_MSG(publisher, "the publisher is null", return false);
+  RCUTILS_CHECK_FOR_NULL_WITH_MSG(publisher->impl, "the publisher is not initialized", return false);
+  return true;
+}
+
+bool rcl_publisher_is_valid(const rcl_publisher_t* publisher) {
+  if (!rcl_publisher_is_valid_except_context(publisher)) {
+    return false;
+  }
+  if (!rcl_context_is_valid(publisher->impl->context)) {
+    RCL_SET_ERROR_MSG("the context of the publisher is shut down");
+    return false;
+  }
+  return true;
+}
+
+bool rcl_publisher_can_loan_messages(const rcl_publisher_t* publisher) {
+  return rcl_publisher_is_valid_except_context(publisher) && publisher->impl->rmw_handle->can_loan_messages;
+}

@@ -1,0 +1,38 @@
+// One remap rule of a command line: `[node:]FROM:=TO`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rcl {
+
+struct RemapRule {
+  enum class Kind {
+    kName,       // FROM:=TO, topics and services
+    kTopic,      // rostopic://FROM:=TO
+    kService,    // rosservice://FROM:=TO
+    kNodeName,   // __node:=TO or __name:=TO
+    kNamespace,  // __ns:=TO
+  };
+
+  Kind kind;
+  std::string node;  // only nodes of this name; empty: all
+  std::string from;  // not of node names and namespaces; may be relative or begin with `~/`
+  std::string to;
+};
+
+// Throws std::invalid_argument with what is wrong, in words that follow `'TEXT' is no remap rule: `.
+RemapRule parse_remap_rule(std::string_view text);
+
+// The name that a topic or service (Kind kTopic, kService), given in full, is remapped to.
+std::optional<std::string> remapped_name(const std::vector<RemapRule>& rules, RemapRule::Kind kind,
+                                         std::string_view name, std::string_view node_name,
+                                         std::string_view node_namespace);
+
+// The new name or namespace (Kind kNodeName, kNamespace) of the node.
+std::optional<std::string> remapped_node(const std::vector<RemapRule>& rules, RemapRule::Kind kind,
+                                         std::string_view node_name);
+
+}  // namespace rcl

@@ -1,0 +1,245 @@
+#include "rcl/wait.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "rcl/error_handling.h"
+#include "rmw/rmw.h"
+
+struct rcl_wait_set_impl_s {
+  rmw_wait_set_t* rmw_wait_set = nullptr;
+  // Storage of the public arrays.
+  std::vector<const rcl_subscription_t*> subscriptions;
+  std::vector<const rcl_guard_condition_t*> guard_conditions;
+  std::vector<const rcl_timer_t*> timers;
+  // How many entries of each are in use.
+  size_t subscription_count = 0;
+  size_t guard_condition_count = 0;
+  size_t timer_count = 0;
+  // What rmw waits for: the same entities, then the guard conditions of the timers.
+  std::vector<void*> rmw_subscriptions;
+  std::vector<void*> rmw_guard_conditions;
+};
+
+namespace {
+
+constexpr int64_t kForever = std::numeric_limits<int64_t>::max();
+
+rcl_ret_t check(const rcl_wait_set_t* wait_set) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(wait_set, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_FOR_NULL_WITH_MSG(wait_set->impl, "the wait set is not initialized", return RCL_RET_WAIT_SET_INVALID);
+  return RCL_RET_OK;
+}
+
+template <typename Entity>
+rcl_ret_t add(const rcl_wait_set_t* wait_set, std::vector<const Entity*> rcl_wait_set_impl_s::*storage,
+              size_t rcl_wait_set_impl_s::*count, const Entity* entity, size_t* index) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(entity, RCL_RET_INVALID_ARGUMENT);
+  auto& entries = wait_set->impl->*storage;
+  size_t& used = wait_set->impl->*count;
+  if (used == entries.size()) {
+    RCL_SET_ERROR_MSG("the wait set has no more room for entities of this kind");
+    return RCL_RET_WAIT_SET_FULL;
+  }
+  if (index != nullptr) {
+    *index = used;
+  }
+  entries[used++] = entity;
+  return RCL_RET_OK;
+}
+
+// Nanoseconds until the first timer is due, `kForever` without one; 0 or less if one is due already.
+rcl_ret_t time_until_first_timer(const rcl_wait_set_impl_t& impl, int64_t& time) {
+  time = kForever;
+  for (size_t i = 0; i < impl.timer_count; ++i) {
+    int64_t until_next = 0;
+    const rcl_ret_t result = rcl_timer_get_time_until_next_call(impl.timers[i], &until_next);
+    if (result == RCL_RET_TIMER_CANCELED) {
+      continue;
+    }
+    if (result != RCL_RET_OK) {
+      return result;
+    }
+    time = std::min(time, until_next);
+  }
+  return RCL_RET_OK;
+}
+
+void collect_rmw_entities(rcl_wait_set_impl_t& impl) {
+  impl.rmw_subscriptions.clear();
+  for (size_t i = 0; i < impl.subscription_count; ++i) {
+    impl.rmw_subscriptions.push_back(rcl_subscription_get_rmw_handle(impl.subscriptions[i])->data);
+  }
+  impl.rmw_guard_conditions.clear();
+  for (size_t i = 0; i < impl.guard_condition_count; ++i) {
+    impl.rmw_guard_conditions.push_back(rcl_guard_condition_get_rmw_handle(impl.guard_conditions[i])->data);
+  }
+  // A timer that is reset from another thread, or whose clock jumps, ends the wait.
+  for (size_t i = 0; i < impl.timer_count; ++i) {
+    impl.rmw_guard_conditions.push_back(
+        rcl_guard_condition_get_rmw_handle(rcl_timer_get_guard_condition(impl.timers[i]))->data);
+  }
+}
+
+// Nulls the entries that are not ready. False if no timer is.
+rcl_ret_t keep_ready(rcl_wait_set_impl_t& impl, bool& any_timer) {
+  for (size_t i = 0; i < impl.subscription_count; ++i) {
+    if (impl.rmw_subscriptions[i] == nullptr) {
+      impl.subscriptions[i] = nullptr;
+    }
+  }
+  for (size_t i = 0; i < impl.guard_condition_count; ++i) {
+    if (impl.rmw_guard_conditions[i] == nullptr) {
+      impl.guard_conditions[i] = nullptr;
+    }
+  }
+  any_timer = false;
+  for (size_t i = 0; i < impl.timer_count; ++i) {
+    bool is_ready = false;
+    if (const rcl_ret_t result = rcl_timer_is_ready(impl.timers[i], &is_ready); result != RCL_RET_OK) {
+      return result;
+    }
+    if (!is_ready) {
+      impl.timers[i] = nullptr;
+    }
+    any_timer |= is_ready;
+  }
+  return RCL_RET_OK;
+}
+
+}  // namespace
+
+rcl_wait_set_t rcl_get_zero_initialized_wait_set(void) {
+  return {};
+}
+
+rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscriptions, size_t number_of_guard_conditions,
+                            size_t number_of_timers, size_t number_of_clients, size_t number_of_services,
+                            size_t number_of_events, rcl_context_t* context, rcl_allocator_t) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(wait_set, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(context, RCL_RET_INVALID_ARGUMENT);
+  if (wait_set->impl != nullptr) {
+    RCL_SET_ERROR_MSG("the wait set is initialized already");
+    return RCL_RET_ALREADY_INIT;
+  }
+  if (!rcl_context_is_valid(context)) {
+    RCL_SET_ERROR_MSG("a wait set needs a context that is initialized and not shut down");
+    return RCL_RET_NOT_INIT;
+  }
+  rmw_wait_set_t* handle = rmw_create_wait_set(rcl_context_get_rmw_context(context),
+                                               number_of_subscriptions + number_of_guard_conditions + number_of_timers);
+  if (handle == nullptr) {
+    return RCL_RET_ERROR;
+  }
+  wait_set->impl = new rcl_wait_set_impl_s;
+  wait_set->impl->rmw_wait_set = handle;
+  const rcl_ret_t result =
+      rcl_wait_set_resize(wait_set, number_of_subscriptions, number_of_guard_conditions, number_of_timers,
+                          number_of_clients, number_of_services, number_of_events);
+  if (result != RCL_RET_OK) {
+    (void)rcl_wait_set_fini(wait_set);
+  }
+  return result;
+}
+
+rcl_ret_t rcl_wait_set_fini(rcl_wait_set_t* wait_set) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(wait_set, RCL_RET_INVALID_ARGUMENT);
+  rmw_ret_t result = RMW_RET_OK;
+  if (wait_set->impl != nullptr) {
+    result = rmw_destroy_wait_set(wait_set->impl->rmw_wait_set);
+    delete wait_set->impl;
+    *wait_set = rcl_get_zero_initialized_wait_set();
+  }
+  return result;
+}
+
+bool rcl_wait_set_is_valid(const rcl_wait_set_t* wait_set) {
+  return wait_set != nullptr && wait_set->impl != nullptr;
+}
+
+rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  std::fill(impl.subscriptions.begin(), impl.subscriptions.end(), nullptr);
+  std::fill(impl.guard_conditions.begin(), impl.guard_conditions.end(), nullptr);
+  std::fill(impl.timers.begin(), impl.timers.end(), nullptr);
+  impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_size, size_t guard_conditions_size,
+                              size_t timers_size, size_t clients_size, size_t services_size, size_t events_size) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  if (clients_size != 0 || services_size != 0 || events_size != 0) {
+    RCL_SET_ERROR_MSG("a wait set cannot wait for clients, services or events");
+    return RCL_RET_UNSUPPORTED;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  impl.subscriptions.resize(subscriptions_size);
+  impl.guard_conditions.resize(guard_conditions_size);
+  impl.timers.resize(timers_size);
+  wait_set->subscriptions = impl.subscriptions.data();
+  wait_set->size_of_subscriptions = subscriptions_size;
+  wait_set->guard_conditions = impl.guard_conditions.data();
+  wait_set->size_of_guard_conditions = guard_conditions_size;
+  wait_set->timers = impl.timers.data();
+  wait_set->size_of_timers = timers_size;
+  return rcl_wait_set_clear(wait_set);
+}
+
+rcl_ret_t rcl_wait_set_add_subscription(rcl_wait_set_t* wait_set, const rcl_subscription_t* subscription,
+                                        size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::subscriptions, &rcl_wait_set_impl_s::subscription_count, subscription,
+             index);
+}
+
+rcl_ret_t rcl_wait_set_add_guard_condition(rcl_wait_set_t* wait_set, const rcl_guard_condition_t* guard_condition,
+                                           size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::guard_conditions, &rcl_wait_set_impl_s::guard_condition_count,
+             guard_condition, index);
+}
+
+rcl_ret_t rcl_wait_set_add_timer(rcl_wait_set_t* wait_set, const rcl_timer_t* timer, size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::timers, &rcl_wait_set_impl_s::timer_count, timer, index);
+}
+
+rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count == 0) {
+    RCL_SET_ERROR_MSG("there is nothing to wait for in the wait set");
+    return RCL_RET_WAIT_SET_EMPTY;
+  }
+  int64_t until_timer = kForever;
+  if (const rcl_ret_t result = time_until_first_timer(impl, until_timer); result != RCL_RET_OK) {
+    return result;
+  }
+  const int64_t limit = timeout < 0 ? kForever : timeout;
+  const int64_t wait_time = std::max<int64_t>(0, std::min(limit, until_timer));
+  const rmw_time_t rmw_timeout = rmw_time_from_nsec(wait_time);
+
+  collect_rmw_entities(impl);
+  rmw_subscriptions_t subscriptions{impl.rmw_subscriptions.size(), impl.rmw_subscriptions.data()};
+  rmw_guard_conditions_t guard_conditions{impl.rmw_guard_conditions.size(), impl.rmw_guard_conditions.data()};
+  const rmw_ret_t result =
+      rmw_wait(&subscriptions, &guard_conditions, impl.rmw_wait_set, wait_time == kForever ? nullptr : &rmw_timeout);
+  if (result != RMW_RET_OK && result != RMW_RET_TIMEOUT) {
+    return result;
+  }
+  bool any_timer = false;
+  if (const rcl_ret_t ready_result = keep_ready(impl, any_timer); ready_result != RCL_RET_OK) {
+    return ready_result;
+  }
+  // The end of the time that a timer asked for is no timeout of the caller's.
+  return result == RMW_RET_TIMEOUT && !any_timer && limit <= until_timer ? RCL_RET_TIMEOUT : RCL_RET_OK;
+}

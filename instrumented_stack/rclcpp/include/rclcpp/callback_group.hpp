@@ -1,0 +1,68 @@
+// The entities (timers, subscriptions) whose callbacks belong together, and the unit that an executor serves.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "rclcpp/macros.hpp"
+
+namespace rclcpp {
+
+class SubscriptionBase;
+class TimerBase;
+
+enum class CallbackGroupType {
+  MutuallyExclusive,  // one callback at a time
+  Reentrant,          // callbacks may run beside one another
+};
+
+// Refers to its entities weakly: users own them. Thread safe.
+class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(CallbackGroup)
+
+  // Groups that are not added to the executor together with their node are added by Executor::add_callback_group().
+  explicit CallbackGroup(CallbackGroupType group_type, bool automatically_add_to_executor_with_node = true);
+  ~CallbackGroup() { notify(); }
+
+  CallbackGroupType type() const { return type_; }
+  bool automatically_add_to_executor_with_node() const { return automatically_add_to_executor_with_node_; }
+  // True while an executor has the group. Executors set it.
+  std::atomic_bool& get_associated_with_executor_atomic() { return associated_with_executor_; }
+
+  void add_subscription(const std::shared_ptr<SubscriptionBase>& subscription);
+  void add_timer(const std::shared_ptr<TimerBase>& timer);
+
+  struct Entities {
+    std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
+    std::vector<std::shared_ptr<TimerBase>> timers;
+  };
+  // Appends the living entities. Release them outside of every lock: they may be the last owners.
+  void collect(Entities& entities) const;
+  size_t size() const;
+
+  // What happens after an entity was added or destroyed, and when the group is: the executor's business. Called under
+  // no lock.
+  void set_on_change(std::function<void()> on_change);
+
+  // Entities call it when they are destroyed.
+  void entity_removed() const { notify(); }
+
+ private:
+  void notify() const;
+
+  const CallbackGroupType type_;
+  const bool automatically_add_to_executor_with_node_;
+  std::atomic_bool associated_with_executor_{false};
+
+  mutable std::mutex mutex_;
+  std::vector<std::weak_ptr<SubscriptionBase>> subscriptions_;
+  std::vector<std::weak_ptr<TimerBase>> timers_;
+  std::function<void()> on_change_;
+};
+
+}  // namespace rclcpp

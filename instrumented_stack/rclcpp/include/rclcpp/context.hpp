@@ -1,0 +1,104 @@
+// One initialisation of ROS: the command line arguments, the middleware, and the moment at which all of it ends.
+//
+// A process normally has one, which rclcpp::init() sets up. Nodes, executors and guard conditions keep their context
+// alive. A context that was shut down can be initialised again.
+#pragma once
+
+#include <rcl/context.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "rclcpp/init_options.hpp"
+#include "rclcpp/macros.hpp"
+
+namespace rclcpp {
+
+class ContextAlreadyInitialized : public std::runtime_error {
+ public:
+  ContextAlreadyInitialized() : std::runtime_error("context is already initialized") {}
+};
+
+// Names a registered callback for its removal.
+class ShutdownCallbackHandle {
+  friend class Context;
+  std::weak_ptr<std::function<void()>> callback;
+};
+using OnShutdownCallbackHandle = ShutdownCallbackHandle;
+using PreShutdownCallbackHandle = ShutdownCallbackHandle;
+
+class Context : public std::enable_shared_from_this<Context> {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(Context)
+
+  Context();
+  // Shuts the context down if that has not happened.
+  virtual ~Context();
+
+  // Parses the arguments after --ros-args and starts the middleware. Throws ContextAlreadyInitialized,
+  // exceptions::UnknownROSArgsError, exceptions::RCLInvalidROSArgsError or exceptions::RCLError.
+  virtual void init(int argc, const char* const* argv, const InitOptions& init_options = InitOptions());
+
+  bool is_valid() const { return valid_; }
+  const InitOptions& get_init_options() const { return init_options_; }
+  size_t get_domain_id() const;
+
+  // Empty until the context was shut down.
+  std::string shutdown_reason() const;
+
+  // Runs the pre-shutdown callbacks, invalidates the context, runs the on-shutdown callbacks and ends every
+  // sleep_for(). Callable from any thread, not from a signal handler. False when the context was not valid.
+  virtual bool shutdown(const std::string& reason);
+
+  // On-shutdown callbacks run in the thread that calls shutdown(), in the order of their registration.
+  using OnShutdownCallback = std::function<void()>;
+  OnShutdownCallback on_shutdown(OnShutdownCallback callback);
+  OnShutdownCallbackHandle add_on_shutdown_callback(OnShutdownCallback callback);
+  bool remove_on_shutdown_callback(const OnShutdownCallbackHandle& handle);
+
+  // Pre-shutdown callbacks find the context still valid.
+  using PreShutdownCallback = std::function<void()>;
+  PreShutdownCallbackHandle add_pre_shutdown_callback(PreShutdownCallback callback);
+  bool remove_pre_shutdown_callback(const PreShutdownCallbackHandle& handle);
+
+  // True after the whole time has passed, false when the context ended first.
+  bool sleep_for(const std::chrono::nanoseconds& nanoseconds);
+  // Ends every sleep_for() of this context.
+  void interrupt_all_sleep_for();
+
+  std::shared_ptr<rcl_context_t> get_rcl_context() const { return rcl_context_; }
+
+ private:
+  using Callbacks = std::vector<std::shared_ptr<std::function<void()>>>;
+
+  ShutdownCallbackHandle add(Callbacks& callbacks, std::function<void()> callback);
+  bool remove(Callbacks& callbacks, const ShutdownCallbackHandle& handle);
+  void run(const Callbacks& callbacks);
+
+  mutable std::recursive_mutex init_mutex_;  // recursive: shutdown callbacks may call back
+  std::atomic<bool> valid_{false};           // beside the mutex, so that ok() never waits for a running shutdown
+  std::shared_ptr<rcl_context_t> rcl_context_;
+  std::shared_ptr<void> logging_;
+  InitOptions init_options_;
+  std::string shutdown_reason_;
+
+  std::mutex callbacks_mutex_;
+  Callbacks pre_shutdown_callbacks_;
+  Callbacks on_shutdown_callbacks_;
+
+  std::mutex interrupt_mutex_;
+  std::condition_variable interrupt_condition_variable_;
+  size_t interruptions_ = 0;
+};
+
+// Every valid context of the process.
+std::vector<Context::SharedPtr> get_contexts();
+
+}  // namespace rclcpp

@@ -1,0 +1,16 @@
+// The context that rclcpp::init() initialises and that everything uses unless told otherwise.
+#pragma once
+
+#include "rclcpp/context.hpp"
+
+namespace rclcpp::contexts {
+
+class DefaultContext : public Context {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(DefaultContext)
+  DefaultContext() = default;
+};
+
+DefaultContext::SharedPtr get_global_default_context();
+
+}  // namespace rclcpp::contexts

@@ -1,0 +1,116 @@
+// Waits for the entities of nodes and runs their callbacks. Concrete executors are in executors/.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "rclcpp/any_executable.hpp"
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/context.hpp"
+#include "rclcpp/executor_options.hpp"
+#include "rclcpp/future_return_code.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+
+namespace rclcpp {
+
+class Node;
+class ExecutorEntities;
+
+// Nodes and groups are kept weakly. Only one thread at a time may be in a spin function; a second one gets
+// std::runtime_error. Everything else is thread safe.
+class Executor {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(Executor)
+  using NodePtr = node_interfaces::NodeBaseInterface::SharedPtr;
+
+  explicit Executor(const ExecutorOptions& options = ExecutorOptions());
+  virtual ~Executor();
+  RCLCPP_DISABLE_COPY(Executor)
+
+  // Adds the node's callback groups, present and future ones, unless they were made to be added one by one. Throws
+  // std::runtime_error if an executor has the node already.
+  void add_node(const NodePtr& node);
+  void add_node(const std::shared_ptr<Node>& node);
+  // Throws std::runtime_error if this executor does not have the node.
+  void remove_node(const NodePtr& node);
+  void remove_node(const std::shared_ptr<Node>& node);
+
+  void add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node);
+  void remove_callback_group(const CallbackGroup::SharedPtr& group);
+  std::vector<CallbackGroup::WeakPtr> get_all_callback_groups();
+
+  // Runs callbacks until shutdown or cancel().
+  virtual void spin() = 0;
+
+  // Runs at most one callback; waits for it up to `timeout`, negative for ever.
+  virtual void spin_once(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+
+  // Runs what is ready now, without waiting, and begins no callback after `max_duration` (0: no limit).
+  virtual void spin_some(std::chrono::nanoseconds max_duration = std::chrono::nanoseconds(0));
+
+  // The same, and then what has become ready meanwhile, until nothing is ready.
+  virtual void spin_all(std::chrono::nanoseconds max_duration);
+
+  // Adds the node for the time of the call.
+  void spin_node_some(const NodePtr& node);
+  void spin_node_some(const std::shared_ptr<Node>& node);
+  void spin_node_once(const NodePtr& node, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+  void spin_node_once(const std::shared_ptr<Node>& node,
+                      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+
+  // Runs callbacks until the future has its value. Negative waits for ever.
+  template <typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
+  FutureReturnCode spin_until_future_complete(
+      const FutureT& future, std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return spin_until([&future] { return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready; },
+                      std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  }
+
+  // Makes the spin function return after the callback that runs now. Without a spin function running, nothing happens.
+  virtual void cancel();
+  bool is_spinning() const { return spinning_; }
+
+ protected:
+  class SpinningScope;
+
+  // The next thing to execute; waits for one if there is none. False when the wait ended with nothing.
+  bool get_next_executable(AnyExecutable& any_executable,
+                           std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+  bool get_next_ready_executable(AnyExecutable& any_executable);
+  void wait_for_work(std::chrono::nanoseconds timeout);
+  void execute_any_executable(AnyExecutable& any_executable);
+
+  std::atomic_bool spinning_{false};
+  Context::SharedPtr context_;
+
+ private:
+  FutureReturnCode spin_until(const std::function<bool()>& complete, std::chrono::nanoseconds timeout);
+  void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive);
+
+  std::shared_ptr<ExecutorEntities> entities_;
+  // What the last wait found: O(1) per callback, however many entities there are.
+  std::deque<std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr>> ready_;
+  size_t removals_ = 0;  // of entities_ at that time
+  OnShutdownCallbackHandle shutdown_callback_;
+};
+
+// Marks an executor as spinning as long as it lives; throws std::runtime_error if it does so already.
+class Executor::SpinningScope {
+ public:
+  SpinningScope(Executor& executor, const char* function);
+  ~SpinningScope() { executor_.spinning_ = false; }
+  RCLCPP_DISABLE_COPY(SpinningScope)
+
+ private:
+  Executor& executor_;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,58 @@
+// Spinning in one line: a single-threaded executor for one node.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "rclcpp/executors/single_threaded_executor.hpp"
+#include "rclcpp/node.hpp"
+
+namespace rclcpp {
+
+// Runs the node's callbacks until shutdown.
+void spin(node_interfaces::NodeBaseInterface::SharedPtr node);
+void spin(Node::SharedPtr node);
+
+// Runs what is ready now.
+void spin_some(node_interfaces::NodeBaseInterface::SharedPtr node);
+void spin_some(Node::SharedPtr node);
+void spin_all(node_interfaces::NodeBaseInterface::SharedPtr node, std::chrono::nanoseconds max_duration);
+void spin_all(Node::SharedPtr node, std::chrono::nanoseconds max_duration);
+
+namespace executors {
+
+template <typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
+FutureReturnCode spin_node_until_future_complete(
+    Executor& executor, node_interfaces::NodeBaseInterface::SharedPtr node, const FutureT& future,
+    std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+  struct Membership {
+    Executor& executor;
+    node_interfaces::NodeBaseInterface::SharedPtr node;
+    ~Membership() { executor.remove_node(node); }
+  };
+  executor.add_node(node);
+  const Membership membership{executor, node};
+  return executor.spin_until_future_complete(future, timeout);
+}
+
+}  // namespace executors
+
+// Runs the node's callbacks until the future has its value; a negative timeout waits for ever.
+template <typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
+FutureReturnCode spin_until_future_complete(
+    node_interfaces::NodeBaseInterface::SharedPtr node, const FutureT& future,
+    std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+  ExecutorOptions options;
+  options.context = node->get_context();
+  executors::SingleThreadedExecutor executor(options);
+  return executors::spin_node_until_future_complete(executor, std::move(node), future, timeout);
+}
+
+template <typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
+FutureReturnCode spin_until_future_complete(
+    Node::SharedPtr node, const FutureT& future,
+    std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+  return rclcpp::spin_until_future_complete(node->get_node_base_interface(), future, timeout);
+}
+
+}  // namespace rclcpp

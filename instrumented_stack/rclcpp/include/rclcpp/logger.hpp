@@ -1,0 +1,38 @@
+// A name for log lines. Names are hierarchical: "a.b" has the level of "a" until it gets one of its own.
+#pragma once
+
+#include <rcutils/logging.h>
+
+#include <memory>
+#include <string>
+
+namespace rclcpp {
+
+class Logger {
+ public:
+  enum class Level {
+    Unset = RCUTILS_LOG_SEVERITY_UNSET,
+    Debug = RCUTILS_LOG_SEVERITY_DEBUG,
+    Info = RCUTILS_LOG_SEVERITY_INFO,
+    Warn = RCUTILS_LOG_SEVERITY_WARN,
+    Error = RCUTILS_LOG_SEVERITY_ERROR,
+    Fatal = RCUTILS_LOG_SEVERITY_FATAL,
+  };
+
+  const char* get_name() const { return name_ ? name_->c_str() : nullptr; }
+  Logger get_child(const std::string& suffix) const;
+
+  // Unset takes the level back, so that the parent's counts again.
+  void set_level(Level level);
+  Level get_effective_level() const;
+
+ private:
+  friend Logger get_logger(const std::string& name);
+  explicit Logger(const std::string& name) : name_(std::make_shared<const std::string>(name)) {}
+
+  std::shared_ptr<const std::string> name_;
+};
+
+Logger get_logger(const std::string& name);
+
+}  // namespace rclcpp

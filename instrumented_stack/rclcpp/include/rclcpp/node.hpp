@@ -1,0 +1,203 @@
+// A node: a name in the graph, with publishers, subscriptions, timers and parameters. Derive from it or create it with
+// std::make_shared, then give it to an executor or to rclcpp::spin().
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/clock.hpp"
+#include "rclcpp/create_publisher.hpp"
+#include "rclcpp/create_subscription.hpp"
+#include "rclcpp/create_timer.hpp"
+#include "rclcpp/logger.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_graph.hpp"
+#include "rclcpp/node_interfaces/node_parameters.hpp"
+#include "rclcpp/node_interfaces/node_timers.hpp"
+#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_options.hpp"
+#include "rclcpp/parameter.hpp"
+#include "rclcpp/publisher.hpp"
+#include "rclcpp/subscription.hpp"
+#include "rclcpp/timer.hpp"
+
+namespace rclcpp {
+
+namespace node_interfaces {
+class TimeSource;
+}
+
+class Node : public std::enable_shared_from_this<Node> {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(Node)
+
+  using SetParametersResult = rcl_interfaces::msg::SetParametersResult;
+  using ParameterDescriptor = rcl_interfaces::msg::ParameterDescriptor;
+
+  // Names may be remapped by arguments. Throws exceptions::InvalidNodeNameError, exceptions::InvalidNamespaceError,
+  // exceptions::UnknownROSArgsError, exceptions::RCLInvalidROSArgsError or exceptions::RCLError.
+  explicit Node(const std::string& node_name, const NodeOptions& options = NodeOptions());
+  Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options = NodeOptions());
+  virtual ~Node();
+  RCLCPP_DISABLE_COPY(Node)
+
+  const char* get_name() const { return node_base_->get_name(); }
+  const char* get_namespace() const { return node_base_->get_namespace(); }
+  const char* get_fully_qualified_name() const { return node_base_->get_fully_qualified_name(); }
+  const NodeOptions& get_node_options() const { return options_; }
+
+  // `ns.node`
+  Logger get_logger() const { return logger_; }
+  // System time, or simulated time if the parameter use_sim_time is true.
+  Clock::SharedPtr get_clock() { return clock_; }
+  Clock::ConstSharedPtr get_clock() const { return clock_; }
+  Time now() const { return clock_->now(); }
+
+  // Keep the group: the node refers to it weakly.
+  CallbackGroup::SharedPtr create_callback_group(CallbackGroupType group_type,
+                                                 bool automatically_add_to_executor_with_node = true);
+  void for_each_callback_group(const std::function<void(CallbackGroup::SharedPtr)>& function);
+
+  // Throw exceptions::InvalidTopicNameError or exceptions::RCLError. Publisher, subscription and timer live as long as
+  // the pointer.
+  template <typename MessageT>
+  std::shared_ptr<Publisher<MessageT>> create_publisher(const std::string& topic_name, const QoS& qos) {
+    return rclcpp::create_publisher<MessageT>(*this, topic_name, qos);
+  }
+
+  // For the forms of the callback see any_subscription_callback.hpp.
+  template <typename MessageT, typename CallbackT>
+  std::shared_ptr<Subscription<MessageT>> create_subscription(
+      const std::string& topic_name, const QoS& qos, CallbackT&& callback,
+      const SubscriptionOptions& options = SubscriptionOptions()) {
+    return rclcpp::create_subscription<MessageT>(*this, topic_name, qos, std::forward<CallbackT>(callback), options);
+  }
+
+  // On the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative
+  // period.
+  template <typename RepT, typename RatioT, typename CallbackT>
+  typename WallTimer<std::decay_t<CallbackT>>::SharedPtr create_wall_timer(std::chrono::duration<RepT, RatioT> period,
+                                                                           CallbackT&& callback,
+                                                                           CallbackGroup::SharedPtr group = nullptr,
+                                                                           bool autostart = true) {
+    return rclcpp::create_wall_timer(period, std::forward<CallbackT>(callback), std::move(group), node_base_.get(),
+                                     node_timers_.get(), autostart);
+  }
+
+  // On the node's clock.
+  template <typename RepT, typename RatioT, typename CallbackT>
+  typename GenericTimer<std::decay_t<CallbackT>>::SharedPtr create_timer(std::chrono::duration<RepT, RatioT> period,
+                                                                         CallbackT&& callback,
+                                                                         CallbackGroup::SharedPtr group = nullptr) {
+    return rclcpp::create_timer(clock_, period, std::forward<CallbackT>(callback), std::move(group), node_base_.get(),
+                                node_timers_.get());
+  }
+
+  // A parameter exists from its declaration on. Its first value is the override from NodeOptions, command line or
+  // parameter file if there is one, else the default. Its type stays that of the default unless the descriptor says
+  // dynamic_typing. Throw exceptions::ParameterAlreadyDeclaredException, exceptions::InvalidParametersException (empty
+  // name), exceptions::InvalidParameterTypeException (override of another type), exceptions::
+  // InvalidParameterValueException (refused by range or callback).
+  template <typename ParameterT>
+  auto declare_parameter(const std::string& name, const ParameterT& default_value,
+                         const ParameterDescriptor& descriptor = ParameterDescriptor(), bool ignore_override = false);
+  // Without default: throws exceptions::ParameterUninitializedException when there is no override.
+  template <typename ParameterT>
+  auto declare_parameter(const std::string& name, const ParameterDescriptor& descriptor = ParameterDescriptor(),
+                         bool ignore_override = false);
+  const ParameterValue& declare_parameter(const std::string& name, const ParameterValue& default_value,
+                                          const ParameterDescriptor& descriptor = ParameterDescriptor(),
+                                          bool ignore_override = false);
+  const ParameterValue& declare_parameter(const std::string& name, ParameterType type,
+                                          const ParameterDescriptor& descriptor = ParameterDescriptor(),
+                                          bool ignore_override = false);
+  // Several with a common prefix.
+  template <typename ParameterT>
+  std::vector<ParameterT> declare_parameters(const std::string& parameter_namespace,
+                                             const std::map<std::string, ParameterT>& parameters,
+                                             bool ignore_overrides = false);
+  // Only for dynamically typed ones. Throws exceptions::ParameterNotDeclaredException,
+  // exceptions::ParameterImmutableException or exceptions::InvalidParameterTypeException.
+  void undeclare_parameter(const std::string& name);
+  bool has_parameter(const std::string& name) const;
+
+  // A refusal (type, range, read-only, callback) is in the result. Throw exceptions::ParameterNotDeclaredException.
+  SetParametersResult set_parameter(const Parameter& parameter);
+  std::vector<SetParametersResult> set_parameters(const std::vector<Parameter>& parameters);
+  // All or none.
+  SetParametersResult set_parameters_atomically(const std::vector<Parameter>& parameters);
+
+  // Throw exceptions::ParameterNotDeclaredException or exceptions::ParameterUninitializedException.
+  Parameter get_parameter(const std::string& name) const;
+  std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const;
+  // False, and nothing changed, when the parameter is not set. The typed ones throw ParameterTypeException.
+  bool get_parameter(const std::string& name, Parameter& parameter) const;
+  template <typename ParameterT>
+  bool get_parameter(const std::string& name, ParameterT& parameter) const;
+  template <typename ParameterT>
+  bool get_parameters(const std::string& prefix, std::map<std::string, ParameterT>& values) const;
+  // False, and the alternative in `parameter`, when the parameter is not set.
+  template <typename ParameterT>
+  bool get_parameter_or(const std::string& name, ParameterT& parameter, const ParameterT& alternative_value) const;
+  template <typename ParameterT>
+  ParameterT get_parameter_or(const std::string& name, const ParameterT& alternative_value) const;
+
+  ParameterDescriptor describe_parameter(const std::string& name) const;
+  std::vector<ParameterDescriptor> describe_parameters(const std::vector<std::string>& names) const;
+  std::vector<uint8_t> get_parameter_types(const std::vector<std::string>& names) const;
+  rcl_interfaces::msg::ListParametersResult list_parameters(const std::vector<std::string>& prefixes,
+                                                            uint64_t depth) const;
+
+  // Callbacks live as long as the handle. The order of a change: pre-set (may alter the list), on-set (may refuse),
+  // post-set. They must not change parameters themselves: exceptions::ParameterModifiedInCallbackException.
+  using OnSetParametersCallbackHandle = node_interfaces::OnSetParametersCallbackHandle;
+  using PreSetParametersCallbackHandle = node_interfaces::PreSetParametersCallbackHandle;
+  using PostSetParametersCallbackHandle = node_interfaces::PostSetParametersCallbackHandle;
+  [[nodiscard]] OnSetParametersCallbackHandle::SharedPtr add_on_set_parameters_callback(
+      decltype(OnSetParametersCallbackHandle::callback) callback);
+  [[nodiscard]] PreSetParametersCallbackHandle::SharedPtr add_pre_set_parameters_callback(
+      decltype(PreSetParametersCallbackHandle::callback) callback);
+  [[nodiscard]] PostSetParametersCallbackHandle::SharedPtr add_post_set_parameters_callback(
+      decltype(PostSetParametersCallbackHandle::callback) callback);
+  void remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle);
+  void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle);
+  void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle);
+
+  // What is known of the whole system so far. Topic names are expanded and remapped as for a publisher.
+  std::vector<std::string> get_node_names() const { return node_graph_->get_node_names(); }
+  std::map<std::string, std::vector<std::string>> get_topic_names_and_types() const {
+    return node_graph_->get_topic_names_and_types();
+  }
+  size_t count_publishers(const std::string& topic_name) const { return node_graph_->count_publishers(topic_name); }
+  size_t count_subscribers(const std::string& topic_name) const { return node_graph_->count_subscribers(topic_name); }
+
+  node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() { return node_base_; }
+  node_interfaces::NodeGraphInterface::SharedPtr get_node_graph_interface() { return node_graph_; }
+  node_interfaces::NodeTopicsInterface::SharedPtr get_node_topics_interface() { return node_topics_; }
+  node_interfaces::NodeTimersInterface::SharedPtr get_node_timers_interface() { return node_timers_; }
+  node_interfaces::NodeParametersInterface::SharedPtr get_node_parameters_interface() { return node_parameters_; }
+
+ private:
+  Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
+       const rcl_node_options_t& rcl_options);
+
+  NodeOptions options_;
+  node_interfaces::NodeBaseInterface::SharedPtr node_base_;
+  Logger logger_;
+  node_interfaces::NodeGraphInterface::SharedPtr node_graph_;
+  node_interfaces::NodeTimersInterface::SharedPtr node_timers_;
+  node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
+  Clock::SharedPtr clock_;
+  node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
+  std::unique_ptr<node_interfaces::TimeSource> time_source_;
+};
+
+}  // namespace rclcpp
+
+#include "rclcpp/node_impl.hpp"

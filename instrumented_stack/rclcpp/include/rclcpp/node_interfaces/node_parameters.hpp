@@ -1,0 +1,116 @@
+// The parameters of a node: declared ones with their values and descriptions, and who wants to know of changes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <rcl_interfaces/msg/list_parameters_result.hpp>
+#include <rcl_interfaces/msg/parameter_descriptor.hpp>
+#include <rcl_interfaces/msg/parameter_event.hpp>
+#include <rcl_interfaces/msg/set_parameters_result.hpp>
+#include <string>
+#include <vector>
+
+#include "rclcpp/clock.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_options.hpp"
+#include "rclcpp/parameter.hpp"
+#include "rclcpp/publisher.hpp"
+
+namespace rclcpp::node_interfaces {
+
+// Registered callbacks live as long as their handle.
+template <typename FunctionT>
+struct ParameterCallbackHandle {
+  RCLCPP_SMART_PTR_ALIASES_ONLY(ParameterCallbackHandle)
+  FunctionT callback;
+};
+using OnSetParametersCallbackHandle =
+    ParameterCallbackHandle<std::function<rcl_interfaces::msg::SetParametersResult(const std::vector<Parameter>&)>>;
+using PreSetParametersCallbackHandle = ParameterCallbackHandle<std::function<void(std::vector<Parameter>&)>>;
+using PostSetParametersCallbackHandle = ParameterCallbackHandle<std::function<void(const std::vector<Parameter>&)>>;
+
+// Thread safe. Callbacks run in the thread that changes parameters.
+class NodeParameters {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeParameters)
+
+  using Descriptor = rcl_interfaces::msg::ParameterDescriptor;
+  using Result = rcl_interfaces::msg::SetParametersResult;
+
+  // Throws what parsing the node's arguments and creating /parameter_events throw.
+  NodeParameters(NodeBaseInterface::SharedPtr node_base, Clock::SharedPtr clock, const NodeOptions& options,
+                 const rcl_node_options_t& rcl_options);
+  ~NodeParameters();
+
+  // See Node for what these throw.
+  const ParameterValue& declare_parameter(const std::string& name, const ParameterValue& default_value,
+                                          const Descriptor& descriptor = Descriptor(), bool ignore_override = false);
+  const ParameterValue& declare_parameter(const std::string& name, ParameterType type,
+                                          const Descriptor& descriptor = Descriptor(), bool ignore_override = false);
+  void undeclare_parameter(const std::string& name);
+  bool has_parameter(const std::string& name) const;
+
+  std::vector<Result> set_parameters(const std::vector<Parameter>& parameters);
+  Result set_parameters_atomically(const std::vector<Parameter>& parameters);
+
+  Parameter get_parameter(const std::string& name) const;
+  bool get_parameter(const std::string& name, Parameter& parameter) const;
+  std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const;
+  // The set parameters `prefix.x` by the name x.
+  bool get_parameters_by_prefix(const std::string& prefix, std::map<std::string, Parameter>& parameters) const;
+
+  std::vector<Descriptor> describe_parameters(const std::vector<std::string>& names) const;
+  std::vector<uint8_t> get_parameter_types(const std::vector<std::string>& names) const;
+  // Names below the prefixes, at most `depth` levels down (0: all).
+  rcl_interfaces::msg::ListParametersResult list_parameters(const std::vector<std::string>& prefixes,
+                                                            uint64_t depth) const;
+
+  OnSetParametersCallbackHandle::SharedPtr add_on_set_parameters_callback(
+      decltype(OnSetParametersCallbackHandle::callback) callback);
+  PreSetParametersCallbackHandle::SharedPtr add_pre_set_parameters_callback(
+      decltype(PreSetParametersCallbackHandle::callback) callback);
+  PostSetParametersCallbackHandle::SharedPtr add_post_set_parameters_callback(
+      decltype(PostSetParametersCallbackHandle::callback) callback);
+  // Throw std::runtime_error for a handle that is not registered.
+  void remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle);
+  void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle);
+  void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle);
+
+  // By name: from the command line, parameter files and NodeOptions, as far as they are for this node.
+  const std::map<std::string, ParameterValue>& get_parameter_overrides() const { return overrides_; }
+
+ private:
+  struct Declared {
+    ParameterValue value;
+    Descriptor descriptor;
+  };
+  class ChangeScope;
+
+  const ParameterValue& declare(const std::string& name, const ParameterValue* default_value, Descriptor descriptor,
+                                bool ignore_override);
+  Result call_on_set_callbacks(const std::vector<Parameter>& parameters);
+  void publish(const rcl_interfaces::msg::ParameterEvent& event);
+  rcl_interfaces::msg::ParameterEvent new_event() const;
+
+  NodeBaseInterface::SharedPtr node_base_;
+  Clock::SharedPtr clock_;
+  bool allow_undeclared_;
+  std::map<std::string, ParameterValue> overrides_;
+  Publisher<rcl_interfaces::msg::ParameterEvent>::SharedPtr events_publisher_;
+
+  mutable std::recursive_mutex mutex_;  // recursive: callbacks may read parameters
+  bool changing_ = false;
+  std::map<std::string, Declared> parameters_;
+  std::list<PreSetParametersCallbackHandle::WeakPtr> pre_set_callbacks_;
+  std::list<OnSetParametersCallbackHandle::WeakPtr> on_set_callbacks_;
+  std::list<PostSetParametersCallbackHandle::WeakPtr> post_set_callbacks_;
+};
+
+using NodeParametersInterface = NodeParameters;
+
+}  // namespace rclcpp::node_interfaces

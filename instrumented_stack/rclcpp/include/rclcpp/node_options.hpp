@@ -1,0 +1,85 @@
+// What a node is created with beside its name.
+#pragma once
+
+#include <rcl/node_options.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rclcpp/context.hpp"
+#include "rclcpp/contexts/default_context.hpp"
+#include "rclcpp/parameter.hpp"
+#include "rclcpp/qos.hpp"
+
+namespace rclcpp {
+
+class NodeOptions {
+ public:
+  Context::SharedPtr context() const { return context_; }
+  NodeOptions& context(Context::SharedPtr context);
+
+  // Arguments of this node alone, as on a command line: {"--ros-args", "-r", "__node:=name"}. They come before those of
+  // the process.
+  const std::vector<std::string>& arguments() const { return arguments_; }
+  NodeOptions& arguments(const std::vector<std::string>& arguments);
+
+  // Whether the arguments of the process apply to the node. Default true.
+  bool use_global_arguments() const { return use_global_arguments_; }
+  NodeOptions& use_global_arguments(bool use_global_arguments);
+
+  // Values that parameters get when they are declared. They win over those of the command line.
+  const std::vector<Parameter>& parameter_overrides() const { return parameter_overrides_; }
+  NodeOptions& parameter_overrides(const std::vector<Parameter>& parameter_overrides);
+  template <typename ValueT>
+  NodeOptions& append_parameter_override(const std::string& name, const ValueT& value) {
+    parameter_overrides_.emplace_back(name, ParameterValue(value));
+    return *this;
+  }
+
+  // Whether log lines go to /rosout. Default true.
+  bool enable_rosout() const { return enable_rosout_; }
+  NodeOptions& enable_rosout(bool enable_rosout);
+  const QoS& rosout_qos() const { return rosout_qos_; }
+  NodeOptions& rosout_qos(const QoS& rosout_qos);
+
+  // Whether changes of parameters go to /parameter_events. Default true.
+  bool start_parameter_event_publisher() const { return start_parameter_event_publisher_; }
+  NodeOptions& start_parameter_event_publisher(bool start_parameter_event_publisher);
+  const QoS& parameter_event_qos() const { return parameter_event_qos_; }
+  NodeOptions& parameter_event_qos(const QoS& parameter_event_qos);
+
+  // Whether parameters may be set without having been declared. Default false.
+  bool allow_undeclared_parameters() const { return allow_undeclared_parameters_; }
+  NodeOptions& allow_undeclared_parameters(bool allow_undeclared_parameters);
+
+  // Whether every override declares its parameter. Default false.
+  bool automatically_declare_parameters_from_overrides() const {
+    return automatically_declare_parameters_from_overrides_;
+  }
+  NodeOptions& automatically_declare_parameters_from_overrides(bool automatically_declare_parameters_from_overrides);
+
+  // Of Node::get_clock(). Default RCL_ROS_TIME.
+  rcl_clock_type_t clock_type() const { return clock_type_; }
+  NodeOptions& clock_type(rcl_clock_type_t clock_type);
+
+  // The same for rcl, which owns the parsed arguments. Throws exceptions::UnknownROSArgsError and
+  // exceptions::RCLInvalidROSArgsError.
+  std::shared_ptr<const rcl_node_options_t> make_rcl_node_options() const;
+
+ private:
+  Context::SharedPtr context_ = contexts::get_global_default_context();
+  std::vector<std::string> arguments_;
+  std::vector<Parameter> parameter_overrides_;
+  bool use_global_arguments_ = true;
+  bool enable_rosout_ = true;
+  QoS rosout_qos_ = RosoutQoS();
+  bool start_parameter_event_publisher_ = true;
+  QoS parameter_event_qos_ = ParameterEventsQoS();
+  bool allow_undeclared_parameters_ = false;
+  bool automatically_declare_parameters_from_overrides_ = false;
+  rcl_clock_type_t clock_type_ = RCL_ROS_TIME;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,66 @@
+// What all publishers have in common, whatever their message type.
+#pragma once
+
+#include <rcl/publisher.h>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/qos.hpp"
+#include "rclcpp/serialized_message.hpp"
+
+namespace rclcpp {
+
+class PublisherBase {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(PublisherBase)
+
+  // Throws exceptions::InvalidTopicNameError or exceptions::RCLError.
+  PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
+                const rosidl_message_type_support_t& type_support, const QoS& qos);
+  virtual ~PublisherBase();
+  RCLCPP_DISABLE_COPY(PublisherBase)
+
+  // The full name, after remapping.
+  const char* get_topic_name() const;
+  // The depth that was asked for.
+  size_t get_queue_size() const;
+  // What the middleware made of the QoS that was asked for.
+  QoS get_actual_qos() const;
+  const rmw_gid_t& get_gid() const { return gid_; }
+
+  // Matched subscriptions, in this process and elsewhere.
+  size_t get_subscription_count() const;
+
+  // Tells the subscribers that the publisher lives, for LivelinessPolicy::ManualByTopic. False on failure.
+  bool assert_liveliness() const;
+
+  // True when every reliable subscriber has acknowledged every message, false after `timeout`; negative waits forever.
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  bool wait_for_all_acked(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) const {
+    return wait_for_all_acked_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  }
+
+  std::shared_ptr<rcl_publisher_t> get_publisher_handle() { return publisher_handle_; }
+  std::shared_ptr<const rcl_publisher_t> get_publisher_handle() const { return publisher_handle_; }
+
+ protected:
+  // Do nothing when the context has ended; throw exceptions::RCLError on other failures.
+  void publish_message(const void* message);
+  void publish_serialized(const rcl_serialized_message_t& serialized_message);
+
+ private:
+  bool wait_for_all_acked_ns(std::chrono::nanoseconds timeout) const;
+  void check_published(rcl_ret_t ret, const char* what) const;
+
+  std::shared_ptr<rcl_publisher_t> publisher_handle_;
+  rmw_gid_t gid_;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,26 @@
+// The C++ client library of ROS 2, as far as this stack has it:
+//
+//   utilities.hpp        init, shutdown, ok, signals           context.hpp, init_options.hpp
+//   node.hpp             Node                                  node_options.hpp, node_interfaces/
+//   publisher.hpp        Publisher                             qos.hpp, serialization.hpp, serialized_message.hpp
+//   subscription.hpp     Subscription                          any_subscription_callback.hpp, message_info.hpp
+//   timer.hpp            WallTimer, GenericTimer               create_timer.hpp
+//   parameter.hpp        Parameter                             parameter_value.hpp
+//   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
+//   executors.hpp        spin, SingleThreadedExecutor          executor.hpp, callback_group.hpp, guard_condition.hpp
+//   logging.hpp          RCLCPP_INFO and its like              logger.hpp
+//   exceptions.hpp       what all of this throws
+//
+// Names, signatures and behaviour are those of rclcpp in ROS 2 Jazzy.
+#pragma once
+
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/executors.hpp"
+#include "rclcpp/guard_condition.hpp"
+#include "rclcpp/logging.hpp"
+#include "rclcpp/node.hpp"
+#include "rclcpp/parameter.hpp"
+#include "rclcpp/rate.hpp"
+#include "rclcpp/serialization.hpp"
+#include "rclcpp/time.hpp"
+#include "rclcpp/utilities.hpp"

@@ -1,0 +1,32 @@
+// From a message to its bytes and back.
+#pragma once
+
+#include <rosidl_runtime_c/message_type_support_struct.h>
+
+#include <rosidl_typesupport_cpp/message_type_support.hpp>
+
+#include "rclcpp/serialized_message.hpp"
+
+namespace rclcpp {
+
+class SerializationBase {
+ public:
+  explicit SerializationBase(const rosidl_message_type_support_t* type_support) : type_support_(type_support) {}
+  virtual ~SerializationBase() = default;
+
+  // `ros_message` points to a message of this object's type. Throw exceptions::RCLError when the bytes are no such
+  // message.
+  void serialize_message(const void* ros_message, SerializedMessage* serialized_message) const;
+  void deserialize_message(const SerializedMessage* serialized_message, void* ros_message) const;
+
+ private:
+  const rosidl_message_type_support_t* type_support_;
+};
+
+template <typename MessageT>
+class Serialization : public SerializationBase {
+ public:
+  Serialization() : SerializationBase(rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>()) {}
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,120 @@
+// Calls a function at equal distances. Created by Node::create_wall_timer() and Node::create_timer().
+#pragma once
+
+#include <rcl/timer.h>
+
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/clock.hpp"
+#include "rclcpp/context.hpp"
+#include "rclcpp/detail/callback_symbol.hpp"
+#include "rclcpp/macros.hpp"
+
+namespace rclcpp {
+
+class TimerBase {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(TimerBase)
+
+  TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Context::SharedPtr context, bool autostart);
+  virtual ~TimerBase();
+  RCLCPP_DISABLE_COPY(TimerBase)
+
+  // A cancelled timer is not due until reset().
+  void cancel();
+  bool is_canceled();
+  // The next call is one period from now.
+  void reset();
+
+  // Negative when overdue, the largest value for a cancelled timer.
+  std::chrono::nanoseconds time_until_trigger();
+  bool is_ready();
+  // Whether the timer's clock is steady.
+  bool is_steady() const { return clock_->get_clock_type() == RCL_STEADY_TIME; }
+  Clock::SharedPtr get_clock() const { return clock_; }
+
+  // Called by executors, in this order: call() counts the call and sets the next one, and is false if the timer was
+  // cancelled meanwhile; then execute_callback() runs the function.
+  bool call();
+  void execute_callback();
+
+  std::shared_ptr<const rcl_timer_t> get_timer_handle() const { return timer_handle_; }
+  std::shared_ptr<rcl_timer_t> get_timer_handle() { return timer_handle_; }
+
+  // The group that serves this timer, set by the group.
+  void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
+
+ protected:
+  virtual void run() = 0;
+
+  // To be called by the most derived constructor: `callback` is where the function will stay.
+  void trace_callback(const void* callback, const detail::CallbackSymbol& symbol);
+
+ private:
+  Clock::SharedPtr clock_;
+  std::shared_ptr<rcl_timer_t> timer_handle_;
+  const void* callback_ = nullptr;
+  CallbackGroup::WeakPtr callback_group_;
+};
+
+// `FunctorT` is callable with nothing or with a TimerBase &.
+template <typename FunctorT>
+class GenericTimer : public TimerBase {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(GenericTimer)
+
+  GenericTimer(Clock::SharedPtr clock, std::chrono::nanoseconds period, FunctorT callback, Context::SharedPtr context,
+               bool autostart = true)
+      : TimerBase(std::move(clock), period, std::move(context), autostart), callback_(std::move(callback)) {
+    trace_callback(&callback_, detail::CallbackSymbol::of(callback_));
+  }
+
+ protected:
+  void run() override {
+    if constexpr (std::is_invocable_v<FunctorT&>) {
+      callback_();
+    } else {
+      static_assert(std::is_invocable_v<FunctorT&, TimerBase&>, "a timer callback takes nothing or a TimerBase &");
+      callback_(*this);
+    }
+  }
+
+ private:
+  FunctorT callback_;
+};
+
+// On the steady clock.
+template <typename FunctorT>
+class WallTimer : public GenericTimer<FunctorT> {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(WallTimer)
+
+  WallTimer(std::chrono::nanoseconds period, FunctorT callback, Context::SharedPtr context, bool autostart = true)
+      : GenericTimer<FunctorT>(std::make_shared<Clock>(RCL_STEADY_TIME), period, std::move(callback),
+                               std::move(context), autostart) {}
+};
+
+namespace detail {
+
+// In nanoseconds. Throws std::invalid_argument when the period is negative or does not fit.
+template <typename RepT, typename RatioT>
+std::chrono::nanoseconds timer_period(std::chrono::duration<RepT, RatioT> period) {
+  using DoubleNanoseconds = std::chrono::duration<double, std::nano>;
+  if (period < std::chrono::duration<RepT, RatioT>::zero()) {
+    throw std::invalid_argument("timer period cannot be negative");
+  }
+  // The largest double below 2^63.
+  if (std::chrono::duration_cast<DoubleNanoseconds>(period).count() > 9223372036854774784.0) {
+    throw std::invalid_argument("timer period must be less than std::chrono::nanoseconds::max()");
+  }
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
+}
+
+}  // namespace detail
+
+}  // namespace rclcpp

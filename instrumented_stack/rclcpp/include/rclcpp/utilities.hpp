@@ -1,0 +1,57 @@
+// Begin and end of a ROS program.
+//
+//   rclcpp::init(argc, argv);
+//   rclcpp::spin(std::make_shared<MyNode>());
+//   rclcpp::shutdown();
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rclcpp/contexts/default_context.hpp"
+#include "rclcpp/init_options.hpp"
+
+namespace rclcpp {
+
+// Which signals end the contexts that were initialised with shutdown_on_signal.
+enum class SignalHandlerOptions {
+  All,  // SIGINT and SIGTERM
+  SigInt,
+  SigTerm,
+  None,
+};
+
+// Initialises the default context from the command line and installs the signal handlers.
+void init(int argc, char const* const* argv, const InitOptions& init_options = InitOptions(),
+          SignalHandlerOptions signal_handler_options = SignalHandlerOptions::All);
+
+// Makes the signals shut contexts down. False when the handlers are installed already.
+bool install_signal_handlers(SignalHandlerOptions signal_handler_options = SignalHandlerOptions::All);
+bool signal_handlers_installed();
+SignalHandlerOptions get_current_signal_handler_options();
+// Puts the previous handlers back. False when none was installed.
+bool uninstall_signal_handlers();
+
+// init(), and the arguments that do not belong to ROS.
+std::vector<std::string> init_and_remove_ros_arguments(int argc, char const* const* argv,
+                                                       const InitOptions& init_options = InitOptions());
+
+// The arguments without `--ros-args … [--]`.
+std::vector<std::string> remove_ros_arguments(int argc, char const* const* argv);
+
+// False before init() and after shutdown(). Null stands for the default context, here and below.
+bool ok(Context::SharedPtr context = nullptr);
+
+// Ends a context: executors return from spin(). False when it was not valid. When it is the default context, the
+// signal handlers are uninstalled.
+bool shutdown(Context::SharedPtr context = nullptr, const std::string& reason = "user called rclcpp::shutdown()");
+
+// Calls `callback` at the shutdown of the context, in the thread that shuts down.
+void on_shutdown(std::function<void()> callback, Context::SharedPtr context = nullptr);
+
+// True after the whole time has passed, false when the context ended first.
+bool sleep_for(const std::chrono::nanoseconds& nanoseconds, Context::SharedPtr context = nullptr);
+
+}  // namespace rclcpp

@@ -1,0 +1,242 @@
+#include "rclcpp/executor.hpp"
+
+#include <tracetools/tracetools.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "executor_entities.hpp"
+#include "rclcpp/node.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+// Keeps a node in an executor for the time of a call.
+class Membership {
+ public:
+  Membership(Executor& executor, const Executor::NodePtr& node) : executor_(executor), node_(node) {
+    executor_.add_node(node_);
+  }
+  ~Membership() { executor_.remove_node(node_); }
+  RCLCPP_DISABLE_COPY(Membership)
+
+ private:
+  Executor& executor_;
+  const Executor::NodePtr& node_;
+};
+
+}  // namespace
+
+std::string to_string(const FutureReturnCode& future_return_code) {
+  switch (future_return_code) {
+    case FutureReturnCode::SUCCESS:
+      return "SUCCESS (0)";
+    case FutureReturnCode::INTERRUPTED:
+      return "INTERRUPTED (1)";
+    case FutureReturnCode::TIMEOUT:
+      return "TIMEOUT (2)";
+  }
+  return "Unknown enum value (" + std::to_string(static_cast<int>(future_return_code)) + ")";
+}
+
+std::ostream& operator<<(std::ostream& stream, const FutureReturnCode& future_return_code) {
+  return stream << to_string(future_return_code);
+}
+
+Executor::SpinningScope::SpinningScope(Executor& executor, const char* function) : executor_(executor) {
+  if (executor_.spinning_.exchange(true)) {
+    throw std::runtime_error(std::string(function) + " called while already spinning");
+  }
+}
+
+Executor::Executor(const ExecutorOptions& options)
+    : context_(options.context), entities_(std::make_shared<ExecutorEntities>(options.context)) {
+  shutdown_callback_ = context_->add_on_shutdown_callback([weak = std::weak_ptr(entities_)] {
+    if (const auto entities = weak.lock()) {
+      entities->interrupt();
+    }
+  });
+}
+
+Executor::~Executor() {
+  context_->remove_on_shutdown_callback(shutdown_callback_);
+  entities_->remove_all();
+}
+
+void Executor::add_node(const NodePtr& node) {
+  entities_->add_node(node);
+}
+void Executor::add_node(const std::shared_ptr<Node>& node) {
+  add_node(node->get_node_base_interface());
+}
+void Executor::remove_node(const NodePtr& node) {
+  entities_->remove_node(node);
+}
+void Executor::remove_node(const std::shared_ptr<Node>& node) {
+  remove_node(node->get_node_base_interface());
+}
+
+void Executor::add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node) {
+  entities_->add_group(group, node);
+}
+void Executor::remove_callback_group(const CallbackGroup::SharedPtr& group) {
+  entities_->remove_group(group);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_all_callback_groups() {
+  return entities_->groups();
+}
+
+void Executor::spin_once(nanoseconds timeout) {
+  const SpinningScope scope(*this, "spin_once()");
+  AnyExecutable any_executable;
+  if (get_next_executable(any_executable, timeout)) {
+    execute_any_executable(any_executable);
+  }
+}
+
+void Executor::spin_some(nanoseconds max_duration) {
+  spin_some_impl(max_duration, false);
+}
+
+void Executor::spin_all(nanoseconds max_duration) {
+  if (max_duration < nanoseconds::zero()) {
+    throw std::invalid_argument("max_duration must be greater than or equal to 0");
+  }
+  spin_some_impl(max_duration, true);
+}
+
+void Executor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
+  const SpinningScope scope(*this, exhaustive ? "spin_all()" : "spin_some()");
+  const auto start = steady_clock::now();
+  const auto time_left = [&] {
+    return max_duration == nanoseconds::zero() || steady_clock::now() - start < max_duration;
+  };
+  ready_.clear();
+  wait_for_work(nanoseconds::zero());
+  bool executed_since_wait = false;
+  while (context_->is_valid() && spinning_ && time_left()) {
+    AnyExecutable any_executable;
+    if (get_next_ready_executable(any_executable)) {
+      execute_any_executable(any_executable);
+      executed_since_wait = true;
+    } else if (exhaustive && executed_since_wait) {
+      wait_for_work(nanoseconds::zero());
+      executed_since_wait = false;
+    } else {
+      return;
+    }
+  }
+}
+
+void Executor::spin_node_some(const NodePtr& node) {
+  const Membership membership(*this, node);
+  spin_some();
+}
+void Executor::spin_node_some(const std::shared_ptr<Node>& node) {
+  spin_node_some(node->get_node_base_interface());
+}
+
+void Executor::spin_node_once(const NodePtr& node, nanoseconds timeout) {
+  const Membership membership(*this, node);
+  spin_once(timeout);
+}
+void Executor::spin_node_once(const std::shared_ptr<Node>& node, nanoseconds timeout) {
+  spin_node_once(node->get_node_base_interface(), timeout);
+}
+
+FutureReturnCode Executor::spin_until(const std::function<bool()>& complete, nanoseconds timeout) {
+  if (complete()) {
+    return FutureReturnCode::SUCCESS;
+  }
+  const SpinningScope scope(*this, "spin_until_future_complete()");
+  const auto start = steady_clock::now();
+  nanoseconds timeout_left = timeout;
+  while (context_->is_valid() && spinning_) {
+    AnyExecutable any_executable;
+    if (get_next_executable(any_executable, timeout_left)) {
+      execute_any_executable(any_executable);
+    }
+    if (complete()) {
+      return FutureReturnCode::SUCCESS;
+    }
+    if (timeout < nanoseconds::zero()) {
+      continue;
+    }
+    timeout_left = timeout - (steady_clock::now() - start);
+    if (timeout_left <= nanoseconds::zero()) {
+      return FutureReturnCode::TIMEOUT;
+    }
+  }
+  return FutureReturnCode::INTERRUPTED;
+}
+
+void Executor::cancel() {
+  spinning_ = false;
+  entities_->interrupt();
+}
+
+bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds timeout) {
+  if (get_next_ready_executable(any_executable)) {
+    return true;
+  }
+  wait_for_work(timeout);
+  return spinning_ && get_next_ready_executable(any_executable);
+}
+
+bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
+  TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
+  if (const size_t removals = entities_->removals(); removals != removals_) {
+    // Nothing is lost: messages and timer calls are taken only below, and the next wait finds them again.
+    removals_ = removals;
+    ready_.clear();
+  }
+  while (!ready_.empty()) {
+    const auto entity = std::move(ready_.front());
+    ready_.pop_front();
+    if (const auto* weak_timer = std::get_if<TimerBase::WeakPtr>(&entity)) {
+      TimerBase::SharedPtr timer = weak_timer->lock();
+      if (timer && timer->call()) {
+        any_executable.timer = std::move(timer);
+        return true;
+      }
+    } else if (SubscriptionBase::SharedPtr subscription = std::get<SubscriptionBase::WeakPtr>(entity).lock()) {
+      any_executable.subscription = std::move(subscription);
+      return true;
+    }
+  }
+  return false;
+}
+
+void Executor::wait_for_work(nanoseconds timeout) {
+  TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
+  ExecutorEntities::Ready ready = entities_->wait(timeout);
+  for (TimerBase::WeakPtr& timer : ready.timers) {
+    ready_.emplace_back(std::move(timer));
+  }
+  for (SubscriptionBase::WeakPtr& subscription : ready.subscriptions) {
+    ready_.emplace_back(std::move(subscription));
+  }
+}
+
+void Executor::execute_any_executable(AnyExecutable& any_executable) {
+  if (!spinning_) {
+    return;
+  }
+  if (any_executable.timer) {
+    TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
+                          static_cast<const void*>(any_executable.timer->get_timer_handle().get()));
+    any_executable.timer->execute_callback();
+  }
+  if (any_executable.subscription) {
+    TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
+                          static_cast<const void*>(any_executable.subscription->get_subscription_handle().get()));
+    any_executable.subscription->execute();
+  }
+}
+
+}  // namespace rclcpp

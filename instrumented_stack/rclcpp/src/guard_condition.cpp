@@ -1,0 +1,37 @@
+#include "rclcpp/guard_condition.hpp"
+
+#include <stdexcept>
+
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+GuardCondition::GuardCondition(const Context::SharedPtr& context)
+    : rcl_context_(context ? context->get_rcl_context() : nullptr),
+      rcl_guard_condition_(rcl_get_zero_initialized_guard_condition()) {
+  if (!rcl_context_) {
+    throw std::invalid_argument("context argument unexpectedly nullptr, or rclcpp::init() was not called");
+  }
+  const rcl_ret_t ret =
+      rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(), rcl_guard_condition_get_default_options());
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to create guard condition");
+  }
+}
+
+GuardCondition::~GuardCondition() {
+  if (rcl_guard_condition_fini(&rcl_guard_condition_) != RCL_RET_OK) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize guard condition: %s", rcl_get_error_string().str);
+    rcl_reset_error();
+  }
+}
+
+void GuardCondition::trigger() {
+  const rcl_ret_t ret = rcl_trigger_guard_condition(&rcl_guard_condition_);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to trigger guard condition");
+  }
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,124 @@
+#include "rclcpp/node.hpp"
+
+#include "time_source.hpp"
+
+namespace rclcpp {
+
+Node::Node(const std::string& node_name, const NodeOptions& options) : Node(node_name, "", options) {}
+
+Node::Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options)
+    : Node(node_name, node_namespace, options, *options.make_rcl_node_options()) {}
+
+// The order is that of the trace: the rcl node with /rosout, then /parameter_events, then /clock.
+Node::Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
+           const rcl_node_options_t& rcl_options)
+    : options_(options),
+      node_base_(std::make_shared<node_interfaces::NodeBaseInterface>(node_name, node_namespace, options.context(),
+                                                                      rcl_options)),
+      logger_(rclcpp::get_logger(rcl_node_get_logger_name(node_base_->get_rcl_node_handle()))),
+      node_graph_(std::make_shared<node_interfaces::NodeGraphInterface>(node_base_)),
+      node_timers_(std::make_shared<node_interfaces::NodeTimersInterface>(node_base_)),
+      node_topics_(std::make_shared<node_interfaces::NodeTopicsInterface>(node_base_)),
+      clock_(std::make_shared<Clock>(options.clock_type())),
+      node_parameters_(
+          std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, clock_, options_, rcl_options)),
+      time_source_(std::make_unique<node_interfaces::TimeSource>(*this)) {}
+
+Node::~Node() = default;
+
+CallbackGroup::SharedPtr Node::create_callback_group(CallbackGroupType group_type,
+                                                     bool automatically_add_to_executor_with_node) {
+  return node_base_->create_callback_group(group_type, automatically_add_to_executor_with_node);
+}
+
+void Node::for_each_callback_group(const std::function<void(CallbackGroup::SharedPtr)>& function) {
+  node_base_->for_each_callback_group(function);
+}
+
+const ParameterValue& Node::declare_parameter(const std::string& name, const ParameterValue& default_value,
+                                              const ParameterDescriptor& descriptor, bool ignore_override) {
+  return node_parameters_->declare_parameter(name, default_value, descriptor, ignore_override);
+}
+
+const ParameterValue& Node::declare_parameter(const std::string& name, ParameterType type,
+                                              const ParameterDescriptor& descriptor, bool ignore_override) {
+  return node_parameters_->declare_parameter(name, type, descriptor, ignore_override);
+}
+
+void Node::undeclare_parameter(const std::string& name) {
+  node_parameters_->undeclare_parameter(name);
+}
+
+bool Node::has_parameter(const std::string& name) const {
+  return node_parameters_->has_parameter(name);
+}
+
+Node::SetParametersResult Node::set_parameter(const Parameter& parameter) {
+  return set_parameters_atomically({parameter});
+}
+
+std::vector<Node::SetParametersResult> Node::set_parameters(const std::vector<Parameter>& parameters) {
+  return node_parameters_->set_parameters(parameters);
+}
+
+Node::SetParametersResult Node::set_parameters_atomically(const std::vector<Parameter>& parameters) {
+  return node_parameters_->set_parameters_atomically(parameters);
+}
+
+Parameter Node::get_parameter(const std::string& name) const {
+  return node_parameters_->get_parameter(name);
+}
+
+std::vector<Parameter> Node::get_parameters(const std::vector<std::string>& names) const {
+  return node_parameters_->get_parameters(names);
+}
+
+bool Node::get_parameter(const std::string& name, Parameter& parameter) const {
+  return node_parameters_->get_parameter(name, parameter);
+}
+
+Node::ParameterDescriptor Node::describe_parameter(const std::string& name) const {
+  return node_parameters_->describe_parameters({name}).front();
+}
+
+std::vector<Node::ParameterDescriptor> Node::describe_parameters(const std::vector<std::string>& names) const {
+  return node_parameters_->describe_parameters(names);
+}
+
+std::vector<uint8_t> Node::get_parameter_types(const std::vector<std::string>& names) const {
+  return node_parameters_->get_parameter_types(names);
+}
+
+rcl_interfaces::msg::ListParametersResult Node::list_parameters(const std::vector<std::string>& prefixes,
+                                                                uint64_t depth) const {
+  return node_parameters_->list_parameters(prefixes, depth);
+}
+
+Node::OnSetParametersCallbackHandle::SharedPtr Node::add_on_set_parameters_callback(
+    decltype(OnSetParametersCallbackHandle::callback) callback) {
+  return node_parameters_->add_on_set_parameters_callback(std::move(callback));
+}
+
+Node::PreSetParametersCallbackHandle::SharedPtr Node::add_pre_set_parameters_callback(
+    decltype(PreSetParametersCallbackHandle::callback) callback) {
+  return node_parameters_->add_pre_set_parameters_callback(std::move(callback));
+}
+
+Node::PostSetParametersCallbackHandle::SharedPtr Node::add_post_set_parameters_callback(
+    decltype(PostSetParametersCallbackHandle::callback) callback) {
+  return node_parameters_->add_post_set_parameters_callback(std::move(callback));
+}
+
+void Node::remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle) {
+  node_parameters_->remove_on_set_parameters_callback(handle);
+}
+
+void Node::remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle) {
+  node_parameters_->remove_pre_set_parameters_callback(handle);
+}
+
+void Node::remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle) {
+  node_parameters_->remove_post_set_parameters_callback(handle);
+}
+
+}  // namespace rclcpp

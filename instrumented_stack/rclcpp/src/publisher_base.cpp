@@ -1,0 +1,122 @@
+#include "rclcpp/publisher_base.hpp"
+
+#include <rmw/rmw.h>
+#include <tracetools/tracetools.h>
+
+#include <utility>
+
+#include "rclcpp/detail/topic_name.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
+                             const rosidl_message_type_support_t& type_support, const QoS& qos) {
+  const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
+  rcl_publisher_options_t options = rcl_publisher_get_default_options();
+  options.qos = qos.get_rmw_qos_profile();
+
+  auto publisher = std::make_unique<rcl_publisher_t>(rcl_get_zero_initialized_publisher());
+  rcl_ret_t ret = rcl_publisher_init(publisher.get(), node_handle.get(), &type_support, topic.c_str(), &options);
+  if (ret == RCL_RET_TOPIC_NAME_INVALID) {
+    detail::throw_invalid_topic_name(topic);
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "could not create publisher on '" + topic + "'");
+  }
+  publisher_handle_.reset(publisher.release(), [node_handle](rcl_publisher_t* handle) {
+    if (rcl_publisher_fini(handle, node_handle.get()) != RCL_RET_OK) {
+      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a publisher: %s", rcl_get_error_string().str);
+      rcl_reset_error();
+    }
+    delete handle;
+  });
+
+  ret = rmw_get_gid_for_publisher(rcl_publisher_get_rmw_handle(publisher_handle_.get()), &gid_);
+  if (ret != RMW_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to get the gid of the publisher on '" + topic + "'");
+  }
+}
+
+PublisherBase::~PublisherBase() = default;
+
+const char* PublisherBase::get_topic_name() const {
+  return rcl_publisher_get_topic_name(publisher_handle_.get());
+}
+
+size_t PublisherBase::get_queue_size() const {
+  const rcl_publisher_options_t* options = rcl_publisher_get_options(publisher_handle_.get());
+  if (!options) {
+    exceptions::throw_from_rcl_error(RCL_RET_PUBLISHER_INVALID, "failed to get publisher options");
+  }
+  return options->qos.depth;
+}
+
+QoS PublisherBase::get_actual_qos() const {
+  const rmw_qos_profile_t* profile = rcl_publisher_get_actual_qos(publisher_handle_.get());
+  if (!profile) {
+    exceptions::throw_from_rcl_error(RCL_RET_PUBLISHER_INVALID, "failed to get qos settings");
+  }
+  return QoS(QoSInitialization::from_rmw(*profile), *profile);
+}
+
+size_t PublisherBase::get_subscription_count() const {
+  size_t count = 0;
+  const rcl_ret_t ret = rcl_publisher_get_subscription_count(publisher_handle_.get(), &count);
+  if (ret == RCL_RET_PUBLISHER_INVALID && !rcl_context_is_valid(rcl_publisher_get_context(publisher_handle_.get()))) {
+    rcl_reset_error();
+    return 0;  // after shutdown nobody listens
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to get subscription count");
+  }
+  return count;
+}
+
+bool PublisherBase::assert_liveliness() const {
+  if (rcl_publisher_assert_liveliness(publisher_handle_.get()) != RCL_RET_OK) {
+    rcl_reset_error();
+    return false;
+  }
+  return true;
+}
+
+bool PublisherBase::wait_for_all_acked_ns(std::chrono::nanoseconds timeout) const {
+  const rcl_ret_t ret = rcl_publisher_wait_for_all_acked(publisher_handle_.get(), timeout.count());
+  if (ret == RCL_RET_TIMEOUT) {
+    rcl_reset_error();
+    return false;
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to wait for acknowledgements");
+  }
+  return true;
+}
+
+void PublisherBase::publish_message(const void* message) {
+  TRACETOOLS_TRACEPOINT(rclcpp_publish, nullptr, message);
+  check_published(rcl_publish(publisher_handle_.get(), message, nullptr), "failed to publish message");
+}
+
+void PublisherBase::publish_serialized(const rcl_serialized_message_t& serialized_message) {
+  check_published(rcl_publish_serialized_message(publisher_handle_.get(), &serialized_message, nullptr),
+                  "failed to publish serialized message");
+}
+
+void PublisherBase::check_published(rcl_ret_t ret, const char* what) const {
+  if (ret == RCL_RET_OK) {
+    return;
+  }
+  // A callback that publishes while another thread shuts down is nobody's fault.
+  if (ret == RCL_RET_PUBLISHER_INVALID) {
+    rcl_context_t* context = rcl_publisher_get_context(publisher_handle_.get());
+    if (context && !rcl_context_is_valid(context)) {
+      rcl_reset_error();
+      return;
+    }
+  }
+  exceptions::throw_from_rcl_error(ret, what);
+}
+
+}  // namespace rclcpp

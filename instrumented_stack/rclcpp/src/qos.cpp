@@ -1,0 +1,124 @@
+#include "rclcpp/qos.hpp"
+
+#include <rmw/qos_profiles.h>
+
+namespace rclcpp {
+
+namespace {
+
+bool equal(const rmw_time_t& left, const rmw_time_t& right) {
+  return left.sec == right.sec && left.nsec == right.nsec;
+}
+
+rmw_qos_profile_t best_available_profile() {
+  rmw_qos_profile_t profile = rmw_qos_profile_default;
+  profile.reliability = RMW_QOS_POLICY_RELIABILITY_BEST_AVAILABLE;
+  profile.durability = RMW_QOS_POLICY_DURABILITY_BEST_AVAILABLE;
+  profile.liveliness = RMW_QOS_POLICY_LIVELINESS_BEST_AVAILABLE;
+  return profile;
+}
+
+}  // namespace
+
+QoS::QoS(const QoSInitialization& qos_initialization) : QoS(qos_initialization, rmw_qos_profile_default) {}
+
+QoS::QoS(const QoSInitialization& qos_initialization, const rmw_qos_profile_t& initial_profile)
+    : profile_(initial_profile) {
+  profile_.history = qos_initialization.history_policy;
+  profile_.depth = qos_initialization.depth;
+}
+
+QoS& QoS::history(HistoryPolicy history) {
+  return this->history(static_cast<rmw_qos_history_policy_t>(history));
+}
+
+QoS& QoS::history(rmw_qos_history_policy_t history) {
+  profile_.history = history;
+  return *this;
+}
+
+QoS& QoS::keep_last(size_t depth) {
+  profile_.history = RMW_QOS_POLICY_HISTORY_KEEP_LAST;
+  profile_.depth = depth;
+  return *this;
+}
+
+QoS& QoS::keep_all() {
+  profile_.history = RMW_QOS_POLICY_HISTORY_KEEP_ALL;
+  profile_.depth = 0;
+  return *this;
+}
+
+QoS& QoS::reliability(ReliabilityPolicy reliability) {
+  return this->reliability(static_cast<rmw_qos_reliability_policy_t>(reliability));
+}
+
+QoS& QoS::reliability(rmw_qos_reliability_policy_t reliability) {
+  profile_.reliability = reliability;
+  return *this;
+}
+
+QoS& QoS::durability(DurabilityPolicy durability) {
+  return this->durability(static_cast<rmw_qos_durability_policy_t>(durability));
+}
+
+QoS& QoS::durability(rmw_qos_durability_policy_t durability) {
+  profile_.durability = durability;
+  return *this;
+}
+
+QoS& QoS::deadline(rmw_time_t deadline) {
+  profile_.deadline = deadline;
+  return *this;
+}
+
+QoS& QoS::lifespan(rmw_time_t lifespan) {
+  profile_.lifespan = lifespan;
+  return *this;
+}
+
+QoS& QoS::liveliness(LivelinessPolicy liveliness) {
+  return this->liveliness(static_cast<rmw_qos_liveliness_policy_t>(liveliness));
+}
+
+QoS& QoS::liveliness(rmw_qos_liveliness_policy_t liveliness) {
+  profile_.liveliness = liveliness;
+  return *this;
+}
+
+QoS& QoS::liveliness_lease_duration(rmw_time_t duration) {
+  profile_.liveliness_lease_duration = duration;
+  return *this;
+}
+
+QoS& QoS::avoid_ros_namespace_conventions(bool avoid) {
+  profile_.avoid_ros_namespace_conventions = avoid;
+  return *this;
+}
+
+bool operator==(const QoS& left, const QoS& right) {
+  const rmw_qos_profile_t& l = left.get_rmw_qos_profile();
+  const rmw_qos_profile_t& r = right.get_rmw_qos_profile();
+  return l.history == r.history && l.depth == r.depth && l.reliability == r.reliability &&
+         l.durability == r.durability && equal(l.deadline, r.deadline) && equal(l.lifespan, r.lifespan) &&
+         l.liveliness == r.liveliness && equal(l.liveliness_lease_duration, r.liveliness_lease_duration) &&
+         l.avoid_ros_namespace_conventions == r.avoid_ros_namespace_conventions;
+}
+
+bool operator!=(const QoS& left, const QoS& right) {
+  return !(left == right);
+}
+
+ClockQoS::ClockQoS(const QoSInitialization& history) : QoS(history) {
+  best_effort();
+}
+SensorDataQoS::SensorDataQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_sensor_data) {}
+ParametersQoS::ParametersQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_parameters) {}
+ServicesQoS::ServicesQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_services_default) {}
+ParameterEventsQoS::ParameterEventsQoS(const QoSInitialization& history)
+    : QoS(history, rmw_qos_profile_parameter_events) {}
+RosoutQoS::RosoutQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_rosout_default) {}
+SystemDefaultsQoS::SystemDefaultsQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_system_default) {}
+BestAvailableQoS::BestAvailableQoS(const QoSInitialization& history) : QoS(history, best_available_profile()) {}
+
+}  // namespace rclcpp

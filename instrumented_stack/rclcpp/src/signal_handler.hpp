@@ -1,0 +1,44 @@
+// Turns SIGINT and SIGTERM into the shutdown of the contexts that want it.
+//
+// The handler itself only writes to an eventfd. A thread of its own reads it and shuts the contexts down, where locks
+// and callbacks are allowed.
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <mutex>
+#include <thread>
+
+#include "rclcpp/utilities.hpp"
+
+namespace rclcpp {
+
+class SignalHandler {
+ public:
+  static SignalHandler& instance();
+
+  SignalHandler(const SignalHandler&) = delete;
+  SignalHandler& operator=(const SignalHandler&) = delete;
+
+  bool install(SignalHandlerOptions options);
+  // Callable from the shutdown that a signal caused: the thread then ends by itself.
+  bool uninstall();
+  bool is_installed();
+  SignalHandlerOptions current_options();
+
+ private:
+  SignalHandler() = default;
+  ~SignalHandler();
+
+  static void handle(int signal_number, siginfo_t* info, void* context);
+  void run();
+
+  std::mutex mutex_;
+  bool installed_ = false;
+  SignalHandlerOptions options_ = SignalHandlerOptions::None;
+  struct sigaction previous_sigint_ {};
+  struct sigaction previous_sigterm_ {};
+  std::thread thread_;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,126 @@
+#include "rclcpp/subscription_base.hpp"
+
+#include <tracetools/tracetools.h>
+
+#include <utility>
+
+#include "rclcpp/detail/topic_name.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base,
+                                   const rosidl_message_type_support_t& type_support, const std::string& topic,
+                                   const QoS& qos, const SubscriptionOptions& options)
+    : type_support_(type_support) {
+  const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
+  rcl_subscription_options_t rcl_options = rcl_subscription_get_default_options();
+  rcl_options.qos = qos.get_rmw_qos_profile();
+  rcl_options.rmw_subscription_options.ignore_local_publications = options.ignore_local_publications;
+
+  auto subscription = std::make_unique<rcl_subscription_t>(rcl_get_zero_initialized_subscription());
+  const rcl_ret_t ret =
+      rcl_subscription_init(subscription.get(), node_handle.get(), &type_support, topic.c_str(), &rcl_options);
+  if (ret == RCL_RET_TOPIC_NAME_INVALID) {
+    detail::throw_invalid_topic_name(topic);
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "could not create subscription on '" + topic + "'");
+  }
+  subscription_handle_.reset(subscription.release(), [node_handle](rcl_subscription_t* handle) {
+    if (rcl_subscription_fini(handle, node_handle.get()) != RCL_RET_OK) {
+      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a subscription: %s", rcl_get_error_string().str);
+      rcl_reset_error();
+    }
+    delete handle;
+  });
+}
+
+SubscriptionBase::~SubscriptionBase() {
+  if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
+    group->entity_removed();
+  }
+}
+
+const char* SubscriptionBase::get_topic_name() const {
+  return rcl_subscription_get_topic_name(subscription_handle_.get());
+}
+
+QoS SubscriptionBase::get_actual_qos() const {
+  const rmw_qos_profile_t* profile = rcl_subscription_get_actual_qos(subscription_handle_.get());
+  if (!profile) {
+    exceptions::throw_from_rcl_error(RCL_RET_SUBSCRIPTION_INVALID, "failed to get qos settings");
+  }
+  return QoS(QoSInitialization::from_rmw(*profile), *profile);
+}
+
+size_t SubscriptionBase::get_publisher_count() const {
+  size_t count = 0;
+  const rcl_ret_t ret = rcl_subscription_get_publisher_count(subscription_handle_.get(), &count);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to get publisher count");
+  }
+  return count;
+}
+
+bool SubscriptionBase::take_type_erased(void* message_out, MessageInfo& message_info_out) {
+  const rcl_ret_t ret =
+      rcl_take(subscription_handle_.get(), message_out, &message_info_out.get_rmw_message_info(), nullptr);
+  TRACETOOLS_TRACEPOINT(rclcpp_take, static_cast<const void*>(message_out));
+  return check_taken(ret);
+}
+
+bool SubscriptionBase::take_serialized(SerializedMessage& message_out, MessageInfo& message_info_out) {
+  rcl_serialized_message_t* message = &message_out.get_rcl_serialized_message();
+  const rcl_ret_t ret = rcl_take_serialized_message(subscription_handle_.get(), message,
+                                                    &message_info_out.get_rmw_message_info(), nullptr);
+  TRACETOOLS_TRACEPOINT(rclcpp_take, static_cast<const void*>(message));
+  return check_taken(ret);
+}
+
+bool SubscriptionBase::check_taken(rcl_ret_t ret) const {
+  if (ret == RCL_RET_SUBSCRIPTION_TAKE_FAILED) {
+    rcl_reset_error();
+    return false;
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to take a message");
+  }
+  return true;
+}
+
+void SubscriptionBase::execute() {
+  AnySubscriptionCallbackBase& any_callback = callback();
+  MessageInfo message_info;
+  std::shared_ptr<void> message;
+  bool taken = false;
+  // A message that cannot be read costs that message, not the program.
+  try {
+    if (any_callback.is_serialized_message_callback()) {
+      auto serialized = std::make_shared<SerializedMessage>();
+      taken = take_serialized(*serialized, message_info);
+      message = std::move(serialized);
+    } else {
+      message = create_message();
+      taken = take_type_erased(message.get(), message_info);
+    }
+  } catch (const exceptions::RCLError& error) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a message from topic '%s': %s", get_topic_name(),
+                 error.what());
+    return;
+  }
+  if (taken) {
+    any_callback.dispatch(message, message_info);
+  }
+}
+
+void SubscriptionBase::trace_creation(const AnySubscriptionCallbackBase& callback) {
+  TRACETOOLS_TRACEPOINT(rclcpp_subscription_init, static_cast<const void*>(subscription_handle_.get()),
+                        static_cast<const void*>(this));
+  TRACETOOLS_TRACEPOINT(rclcpp_subscription_callback_added, static_cast<const void*>(this),
+                        static_cast<const void*>(&callback));
+  callback.trace_registration();
+}
+
+}  // namespace rclcpp

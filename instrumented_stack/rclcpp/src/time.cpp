@@ -1,0 +1,175 @@
+#include "rclcpp/time.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "rclcpp/duration.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+constexpr int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+int64_t sum(int64_t a, int64_t b) {
+  int64_t result = 0;
+  if (__builtin_add_overflow(a, b, &result)) {
+    if (b > 0) {
+      throw std::overflow_error("addition leads to int64_t overflow");
+    }
+    throw std::underflow_error("addition leads to int64_t underflow");
+  }
+  return result;
+}
+
+int64_t difference(int64_t a, int64_t b) {
+  int64_t result = 0;
+  if (__builtin_sub_overflow(a, b, &result)) {
+    if (b < 0) {
+      throw std::overflow_error("subtraction leads to int64_t overflow");
+    }
+    throw std::underflow_error("subtraction leads to int64_t underflow");
+  }
+  return result;
+}
+
+// Seconds rounded down and the nanoseconds above them, as the messages want them.
+template <typename MessageT>
+MessageT to_message(int64_t nanoseconds) {
+  int64_t seconds = nanoseconds / kNanosecondsPerSecond;
+  int64_t rest = nanoseconds % kNanosecondsPerSecond;
+  if (rest < 0) {
+    rest += kNanosecondsPerSecond;
+    --seconds;
+  }
+  if (seconds > std::numeric_limits<int32_t>::max() || seconds < std::numeric_limits<int32_t>::min()) {
+    throw std::out_of_range("time does not fit into the seconds of a message");
+  }
+  MessageT message;
+  message.sec = static_cast<int32_t>(seconds);
+  message.nanosec = static_cast<uint32_t>(rest);
+  return message;
+}
+
+}  // namespace
+
+Duration::Duration(int32_t seconds, uint32_t nanoseconds)
+    : nanoseconds_(int64_t{seconds} * kNanosecondsPerSecond + nanoseconds) {}
+
+Duration::Duration(const builtin_interfaces::msg::Duration& message) : Duration(message.sec, message.nanosec) {}
+
+Duration Duration::from_nanoseconds(rcl_duration_value_t nanoseconds) {
+  return Duration(std::chrono::nanoseconds(nanoseconds));
+}
+
+Duration Duration::from_seconds(double seconds) {
+  return from_nanoseconds(static_cast<rcl_duration_value_t>(seconds * static_cast<double>(kNanosecondsPerSecond)));
+}
+
+Duration Duration::from_rmw_time(rmw_time_t duration) {
+  return from_nanoseconds(rmw_time_total_nsec(duration));
+}
+
+Duration Duration::max() {
+  return from_nanoseconds(std::numeric_limits<rcl_duration_value_t>::max());
+}
+
+Duration& Duration::operator=(const builtin_interfaces::msg::Duration& message) {
+  return *this = Duration(message);
+}
+
+Duration::operator builtin_interfaces::msg::Duration() const {
+  return to_message<builtin_interfaces::msg::Duration>(nanoseconds_);
+}
+
+double Duration::seconds() const {
+  return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond);
+}
+
+rmw_time_t Duration::to_rmw_time() const {
+  if (nanoseconds_ < 0) {
+    throw std::runtime_error("rmw_time_t cannot be negative");
+  }
+  return rmw_time_from_nsec(nanoseconds_);
+}
+
+Duration Duration::operator+(const Duration& other) const {
+  return from_nanoseconds(sum(nanoseconds_, other.nanoseconds_));
+}
+
+Duration Duration::operator-(const Duration& other) const {
+  return from_nanoseconds(difference(nanoseconds_, other.nanoseconds_));
+}
+
+Duration Duration::operator*(double scale) const {
+  const long double scaled = static_cast<long double>(nanoseconds_) * static_cast<long double>(scale);
+  if (!(scaled < static_cast<long double>(std::numeric_limits<int64_t>::max()))) {  // also when scale is not a number
+    throw std::overflow_error("duration scaling leads to int64_t overflow");
+  }
+  if (scaled < static_cast<long double>(std::numeric_limits<int64_t>::min())) {
+    throw std::underflow_error("duration scaling leads to int64_t underflow");
+  }
+  return from_nanoseconds(static_cast<int64_t>(scaled));
+}
+
+Time::Time(int32_t seconds, uint32_t nanoseconds, rcl_clock_type_t clock_type)
+    : Time(int64_t{seconds} * kNanosecondsPerSecond + nanoseconds, clock_type) {}
+
+Time::Time(int64_t nanoseconds, rcl_clock_type_t clock_type) : nanoseconds_(nanoseconds), clock_type_(clock_type) {
+  if (nanoseconds < 0) {
+    throw std::runtime_error("cannot store a negative time point in rclcpp::Time");
+  }
+}
+
+Time::Time(const builtin_interfaces::msg::Time& message, rcl_clock_type_t clock_type)
+    : Time(message.sec, message.nanosec, clock_type) {}
+
+Time::Time(const rcl_time_point_t& time_point)
+    : nanoseconds_(time_point.nanoseconds), clock_type_(time_point.clock_type) {}
+
+Time Time::max(rcl_clock_type_t clock_type) {
+  return Time(std::numeric_limits<int64_t>::max(), clock_type);
+}
+
+Time& Time::operator=(const builtin_interfaces::msg::Time& message) {
+  return *this = Time(message);
+}
+
+Time::operator builtin_interfaces::msg::Time() const {
+  return to_message<builtin_interfaces::msg::Time>(nanoseconds_);
+}
+
+double Time::seconds() const {
+  return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond);
+}
+
+void Time::require_same_clock(const Time& other, const char* operation) const {
+  if (clock_type_ != other.clock_type_) {
+    throw std::runtime_error(std::string("can't ") + operation + " times with different time sources");
+  }
+}
+
+bool Time::operator==(const Time& other) const {
+  require_same_clock(other, "compare");
+  return nanoseconds_ == other.nanoseconds_;
+}
+
+bool Time::operator<(const Time& other) const {
+  require_same_clock(other, "compare");
+  return nanoseconds_ < other.nanoseconds_;
+}
+
+Time Time::operator+(const Duration& duration) const {
+  return Time(sum(nanoseconds_, duration.nanoseconds()), clock_type_);
+}
+
+Time Time::operator-(const Duration& duration) const {
+  return Time(difference(nanoseconds_, duration.nanoseconds()), clock_type_);
+}
+
+Duration Time::operator-(const Time& other) const {
+  require_same_clock(other, "subtract");
+  return Duration::from_nanoseconds(difference(nanoseconds_, other.nanoseconds_));
+}
+
+}  // namespace rclcpp

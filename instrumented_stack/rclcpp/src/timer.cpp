@@ -1,0 +1,103 @@
+#include "rclcpp/timer.hpp"
+
+#include <tracetools/tracetools.h>
+
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+void require_ok(rcl_ret_t ret, const char* what) {
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, what);
+  }
+}
+
+}  // namespace
+
+TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Context::SharedPtr context,
+                     bool autostart)
+    : clock_(std::move(clock)) {
+  const std::shared_ptr<rcl_context_t> rcl_context = context->get_rcl_context();
+  auto timer = std::make_unique<rcl_timer_t>(rcl_get_zero_initialized_timer());
+  {
+    const std::lock_guard lock(clock_->get_clock_mutex());
+    require_ok(rcl_timer_init2(timer.get(), clock_->get_clock_handle(), rcl_context.get(), period.count(), nullptr,
+                               rcl_get_default_allocator(), autostart),
+               "couldn't initialize rcl timer handle");
+  }
+  // An executor may hold the rcl timer longer than this object lives: the rcl timer needs its clock and its context.
+  timer_handle_.reset(timer.release(), [clock = clock_, rcl_context](rcl_timer_t* handle) {
+    {
+      const std::lock_guard lock(clock->get_clock_mutex());
+      if (rcl_timer_fini(handle) != RCL_RET_OK) {
+        RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a timer: %s", rcl_get_error_string().str);
+        rcl_reset_error();
+      }
+    }
+    delete handle;
+  });
+}
+
+TimerBase::~TimerBase() {
+  if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
+    group->entity_removed();
+  }
+}
+
+void TimerBase::cancel() {
+  require_ok(rcl_timer_cancel(timer_handle_.get()), "couldn't cancel timer");
+}
+
+bool TimerBase::is_canceled() {
+  bool canceled = false;
+  require_ok(rcl_timer_is_canceled(timer_handle_.get(), &canceled), "couldn't get timer cancelled state");
+  return canceled;
+}
+
+void TimerBase::reset() {
+  require_ok(rcl_timer_reset(timer_handle_.get()), "couldn't reset timer");
+}
+
+std::chrono::nanoseconds TimerBase::time_until_trigger() {
+  int64_t time_until_next_call = 0;
+  const rcl_ret_t ret = rcl_timer_get_time_until_next_call(timer_handle_.get(), &time_until_next_call);
+  if (ret == RCL_RET_TIMER_CANCELED) {
+    rcl_reset_error();
+    return std::chrono::nanoseconds::max();
+  }
+  require_ok(ret, "timer could not get time until next call");
+  return std::chrono::nanoseconds(time_until_next_call);
+}
+
+bool TimerBase::is_ready() {
+  bool ready = false;
+  require_ok(rcl_timer_is_ready(timer_handle_.get(), &ready), "failed to check timer");
+  return ready;
+}
+
+bool TimerBase::call() {
+  const rcl_ret_t ret = rcl_timer_call(timer_handle_.get());
+  if (ret == RCL_RET_TIMER_CANCELED) {
+    rcl_reset_error();
+    return false;
+  }
+  require_ok(ret, "failed to notify timer that callback occurred");
+  return true;
+}
+
+void TimerBase::execute_callback() {
+  TRACETOOLS_TRACEPOINT(callback_start, callback_, false);
+  run();
+  TRACETOOLS_TRACEPOINT(callback_end, callback_);
+}
+
+void TimerBase::trace_callback(const void* callback, const detail::CallbackSymbol& symbol) {
+  callback_ = callback;
+  TRACETOOLS_TRACEPOINT(rclcpp_timer_callback_added, static_cast<const void*>(timer_handle_.get()), callback);
+  symbol.trace_registration(callback);
+}
+
+}  // namespace rclcpp

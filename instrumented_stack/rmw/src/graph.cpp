@@ -1,0 +1,122 @@
+// Questions about the graph, answered from the cache.
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <new>
+#include <set>
+#include <string>
+
+#include "context_impl.hpp"
+#include "identifier.hpp"
+#include "rmw/error_handling.h"
+#include "rmw/rmw.h"
+#include "topic_name.hpp"
+
+using rmw_fastrtps::GraphCache;
+
+namespace {
+
+char* duplicate(const std::string& text, const rcutils_allocator_t& allocator) {
+  char* copy = static_cast<char*>(allocator.allocate(text.size() + 1, allocator.state));
+  if (copy == nullptr) {
+    throw std::bad_alloc();
+  }
+  std::memcpy(copy, text.c_str(), text.size() + 1);
+  return copy;
+}
+
+rmw_ret_t count(const rmw_node_t* node, const char* topic_name, GraphCache::Kind kind, size_t* result) {
+  RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_name, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(result, RMW_RET_INVALID_ARGUMENT);
+  *result = node->context->impl->graph.count(kind, rmw_fastrtps::mangled_topic(topic_name));
+  return RMW_RET_OK;
+}
+
+// Fills one array with a member of every node.
+void fill(rcutils_string_array_t* array, const std::vector<GraphCache::Node>& nodes,
+          std::string GraphCache::Node::*text) {
+  if (array == nullptr) {
+    return;
+  }
+  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  if (rcutils_string_array_init(array, nodes.size(), &allocator) != RCUTILS_RET_OK) {
+    throw std::bad_alloc();
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    array->data[i] = duplicate(nodes[i].*text, allocator);
+  }
+}
+
+std::map<std::string, std::set<std::string>> ros_names(const std::map<std::string, std::set<std::string>>& dds_names) {
+  std::map<std::string, std::set<std::string>> result;
+  for (const auto& [dds_topic, dds_types] : dds_names) {
+    if (const auto topic = rmw_fastrtps::demangled_topic(dds_topic)) {
+      for (const std::string& type : dds_types) {
+        result[*topic].insert(rmw_fastrtps::demangled_type(type));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+rmw_ret_t rmw_get_node_names(const rmw_node_t* node, rcutils_string_array_t* node_names,
+                             rcutils_string_array_t* node_namespaces) {
+  rcutils_string_array_t enclaves = rcutils_get_zero_initialized_string_array();
+  const rmw_ret_t result = rmw_get_node_names_with_enclaves(node, node_names, node_namespaces, &enclaves);
+  (void)rcutils_string_array_fini(&enclaves);
+  return result;
+}
+
+rmw_ret_t rmw_get_node_names_with_enclaves(const rmw_node_t* node, rcutils_string_array_t* node_names,
+                                           rcutils_string_array_t* node_namespaces,
+                                           rcutils_string_array_t* enclaves) try {
+  RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
+  const auto nodes = node->context->impl->graph.nodes();
+  fill(node_names, nodes, &GraphCache::Node::name);
+  fill(node_namespaces, nodes, &GraphCache::Node::namespace_);
+  fill(enclaves, nodes, &GraphCache::Node::enclave);
+  return RMW_RET_OK;
+} catch (const std::bad_alloc&) {
+  RMW_SET_ERROR_MSG("out of memory for the names of nodes");
+  return RMW_RET_BAD_ALLOC;
+}
+
+rmw_ret_t rmw_count_publishers(const rmw_node_t* node, const char* topic_name, size_t* result) {
+  return count(node, topic_name, GraphCache::Kind::kWriter, result);
+}
+
+rmw_ret_t rmw_count_subscribers(const rmw_node_t* node, const char* topic_name, size_t* result) {
+  return count(node, topic_name, GraphCache::Kind::kReader, result);
+}
+
+rmw_ret_t rmw_get_topic_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator, bool no_demangle,
+                                        rmw_names_and_types_t* topic_names_and_types) try {
+  RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_names_and_types, RMW_RET_INVALID_ARGUMENT);
+  auto topics = node->context->impl->graph.topics();
+  if (!no_demangle) {
+    topics = ros_names(topics);
+  }
+  if (rmw_names_and_types_init(topic_names_and_types, topics.size(), allocator) != RMW_RET_OK) {
+    return RMW_RET_ERROR;
+  }
+  std::size_t i = 0;
+  for (const auto& [topic, types] : topics) {
+    topic_names_and_types->names.data[i] = duplicate(topic, *allocator);
+    if (rcutils_string_array_init(&topic_names_and_types->types[i], types.size(), allocator) != RCUTILS_RET_OK) {
+      return RMW_RET_BAD_ALLOC;
+    }
+    std::size_t k = 0;
+    for (const std::string& type : types) {
+      topic_names_and_types->types[i].data[k++] = duplicate(type, *allocator);
+    }
+    ++i;
+  }
+  return RMW_RET_OK;
+} catch (const std::bad_alloc&) {
+  RMW_SET_ERROR_MSG("out of memory for the names of topics");
+  return RMW_RET_BAD_ALLOC;
+}

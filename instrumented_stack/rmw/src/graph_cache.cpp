@@ -1,0 +1,159 @@
+#include "graph_cache.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rmw_fastrtps {
+namespace {
+
+// The first twelve bytes of a GUID name the participant.
+constexpr std::size_t kPrefixLength = 12;
+
+bool same_participant(const Gid& a, const Gid& b) {
+  return std::equal(a.begin(), a.begin() + kPrefixLength, b.begin());
+}
+
+template <typename Nodes>
+auto find_node(Nodes& nodes, const std::string& namespace_, const std::string& name) {
+  return std::find_if(nodes.begin(), nodes.end(),
+                      [&](const auto& node) { return node.node_namespace == namespace_ && node.node_name == name; });
+}
+
+template <typename NodeInfo>
+auto& endpoints_of(NodeInfo& node, GraphCache::Kind kind) {
+  return kind == GraphCache::Kind::kWriter ? node.writer_gid_seq : node.reader_gid_seq;
+}
+
+}  // namespace
+
+void GraphCache::add_participant(const Gid& gid, std::string enclave) {
+  {
+    std::lock_guard lock(mutex_);
+    participants_[gid].enclave = std::move(enclave);
+  }
+  on_change_();
+}
+
+void GraphCache::remove_participant(const Gid& gid) {
+  {
+    std::lock_guard lock(mutex_);
+    participants_.erase(gid);
+    std::erase_if(endpoints_, [&](const auto& entry) { return same_participant(entry.first, gid); });
+  }
+  on_change_();
+}
+
+void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
+  {
+    std::lock_guard lock(mutex_);
+    endpoints_.insert_or_assign(gid, std::move(endpoint));
+  }
+  on_change_();
+}
+
+void GraphCache::remove_endpoint(const Gid& gid) {
+  {
+    std::lock_guard lock(mutex_);
+    endpoints_.erase(gid);
+  }
+  on_change_();
+}
+
+void GraphCache::update_nodes(const EntitiesInfo& info) {
+  Gid gid;
+  std::copy(info.gid.data.begin(), info.gid.data.end(), gid.begin());
+  {
+    std::lock_guard lock(mutex_);
+    auto& nodes = participants_[gid].nodes;
+    nodes.assign(info.node_entities_info_seq.begin(), info.node_entities_info_seq.end());
+  }
+  on_change_();
+}
+
+template <typename Change>
+GraphCache::EntitiesInfo GraphCache::change_nodes(const Gid& gid, Change change) {
+  EntitiesInfo info;
+  std::copy(gid.begin(), gid.end(), info.gid.data.begin());
+  {
+    std::lock_guard lock(mutex_);
+    auto& nodes = participants_[gid].nodes;
+    change(nodes);
+    info.node_entities_info_seq.assign(nodes.begin(), nodes.end());
+  }
+  on_change_();
+  return info;
+}
+
+GraphCache::EntitiesInfo GraphCache::add_node(const Gid& participant, const std::string& namespace_,
+                                              const std::string& name) {
+  return change_nodes(participant, [&](auto& nodes) {
+    NodeInfo node;
+    node.node_namespace = namespace_;
+    node.node_name = name;
+    nodes.push_back(std::move(node));
+  });
+}
+
+GraphCache::EntitiesInfo GraphCache::remove_node(const Gid& participant, const std::string& namespace_,
+                                                 const std::string& name) {
+  return change_nodes(participant, [&](auto& nodes) {
+    const auto node = find_node(nodes, namespace_, name);
+    if (node != nodes.end()) {
+      nodes.erase(node);
+    }
+  });
+}
+
+GraphCache::EntitiesInfo GraphCache::add_node_endpoint(const Gid& participant, const std::string& namespace_,
+                                                       const std::string& name, Kind kind, const Gid& endpoint) {
+  return change_nodes(participant, [&](auto& nodes) {
+    const auto node = find_node(nodes, namespace_, name);
+    if (node != nodes.end()) {
+      rmw_dds_common::msg::Gid gid;
+      std::copy(endpoint.begin(), endpoint.end(), gid.data.begin());
+      endpoints_of(*node, kind).push_back(gid);
+    }
+  });
+}
+
+GraphCache::EntitiesInfo GraphCache::remove_node_endpoint(const Gid& participant, const std::string& namespace_,
+                                                          const std::string& name, Kind kind, const Gid& endpoint) {
+  return change_nodes(participant, [&](auto& nodes) {
+    // Nodes of one name are told apart by nothing else, so look in all of them.
+    for (NodeInfo& node : nodes) {
+      if (node.node_namespace == namespace_ && node.node_name == name) {
+        std::erase_if(endpoints_of(node, kind),
+                      [&](const auto& gid) { return std::equal(gid.data.begin(), gid.data.end(), endpoint.begin()); });
+      }
+    }
+  });
+}
+
+std::size_t GraphCache::count(Kind kind, std::string_view topic) const {
+  std::lock_guard lock(mutex_);
+  return static_cast<std::size_t>(std::count_if(endpoints_.begin(), endpoints_.end(), [&](const auto& entry) {
+    return entry.second.kind == kind && entry.second.topic == topic;
+  }));
+}
+
+std::vector<GraphCache::Node> GraphCache::nodes() const {
+  std::lock_guard lock(mutex_);
+  std::vector<Node> result;
+  for (const auto& [gid, participant] : participants_) {
+    for (const NodeInfo& node : participant.nodes) {
+      result.push_back({std::string(node.node_name), std::string(node.node_namespace), participant.enclave});
+    }
+  }
+  return result;
+}
+
+std::map<std::string, std::set<std::string>> GraphCache::topics() const {
+  std::lock_guard lock(mutex_);
+  std::map<std::string, std::set<std::string>> result;
+  for (const auto& [gid, endpoint] : endpoints_) {
+    result[endpoint.topic].insert(endpoint.type);
+  }
+  return result;
+}
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,81 @@
+// Who is there: the participants, nodes and endpoints that discovery has found so far, and those of this process.
+//
+// Endpoints come from DDS discovery, nodes from the topic ros_discovery_info, in which every participant tells the
+// names of its nodes and the endpoints of each. Thread safe.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gid.hpp"
+#include "rmw_dds_common/msg/participant_entities_info.hpp"
+
+namespace rmw_fastrtps {
+
+class GraphCache {
+ public:
+  using EntitiesInfo = rmw_dds_common::msg::ParticipantEntitiesInfo;
+
+  enum class Kind { kWriter, kReader };
+
+  // Names as DDS has them: `rt/chatter`, `std_msgs::msg::dds_::String_`.
+  struct Endpoint {
+    Kind kind;
+    std::string topic;
+    std::string type;
+  };
+
+  struct Node {
+    std::string name;
+    std::string namespace_;
+    std::string enclave;
+  };
+
+  // `on_change` is called after every change, under no lock.
+  explicit GraphCache(std::function<void()> on_change) : on_change_(std::move(on_change)) {}
+
+  void add_participant(const Gid& gid, std::string enclave);
+  // Also forgets its nodes and endpoints.
+  void remove_participant(const Gid& gid);
+  void add_endpoint(const Gid& gid, Endpoint endpoint);
+  void remove_endpoint(const Gid& gid);
+  // What a participant has told of its nodes; replaces what was known.
+  void update_nodes(const EntitiesInfo& info);
+
+  // Changes of a participant of this process. Each returns what that participant now has to announce.
+  EntitiesInfo add_node(const Gid& participant, const std::string& namespace_, const std::string& name);
+  EntitiesInfo remove_node(const Gid& participant, const std::string& namespace_, const std::string& name);
+  EntitiesInfo add_node_endpoint(const Gid& participant, const std::string& namespace_, const std::string& name,
+                                 Kind kind, const Gid& endpoint);
+  EntitiesInfo remove_node_endpoint(const Gid& participant, const std::string& namespace_, const std::string& name,
+                                    Kind kind, const Gid& endpoint);
+
+  std::size_t count(Kind kind, std::string_view topic) const;
+  std::vector<Node> nodes() const;
+  // DDS topic names with their DDS type names.
+  std::map<std::string, std::set<std::string>> topics() const;
+
+ private:
+  using NodeInfo = rmw_dds_common::msg::NodeEntitiesInfo;
+
+  struct Participant {
+    std::string enclave;
+    std::vector<NodeInfo> nodes;
+  };
+
+  // Changes the nodes of an own participant under the lock, then tells of the change.
+  template <typename Change>
+  EntitiesInfo change_nodes(const Gid& gid, Change change);
+
+  std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  std::map<Gid, Participant> participants_;
+  std::map<Gid, Endpoint> endpoints_;
+};
+
+}  // namespace rmw_fastrtps

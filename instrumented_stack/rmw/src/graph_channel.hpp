@@ -1,0 +1,38 @@
+// The topic ros_discovery_info: tells other participants of the nodes of this one, and listens to theirs.
+//
+// Its publisher and subscription have no rcl counterpart. A thread of its own takes what arrives; it ends each wake-up
+// with one take that finds nothing.
+#pragma once
+
+#include <thread>
+
+#include "graph_cache.hpp"
+#include "participant.hpp"
+#include "rmw/rmw.h"
+#include "waitable.hpp"
+
+namespace rmw_fastrtps {
+
+class GraphChannel {
+ public:
+  // `graph` is updated from the thread. Throws std::runtime_error.
+  GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph);
+  ~GraphChannel();
+  GraphChannel(const GraphChannel&) = delete;
+  GraphChannel& operator=(const GraphChannel&) = delete;
+
+  // Late joiners get the last announcement. Throws std::runtime_error.
+  void announce(const GraphCache::EntitiesInfo& info);
+
+ private:
+  void listen();
+
+  GraphCache& graph_;
+  rmw_publisher_t* publisher_ = nullptr;
+  rmw_subscription_t* subscription_ = nullptr;
+  rmw_wait_set_t* wait_set_ = nullptr;
+  rmw_guard_condition_t* stop_ = nullptr;
+  std::thread thread_;
+};
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,254 @@
+#include "participant.hpp"
+
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "dds_gid.hpp"
+#include "message_type.hpp"
+#include "rcutils/logging.h"
+
+namespace rmw_fastrtps {
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+// How many participants of one host a unicast announcement reaches.
+constexpr std::uint32_t kLocalParticipants = 32;
+
+rtps::Locator_t peer_locator(const std::string& host) {
+  const auto addresses = rtps::IPLocator::resolveNameDNS(host);
+  if (addresses.first.empty()) {
+    throw std::runtime_error("discovery peer '" + host + "' has no IPv4 address");
+  }
+  rtps::Locator_t locator;
+  rtps::IPLocator::setIPv4(locator, *addresses.first.begin());
+  return locator;
+}
+
+void restrict_to_localhost(fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  // An explicit unicast locator keeps Fast DDS from listening to multicast.
+  builtin.metatrafficMulticastLocatorList.clear();
+  builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
+  builtin.initialPeersList.push_back(peer_locator("127.0.0.1"));
+  if (qos.transport().user_transports.empty()) {
+    // A peer without a port stands for the first participants of the host, by default only four of them.
+    qos.transport().use_builtin_transports = false;
+    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    udp->maxInitialPeersRange = kLocalParticipants;
+    qos.transport().user_transports.push_back(udp);
+    qos.transport().user_transports.push_back(
+        std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>());
+  }
+}
+
+void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t domain_id,
+                         fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  switch (options.automatic_discovery_range) {
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_OFF:
+      builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
+      return;
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_LOCALHOST:
+      restrict_to_localhost(qos);
+      break;
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_SYSTEM_DEFAULT:
+      return;
+    default:
+      if (options.static_peers_count != 0 && builtin.initialPeersList.empty()) {
+        // Explicit peers replace the multicast group that is otherwise announced to.
+        rtps::Locator_t multicast(qos.wire_protocol().port.getMulticastPort(domain_id));
+        rtps::IPLocator::setIPv4(multicast, "239.255.0.1");
+        builtin.initialPeersList.push_back(multicast);
+      }
+      break;
+  }
+  for (std::size_t i = 0; i < options.static_peers_count; ++i) {
+    builtin.initialPeersList.push_back(peer_locator(options.static_peers[i]));
+  }
+}
+
+// The value of `enclave=…;` in the user data that participants announce.
+std::string enclave_in(const std::vector<rtps::octet>& user_data) {
+  const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
+  constexpr std::string_view kKey = "enclave=";
+  const std::size_t key = text.find(kKey);
+  if (key == std::string_view::npos) {
+    return {};
+  }
+  const std::string_view value = text.substr(key + kKey.size());
+  return std::string(value.substr(0, value.find(';')));
+}
+
+fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_profile) {
+  const char* value = std::getenv("RMW_FASTRTPS_PUBLICATION_MODE");
+  const std::string_view mode = value == nullptr ? "" : value;
+  if (mode == "ASYNCHRONOUS") {
+    return fdds::ASYNCHRONOUS_PUBLISH_MODE;
+  }
+  if (mode == "AUTO") {
+    return in_profile;
+  }
+  if (!mode.empty() && mode != "SYNCHRONOUS") {
+    rcutils_log(
+        nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
+        "RMW_FASTRTPS_PUBLICATION_MODE is '%s', but must be SYNCHRONOUS, ASYNCHRONOUS or AUTO; using SYNCHRONOUS",
+        value);
+  }
+  return fdds::SYNCHRONOUS_PUBLISH_MODE;
+}
+
+}  // namespace
+
+class Participant::DiscoveryListener final : public fdds::DomainParticipantListener {
+ public:
+  explicit DiscoveryListener(GraphCache& graph) : graph_(graph) {}
+
+  void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
+    const Gid gid = to_gid(info.info.m_guid);
+    if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
+      graph_.add_participant(gid, enclave_in(info.info.m_userData.data_vec()));
+    } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
+               info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
+      graph_.remove_participant(gid);
+    }
+  }
+
+  void on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
+    const bool removed = info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
+    changed(GraphCache::Kind::kWriter, info.info, removed);
+  }
+
+  void on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
+    const bool removed = info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER;
+    changed(GraphCache::Kind::kReader, info.info, removed);
+  }
+
+ private:
+  template <typename Proxy>
+  void changed(GraphCache::Kind kind, const Proxy& proxy, bool removed) {
+    if (removed) {
+      graph_.remove_endpoint(to_gid(proxy.guid()));
+    } else {
+      graph_.add_endpoint(to_gid(proxy.guid()), {kind, proxy.topicName().to_string(), proxy.typeName().to_string()});
+    }
+  }
+
+  GraphCache& graph_;
+};
+
+Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
+    : listener_(std::make_unique<DiscoveryListener>(graph)) {
+  const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
+  qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
+
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();
+  fdds::DomainParticipantQos qos = factory->get_default_participant_qos();
+  const auto domain_id =
+      options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : static_cast<std::uint32_t>(options.domain_id);
+  configure_discovery(options.discovery_options, domain_id, qos);
+  const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
+  const std::string user_data = "enclave=" + enclave + ";";
+  // With the terminating null, as rmw_fastrtps_cpp sends it.
+  qos.user_data().data_vec(std::vector<rtps::octet>(user_data.c_str(), user_data.c_str() + user_data.size() + 1));
+  qos.name(enclave);
+  if (!qos_from_xml_) {
+    // Announcements of many endpoints outgrow the initial size.
+    qos.wire_protocol().builtin.readerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.wire_protocol().builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  }
+
+  participant_ = factory->create_participant(domain_id, qos, listener_.get(), fdds::StatusMask::none());
+  if (participant_ == nullptr) {
+    throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
+                             ", see its own messages above");
+  }
+  publisher_ = participant_->create_publisher(participant_->get_default_publisher_qos());
+  subscriber_ = participant_->create_subscriber(participant_->get_default_subscriber_qos());
+  gid_ = to_gid(participant_->guid());
+  graph.add_participant(gid_, enclave);
+}
+
+Participant::~Participant() {
+  // No callback may come while, or after, the participant is taken apart.
+  participant_->set_listener(nullptr);
+  participant_->delete_publisher(publisher_);
+  participant_->delete_subscriber(subscriber_);
+  fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+fdds::Topic& Participant::acquire_topic(const std::string& dds_name, const message_type_support_callbacks_t& callbacks) {
+  const std::string type_name = dds_type_name(callbacks);
+  if (const auto found = topics_.find(dds_name); found != topics_.end()) {
+    if (found->second.topic->get_type_name() != type_name) {
+      throw std::runtime_error("topic '" + dds_name + "' is in use with type '" + found->second.topic->get_type_name() +
+                               "' and cannot have type '" + type_name + "' as well");
+    }
+    ++found->second.users;
+    return *found->second.topic;
+  }
+  if (participant_->find_type(type_name).empty()) {
+    fdds::TypeSupport type(new MessageType(callbacks));
+    if (type.register_type(participant_) != ReturnCode_t::RETCODE_OK) {
+      throw std::runtime_error("Fast DDS cannot register type '" + type_name + "'");
+    }
+  }
+  fdds::Topic* topic = participant_->create_topic(dds_name, type_name, participant_->get_default_topic_qos());
+  if (topic == nullptr) {
+    throw std::runtime_error("Fast DDS cannot create topic '" + dds_name + "' with type '" + type_name + "'");
+  }
+  topics_.emplace(dds_name, SharedTopic{topic, 1});
+  return *topic;
+}
+
+void Participant::release_topic(fdds::Topic& topic) {
+  const auto found = topics_.find(topic.get_name());
+  if (--found->second.users != 0) {
+    return;
+  }
+  const std::string type_name = topic.get_type_name();
+  topics_.erase(found);
+  participant_->delete_topic(&topic);
+  // Refused while another topic uses the type. The library with the type support may be unloaded afterwards.
+  participant_->unregister_type(type_name);
+}
+
+fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name) const {
+  fdds::DataWriterQos qos = publisher_->get_default_datawriter_qos();
+  publisher_->get_datawriter_qos_from_profile(topic_name, qos);
+  if (!qos_from_xml_) {
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+    qos.publish_mode().kind = publish_mode(qos.publish_mode().kind);
+  }
+  return qos;
+}
+
+fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name) const {
+  fdds::DataReaderQos qos = subscriber_->get_default_datareader_qos();
+  subscriber_->get_datareader_qos_from_profile(topic_name, qos);
+  if (!qos_from_xml_) {
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+  }
+  return qos;
+}
+
+}  // namespace rmw_fastrtps

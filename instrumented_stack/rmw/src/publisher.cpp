@@ -1,0 +1,170 @@
+// Publishers: a DDS DataWriter each.
+#include <atomic>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <memory>
+#include <stdexcept>
+
+#include "dds_gid.hpp"
+#include "endpoint.hpp"
+#include "identifier.hpp"
+#include "message_type.hpp"
+#include "participant.hpp"
+#include "qos.hpp"
+#include "rmw/error_handling.h"
+#include "topic_name.hpp"
+#include "tracetools/tracetools.h"
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+using rmw_fastrtps::EndpointIdentity;
+using rmw_fastrtps::kIdentifier;
+using rmw_fastrtps::OutgoingMessage;
+using rmw_fastrtps::Participant;
+
+namespace {
+
+struct Publisher final : fdds::DataWriterListener {
+  void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& info) override {
+    matched = static_cast<std::size_t>(info.current_count);
+  }
+
+  rmw_publisher_t handle{};
+  std::string topic_name;  // of the handle
+  Participant* participant = nullptr;
+  fdds::Topic* topic = nullptr;
+  fdds::DataWriter* writer = nullptr;
+  EndpointIdentity identity{};
+  std::atomic<std::size_t> matched{0};
+};
+
+Publisher& publisher_of(const rmw_publisher_t& handle) {
+  return *static_cast<Publisher*>(handle.data);
+}
+
+rmw_ret_t write(const rmw_publisher_t* publisher, OutgoingMessage outgoing, const void* traced_message) {
+  rmw_time_point_value_t now = 0;
+  (void)rcutils_system_time_now(&now);
+  rtps::WriteParams params;
+  params.source_timestamp().from_ns(now);
+  TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message, now);
+  if (!publisher_of(*publisher).writer->write(&outgoing, params)) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a message on topic '%s' cannot be written", publisher->topic_name);
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+}
+
+}  // namespace
+
+namespace rmw_fastrtps {
+
+rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message_type_support_t& type_support,
+                                  const std::string& topic_name, const rmw_qos_profile_t& profile,
+                                  const rmw_publisher_options_t& options) {
+  const auto& callbacks = callbacks_of(&type_support);
+  fdds::DataWriterQos qos = participant.writer_qos(topic_name);
+  apply_profile(profile, qos);
+
+  auto publisher = std::make_unique<Publisher>();
+  const std::string dds_topic = profile.avoid_ros_namespace_conventions ? topic_name : mangled_topic(topic_name);
+  publisher->participant = &participant;
+  publisher->topic = &participant.acquire_topic(dds_topic, callbacks);
+  publisher->writer = participant.publisher().create_datawriter(publisher->topic, qos, publisher.get(),
+                                                                fdds::StatusMask::publication_matched());
+  if (publisher->writer == nullptr) {
+    participant.release_topic(*publisher->topic);
+    throw std::runtime_error("Fast DDS cannot create a writer on topic '" + dds_topic + "'");
+  }
+  publisher->identity = {to_gid(publisher->writer->guid()),
+                         {GraphCache::Kind::kWriter, dds_topic, dds_type_name(callbacks)}};
+  publisher->topic_name = topic_name;
+  publisher->handle = {kIdentifier, publisher.get(), publisher->topic_name.c_str(), options, false};
+  TRACETOOLS_TRACEPOINT(rmw_publisher_init, static_cast<const void*>(&publisher->handle),
+                        publisher->identity.gid.data());
+  return &publisher.release()->handle;
+}
+
+void destroy_publisher(rmw_publisher_t* handle) {
+  const std::unique_ptr<Publisher> publisher(&publisher_of(*handle));
+  publisher->writer->set_listener(nullptr);
+  publisher->participant->publisher().delete_datawriter(publisher->writer);
+  publisher->participant->release_topic(*publisher->topic);
+}
+
+const EndpointIdentity& identity_of(const rmw_publisher_t& publisher) {
+  return publisher_of(publisher).identity;
+}
+
+}  // namespace rmw_fastrtps
+
+rmw_ret_t rmw_publish(const rmw_publisher_t* publisher, const void* ros_message, rmw_publisher_allocation_t*) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
+  return write(publisher, {ros_message, nullptr}, ros_message);
+}
+
+rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
+                                         const rmw_serialized_message_t* serialized_message,
+                                         rmw_publisher_allocation_t*) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RMW_RET_INVALID_ARGUMENT);
+  return write(publisher, {nullptr, serialized_message}, serialized_message);
+}
+
+rmw_ret_t rmw_publisher_count_matched_subscriptions(const rmw_publisher_t* publisher, size_t* subscription_count) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(subscription_count, RMW_RET_INVALID_ARGUMENT);
+  *subscription_count = publisher_of(*publisher).matched;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_publisher_get_actual_qos(const rmw_publisher_t* publisher, rmw_qos_profile_t* qos) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos, RMW_RET_INVALID_ARGUMENT);
+  *qos = rmw_fastrtps::profile_of(publisher_of(*publisher).writer->get_qos());
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  if (publisher_of(*publisher).writer->assert_liveliness() != ReturnCode_t::RETCODE_OK) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the liveliness of topic '%s' cannot be asserted", publisher->topic_name);
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_publisher_wait_for_all_acked(const rmw_publisher_t* publisher, rmw_time_t wait_timeout) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  const auto result = publisher_of(*publisher).writer->wait_for_acknowledgments(rmw_fastrtps::to_dds(wait_timeout));
+  if (result == ReturnCode_t::RETCODE_OK) {
+    return RMW_RET_OK;
+  }
+  if (result == ReturnCode_t::RETCODE_TIMEOUT) {
+    return RMW_RET_TIMEOUT;
+  }
+  RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("acknowledgments on topic '%s' cannot be waited for", publisher->topic_name);
+  return RMW_RET_ERROR;
+}
+
+rmw_ret_t rmw_get_gid_for_publisher(const rmw_publisher_t* publisher, rmw_gid_t* gid) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(gid, RMW_RET_INVALID_ARGUMENT);
+  const auto& bytes = publisher_of(*publisher).identity.gid;
+  gid->implementation_identifier = kIdentifier;
+  std::copy(bytes.begin(), bytes.end(), gid->data);
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_compare_gids_equal(const rmw_gid_t* gid1, const rmw_gid_t* gid2, bool* result) {
+  RMW_CHECK_HANDLE(gid1, RMW_RET_INVALID_ARGUMENT);
+  RMW_CHECK_HANDLE(gid2, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(result, RMW_RET_INVALID_ARGUMENT);
+  *result = std::equal(std::begin(gid1->data), std::end(gid1->data), std::begin(gid2->data));
+  return RMW_RET_OK;
+}

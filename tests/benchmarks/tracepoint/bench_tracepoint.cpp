@@ -1,0 +1,67 @@
+// What an instrumented line of a program pays for one tracepoint with two pointers (rcl_publish).
+//
+// Without a session all cases are idle: `LibraryTracepoint` is what the stack does, `EmptyCall` a function of another
+// library that does nothing, `InlineTracepoint` LTTng's bare macro without a function around it. To see the cost of
+// recording, start a session with the event ros2:rcl_publish first; the label tells which it was:
+//
+//   lttng create bench --snapshot && lttng enable-event -u 'ros2:*' && lttng start && bench_tracepoint
+#include <benchmark/benchmark.h>
+
+#include <ctime>
+
+#include "tracetools/tracetools.h"
+
+// Definitions of its own, served by the probes that tracetools has loaded.
+#define LTTNG_UST_TRACEPOINT_DEFINE
+#define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
+#include "provider.h"
+
+extern "C" void empty_call(const void*, const void*);
+
+namespace {
+
+const void* const kHandle = &kHandle;
+
+double floor_ns = 0;  // of EmptyCall, which runs first
+
+double thread_cpu_ns() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
+}
+
+// Runs `step` and reports its time as a multiple of the floor.
+template <typename Step>
+void measure(benchmark::State& state, Step step) {
+  const double begin = thread_cpu_ns();
+  for (auto _ : state) step();
+  const double per_step = (thread_cpu_ns() - begin) / static_cast<double>(state.iterations());
+  if (floor_ns == 0) floor_ns = per_step;
+  state.counters["of_floor"] = per_step / floor_ns;
+  state.SetLabel(TRACETOOLS_TRACEPOINT_ENABLED(rcl_publish) ? "recorded" : "idle");
+}
+
+void EmptyCall(benchmark::State& state) {
+  floor_ns = 0;
+  measure(state, [&] { empty_call(kHandle, &state); });
+}
+BENCHMARK(EmptyCall);
+
+void LibraryTracepoint(benchmark::State& state) {
+  measure(state, [&] { TRACETOOLS_TRACEPOINT(rcl_publish, kHandle, &state); });
+}
+BENCHMARK(LibraryTracepoint);
+
+void EnabledCheck(benchmark::State& state) {
+  measure(state, [] { benchmark::DoNotOptimize(TRACETOOLS_TRACEPOINT_ENABLED(rcl_publish)); });
+}
+BENCHMARK(EnabledCheck);
+
+void InlineTracepoint(benchmark::State& state) {
+  measure(state, [&] { lttng_ust_tracepoint(ros2, rcl_publish, kHandle, &state); });
+}
+BENCHMARK(InlineTracepoint);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,2 @@
+// The floor of a tracepoint that stands behind a library's function: the call alone.
+extern "C" void empty_call(const void*, const void*) {}

@@ -1,0 +1,199 @@
+// The command line of the launcher, and what it says to files that it can't read: exit code 1, the place, nothing started.
+#include <gmock/gmock.h>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandResult launch(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), LAUNCH_PROGRAM);
+    return run_command(arguments);
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
+  const CommandResult result = launch({"--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* const part : {"--dry-run", "--show-args", "--timing", "launch trace", "launch report"}) {
+    EXPECT_THAT(result.out, HasSubstr(part));
+  }
+  EXPECT_EQ(launch({"trace", "--help"}).exit_code, 0);
+  EXPECT_EQ(launch({"report", "--help"}).exit_code, 0);
+}
+
+TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
+  EXPECT_EQ(launch({}).err, "launch: error: no launch file given, see launch --help\n");
+  EXPECT_EQ(launch({}).exit_code, 2);
+  EXPECT_EQ(launch({"file.xml", "x:="}).err,
+            "launch: error: malformed launch argument 'x:=', expected format '<name>:=<value>'\n");
+  EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err, "launch: error: --dry-run=xml is unknown, expected text or json\n");
+  EXPECT_EQ(launch({"--no-such-option", "file.xml"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, MissingFilesAndPackagesAreNamed) {
+  const CommandResult file = launch({"nowhere.launch.xml"});
+  EXPECT_EQ(file.exit_code, 1);
+  EXPECT_THAT(file.err, StartsWith("error: launch file 'nowhere.launch.xml' does not exist\n"));
+  const CommandResult in_package = launch({"launch_examples", "01_ping_pon.launch.xml"});
+  EXPECT_EQ(in_package.exit_code, 1);
+  EXPECT_THAT(in_package.err, HasSubstr("file '01_ping_pon.launch.xml' was not found in the share directory of package "
+                                        "'launch_examples'"));
+  EXPECT_THAT(in_package.err, HasSubstr("did you mean '01_ping_pong.launch.xml'?"));
+  EXPECT_EQ(launch({"--show-args", "launch_examples", "01_ping_pong.launch.xml"}).exit_code, 0);
+}
+
+TEST_F(CommandLine, ShowArgsIsEqualForBothFormats) {
+  const CommandResult xml = launch({"--show-args", EXAMPLES_DIRECTORY "/01_ping_pong.launch.xml"});
+  const CommandResult yaml = launch({"-s", EXAMPLES_DIRECTORY "/01_ping_pong.launch.yaml"});
+  EXPECT_EQ(xml.exit_code, 0);
+  EXPECT_EQ(xml.out,
+            "Arguments (pass arguments as '<name>:=<value>'):\n"
+            "\n"
+            "    'count':\n"
+            "        how many messages ping sends; 0: until it is stopped\n"
+            "        (default: '10')\n"
+            "\n"
+            "    'period_ms':\n"
+            "        milliseconds between two messages\n"
+            "        (default: '100')\n");
+  EXPECT_EQ(xml.out, yaml.out);
+}
+
+TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
+  const auto file = sandbox_.directory() / "system.launch.xml";
+  write_file(file, R"xml(<launch>
+  <set_env name="A" value="it's"/>
+  <unset_env name="GONE"/>
+  <executable cmd="echo 'a b' $(env A)" cwd="/tmp" name="talker">
+    <env name="B" value="2"/>
+  </executable>
+  <node exec="/bin/true" name="n" namespace="/ns">
+    <param name="rate" value="10"/>
+  </node>
+</launch>
+)xml");
+  const Command text{.argv = {LAUNCH_PROGRAM, "--dry-run", file.string()}, .environment = {{"GONE", "1"}}};
+  EXPECT_EQ(run_command(text).out, "talker (" + file.string() +
+                                       ":4:4)\n"
+                                       "  echo 'a b' 'it'\\''s'\n"
+                                       "  cwd: /tmp\n"
+                                       "  env: A='it'\\''s'\n"
+                                       "  env: B=2\n"
+                                       "  env: GONE removed\n"
+                                       "\n"
+                                       "true (" +
+                                       file.string() +
+                                       ":7:4)\n"
+                                       "  /bin/true --ros-args -r __node:=n -r __ns:=/ns --params-file @params:0\n"
+                                       "  env: A='it'\\''s'\n"
+                                       "  env: GONE removed\n"
+                                       "  @params:0:\n"
+                                       "      /ns/n:\n"
+                                       "        ros__parameters:\n"
+                                       "          rate: 10\n"
+                                       "\n"
+                                       "2 processes, 0 traces; nothing was started\n");
+  const Command json{.argv = {LAUNCH_PROGRAM, "--dry-run=json", file.string()}, .environment = {{"GONE", "1"}}};
+  EXPECT_EQ(run_command(json).out, R"json({
+  "processes": [
+    {
+      "name": "talker",
+      "argv": [
+        "echo",
+        "a b",
+        "it's"
+      ],
+      "cwd": "/tmp",
+      "env": {
+        "A": "it's",
+        "B": "2",
+        "GONE": null
+      },
+      "shell": false,
+      "source": {
+        "file": ")json" + file.string() + R"json(",
+        "line": 4
+      }
+    },
+    {
+      "name": "true",
+      "argv": [
+        "/bin/true",
+        "--ros-args",
+        "-r",
+        "__node:=n",
+        "-r",
+        "__ns:=/ns",
+        "--params-file",
+        "@params:0"
+      ],
+      "cwd": null,
+      "env": {
+        "A": "it's",
+        "GONE": null
+      },
+      "shell": false,
+      "source": {
+        "file": ")json" + file.string() + R"json(",
+        "line": 7
+      }
+    }
+  ],
+  "params": [
+    "/ns/n:\n  ros__parameters:\n    rate: 10\n"
+  ],
+  "traces": []
+}
+)json");
+}
+
+struct Malformed {
+  const char* name;
+  const char* file;   // suffix decides the format
+  const char* text;   // the second line starts a process, were the file taken
+  const char* error;  // after "FILE:"
+};
+
+class MalformedFiles : public CommandLine, public testing::WithParamInterface<Malformed> {};
+
+TEST_P(MalformedFiles, AreErrorsAtTheirPlaceAndStartNothing) {
+  const Malformed& malformed = GetParam();
+  const auto file = sandbox_.directory() / malformed.file;
+  const auto witness = sandbox_.directory() / "started";
+  write_file(file, malformed.text);
+  const CommandResult result = run_command(Command{.argv = {LAUNCH_PROGRAM, file.string(), "witness:=" + witness.string()}});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, StartsWith(file.string() + ":" + malformed.error)) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("^"));
+  EXPECT_FALSE(std::filesystem::exists(witness));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ten, MalformedFiles,
+    testing::Values(
+        Malformed{"UnclosedTag", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<group>\n</launch>\n", "3:1: error: <group> is never closed\n"},
+        Malformed{"TwoRoots", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n</launch>\n<launch/>\n", "4:"},
+        Malformed{"WrongRoot", "a.launch.xml", "<lunch>\n<executable cmd='touch $(var witness)'/>\n</lunch>\n", "1:2: error: "},
+        Malformed{"DuplicateAttribute", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='a' message='b'/>\n</launch>\n", "3:18: error: "},
+        Malformed{"UnknownXmlEntity", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='&nope;'/>\n</launch>\n", "3:15: error: "},
+        Malformed{"UnknownTag", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<nodes/>\n</launch>\n", "3:2: error: unrecognized entity of the type 'nodes'\n"},
+        Malformed{"UnknownSubstitution", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(vr x)'/>\n</launch>\n", "3:"},
+        Malformed{"UnbalancedSubstitution", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(var x'/>\n</launch>\n", "3:"},
+        Malformed{"TabInYaml", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- log:\n\tmessage: x\n", "4:1: error: "},
+        Malformed{"TwoKeysInAYamlAction", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- log: {message: x}\n  let: {name: a, value: b}\n", "4:"},
+        Malformed{"NullYamlAction", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- shutdown:\n", "3:"},
+        Malformed{"WrongYamlType", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- arg: {name: a, default: 1}\n", "3:27: error: attribute 'default' of 'arg' is expected to be of type str, got int\n"},
+        Malformed{"UndefinedVariable", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(var nothing)'/>\n</launch>\n", "3:"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+}  // namespace

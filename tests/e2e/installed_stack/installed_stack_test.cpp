@@ -1,0 +1,72 @@
+// The stack as its users have it: installed, moved, and found by a project of their own.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::Command;
+using test_support::CommandResult;
+using test_support::run_command;
+
+constexpr std::chrono::seconds kBuildTimeout{120};
+
+CommandResult run(std::vector<std::string> argv) {
+  const CommandResult result = run_command(Command{std::move(argv)}, kBuildTimeout);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  return result;
+}
+
+class InstalledStack : public testing::Test {
+ protected:
+  void SetUp() override {
+    run({CMAKE, "--install", STACK_BUILD, "--prefix", (sandbox_.directory() / "first").string()});
+    fs::rename(sandbox_.directory() / "first", prefix_);
+  }
+
+  test_support::Sandbox sandbox_;
+  const fs::path prefix_ = sandbox_.directory() / "moved";
+};
+
+TEST_F(InstalledStack, ServesAProjectWithItsOwnMessages) {
+  const fs::path build = sandbox_.directory() / "build";
+  run({CMAKE, "-S", OUTSIDE_PROJECT, "-B", build.string(), "-G", GENERATOR, "-DCMAKE_PREFIX_PATH=" + prefix_.string(),
+       "-DCMAKE_CXX_COMPILER=" COMPILER, "-DCMAKE_CXX_COMPILER_LAUNCHER=" COMPILER_LAUNCHER});
+  run({CMAKE, "--build", build.string()});
+  const CommandResult result = run({(build / "print_report").string()});
+  EXPECT_EQ(result.out,
+            "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"\"}, temperature: 20.5, sky: \"clear\"}\ntracing on\n");
+
+  // What the project installs is a package of the same shape.
+  const fs::path other = sandbox_.directory() / "other";
+  run({CMAKE, "--install", build.string(), "--prefix", other.string()});
+  for (const char* file :
+       {"lib/libweather.so", "include/weather/weather/msg/report.hpp", "share/weather/msg/Report.msg",
+        "share/weather/cmake/weatherConfig.cmake", "share/ament_index/resource_index/packages/weather"}) {
+    EXPECT_TRUE(fs::exists(other / file)) << file;
+  }
+}
+
+TEST_F(InstalledStack, FindsItsLibrariesWhereItWasMovedTo) {
+  EXPECT_EQ(run({(prefix_ / "lib/tracetools/status").string()}).out, "Tracing enabled\n");
+  const std::string libraries = run({"ldd", (prefix_ / "lib/tracetools/status").string()}).out;
+  EXPECT_NE(libraries.find(prefix_.string()), std::string::npos) << libraries;
+}
+
+TEST_F(InstalledStack, HoldsNoPathOfTheBuild) {
+  const std::string build_root = fs::path(STACK_BUILD).parent_path().string();
+  int files = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(prefix_)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".cmake" && extension != ".hpp" && extension != ".h" && extension != ".xml") continue;
+    ++files;
+    EXPECT_EQ(test_support::read_file(entry.path()).find(build_root), std::string::npos) << entry.path();
+  }
+  EXPECT_GT(files, 100);
+}
+
+}  // namespace

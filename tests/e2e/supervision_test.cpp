@@ -1,0 +1,118 @@
+// Real processes that misbehave: what ignores signals, crashes, can't start, or leaves children.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::HasSubstr;
+using testing::Not;
+
+class Supervision : public testing::Test {
+ protected:
+  std::string write(const std::string& actions) {
+    const auto path = sandbox_.directory() / "system.launch.xml";
+    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
+    return path.string();
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(Supervision, ANodeThatIgnoresSigintIsTerminatedThenKilled) {
+  const std::string file = write(R"xml(
+    <executable name="stubborn" shell="true" output="screen" sigterm_timeout="0.2" sigkill_timeout="0.2"
+                cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("sending signal 'SIGINT' to process[stubborn-1]"));
+  EXPECT_THAT(result.out, HasSubstr("process[stubborn-1] failed to terminate '0.2' seconds after receiving 'SIGINT', "
+                                    "escalating to 'SIGTERM'"));
+  EXPECT_THAT(result.out, HasSubstr("seconds after receiving 'SIGTERM', escalating to 'SIGKILL'"));
+  EXPECT_THAT(result.out, HasSubstr("exit code -9"));
+}
+
+TEST_F(Supervision, TwoCtrlCsEndAtOnceAndStillDestroyTheSession) {
+  const std::string file = write(R"xml(
+    <trace session-name="hurry"/>
+    <executable name="stubborn" shell="true" output="screen" cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
+  run.send_signal(SIGINT);
+  ASSERT_TRUE(run.wait_for_output("sending signal 'SIGINT'"));
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait(std::chrono::seconds(4));  // less than the five seconds until SIGTERM
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_THAT(result.out, HasSubstr("again, killing what is left"));
+  const CommandResult sessions = run_command({"lttng", "list"});
+  EXPECT_THAT(sessions.out + sessions.err, HasSubstr("Currently no available recording session"));
+}
+
+TEST_F(Supervision, ACrashIsReportedWithItsLineAndTheRestGoesOn) {
+  const std::string file = write(R"xml(<executable name="crasher" cmd="kill -SEGV $$" shell="true"/>
+<executable name="other" cmd="echo fine" output="screen"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("exit code -11"));
+  EXPECT_THAT(result.out, HasSubstr(file + ":2:2"));
+  EXPECT_THAT(result.out, HasSubstr("[other-2] fine"));
+}
+
+TEST_F(Supervision, AMissingProgramIsReportedWithItsLineAndExitCodeOne) {
+  const std::string file = write(R"xml(<executable cmd="no-such-program-at-all"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("no-such-program-at-all"));
+  EXPECT_THAT(result.out, HasSubstr(file + ":2:2"));
+}
+
+TEST_F(Supervision, AMissingNodeStartsNothing) {
+  const std::string file = write(R"xml(<executable cmd="echo started" output="screen"/>
+<node pkg="demo_nodes" exec="pingg"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(file + ":3:30: error: executable 'pingg' not found on the libexec directory"));
+  EXPECT_THAT(result.err, HasSubstr("did you mean 'ping'?"));
+  EXPECT_THAT(result.out, Not(HasSubstr("started")));
+}
+
+TEST_F(Supervision, SigtermToTheLauncherEndsItsProcesses) {
+  const std::string file = write(R"xml(<executable name="waiter" shell="true" output="screen" cmd="echo ready; exec cat"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[waiter-1] ready"));
+  run.send_signal(SIGTERM);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(result.output_closed);
+  EXPECT_THAT(result.out, HasSubstr("user interrupted with SIGTERM"));
+}
+
+TEST_F(Supervision, DescendantsDontSurvive) {
+  const std::string file = write(R"xml(
+    <executable name="parent" shell="true" output="screen" sigterm_timeout="0.1" sigkill_timeout="0.1"
+                cmd="trap exit INT; (trap : INT TERM; echo ready; while :; do read x; done) &amp; wait"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[parent-1] ready"));
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+  EXPECT_THAT(sandbox_.end_processes(), testing::IsEmpty());
+}
+
+TEST_F(Supervision, AnErrorOfTracingStartsNothing) {
+  const std::string file = write(R"xml(<trace session-name="taken"/>
+<executable cmd="echo started" output="screen"/>)xml");
+  ASSERT_EQ(run_command({LAUNCH_PROGRAM, file}).exit_code, 0);
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});  // its directory exists now
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(file + ":2:2: error: tracing setup failed: "));
+  EXPECT_THAT(result.err, HasSubstr("append-trace"));
+  EXPECT_THAT(result.out, Not(HasSubstr("[echo-1] started")));
+}
+
+}  // namespace

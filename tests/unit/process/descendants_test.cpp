@@ -1,0 +1,106 @@
+// What happens to the group of a process when the process itself exits first. That its number is never used after the
+// process was reaped is checked by FakeProcessRunner, which throws then.
+#include "supervisor_fixture.hpp"
+
+namespace launch {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Descendants : public SupervisorFixture {};
+
+TEST_F(Descendants, ThatHoldTheOutputDoNotDelayTheReportOfAnExit) {
+  runner.script("a", {{.exits_after = 1s, .output = {{.at = 3s, .text = "late\n"}}, .descendants_for = 10s}});
+  supervisor->start(spec("a"));
+  loop.advance(1s);
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "1.0 a-1 exited 0", "1.0 a-1 done"}));
+  EXPECT_EQ(runner.unreaped(), 1U) << "the number of the group stays reserved";
+  loop.advance(3s);
+  EXPECT_EQ(screen.text(), "[a-1] late\n");
+  loop.advance(10s);
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, OfAProcessThatExitedOnItsOwnAreInterruptedAtShutdownAndKilledAtTheEnd) {
+  runner.script("a", {{.exits_after = 1s, .ignores = {SIGINT}, .descendants_for = 100s}});
+  supervisor->start(spec("a"));
+  loop.advance(1s);
+  supervisor->shutdown();
+  supervisor.reset();
+  EXPECT_EQ(runner.signals_of(pid_of_start(0)), (std::vector<int>{SIGINT, SIGKILL}));
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, AreKilledByKillAll) {
+  runner.script("a", {{.exits_after = 1s, .ignores = {SIGINT, SIGTERM}, .descendants_for = 100s}});
+  supervisor->start(spec("a"));
+  loop.advance(1s);
+  supervisor->kill_all();
+  EXPECT_EQ(runner.signals_of(pid_of_start(0)), (std::vector<int>{SIGKILL}));
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, GetSigtermWhenAnInterruptedProcessExitsBeforeThem) {
+  runner.script("a", {{.dies_after = 1s, .descendants_for = 2s}});
+  supervisor->start(spec("a"));
+  supervisor->shutdown();
+  loop.advance(1s);
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "0.0 a-1 SIGINT", "1.0 a-1 exited -2, expected", "1.0 a-1 SIGTERM",
+                          "1.0 a-1 done"}));
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, GetTimeToEndAndThenSigkill) {
+  runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 100s}});
+  supervisor->start(spec("a"));
+  supervisor->shutdown();
+  loop.run_until_idle();
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "0.0 a-1 SIGINT", "0.0 a-1 exited -2, expected", "0.0 a-1 SIGTERM"}));
+  EXPECT_EQ(supervisor->active(), 1U);
+  take_lines();
+  loop.advance(5s);
+  EXPECT_EQ(lines, (Lines{"5.0 a-1 SIGKILL after SIGTERM and 5 s", "5.0 a-1 done"}));
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, ThatEndInTimeAreNotKilledByName) {
+  runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 2s}});
+  supervisor->start(spec("a"));
+  supervisor->shutdown();
+  loop.advance(60s);
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "0.0 a-1 SIGINT", "0.0 a-1 exited -2, expected", "0.0 a-1 SIGTERM",
+                          "2.0 a-1 done"}));
+}
+
+TEST_F(Descendants, AreKilledWithAKilledProcess) {
+  runner.script("a", {{.ignores = {SIGINT, SIGTERM}, .descendants_for = 100s}});
+  supervisor->start(spec("a"));
+  supervisor->kill_all();
+  loop.run_until_idle();
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "0.0 a-1 SIGKILL", "0.0 a-1 exited -9, expected", "0.0 a-1 done"}));
+}
+
+TEST_F(Descendants, WaitingForTheirEndAreKilledByKillAll) {
+  runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 100s}});
+  supervisor->start(spec("a"));
+  supervisor->shutdown();
+  loop.run_until_idle();
+  take_lines();
+  supervisor->kill_all();
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 SIGKILL", "0.0 a-1 done"}));
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, AreKilledBeforeARespawn) {
+  runner.script("a", {{.exits_after = 1s, .ignores = {SIGINT, SIGTERM}, .descendants_for = 100s}, {}});
+  ProcessSpec respawning = spec("a");
+  respawning.respawn.enabled = true;
+  supervisor->start(respawning);
+  loop.advance(1s);
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "1.0 a-1 exited 0, again", "1.0 a-1 started"}));
+  EXPECT_EQ(runner.signals_of(pid_of_start(0)), (std::vector<int>{SIGKILL}));
+  EXPECT_EQ(runner.unreaped(), 1U) << "only the new run";
+}
+
+}  // namespace
+}  // namespace launch

@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include <rclcpp/parameter.hpp>
+
+using rclcpp::Parameter;
+using rclcpp::ParameterValue;
+
+namespace {
+
+TEST(ParameterValue, KeepsEachTypeAndPrintsIt) {
+  EXPECT_EQ(ParameterValue(true).get<bool>(), true);
+  EXPECT_EQ(ParameterValue(3).get<int64_t>(), 3);
+  EXPECT_EQ(ParameterValue(3).get<int>(), 3);
+  EXPECT_EQ(ParameterValue(1.5f).get<double>(), 1.5);
+  EXPECT_EQ(ParameterValue("text").get<std::string>(), "text");
+  EXPECT_EQ(ParameterValue(std::vector<int>{1, 2}).get<std::vector<int64_t>>(), (std::vector<int64_t>{1, 2}));
+  EXPECT_EQ(ParameterValue(std::vector<float>{0.5f}).get<std::vector<double>>(), (std::vector<double>{0.5}));
+
+  EXPECT_EQ(to_string(ParameterValue()), "not set");
+  EXPECT_EQ(to_string(ParameterValue(std::vector<bool>{true, false})), "[true, false]");
+  EXPECT_EQ(to_string(ParameterValue(std::vector<uint8_t>{10, 255})), "[0xa, 0xff]");
+  EXPECT_EQ(to_string(ParameterValue(std::vector<std::string>{"a", "b"})), "[\"a\", \"b\"]");
+  EXPECT_EQ(to_string(rclcpp::PARAMETER_DOUBLE_ARRAY), "double_array");
+}
+
+TEST(ParameterValue, RefusesAnotherType) {
+  try {
+    ParameterValue(1).get<double>();
+    FAIL() << "no exception";
+  } catch (const rclcpp::ParameterTypeException& error) {
+    EXPECT_STREQ(error.what(), "expected [double] got [integer]");
+  }
+}
+
+TEST(Parameter, RefusesAnotherTypeWithItsName) {
+  try {
+    (void)Parameter("speed", 1).as_double();
+    FAIL() << "no exception";
+  } catch (const rclcpp::exceptions::InvalidParameterTypeException& error) {
+    EXPECT_STREQ(error.what(), "parameter 'speed' has invalid type: expected [double] got [integer]");
+  }
+}
+
+TEST(Parameter, ConvertsToAMessageAndBack) {
+  const Parameter parameter("name", std::vector<std::string>{"x"});
+  EXPECT_EQ(Parameter::from_parameter_msg(parameter.to_parameter_msg()), parameter);
+  EXPECT_EQ(to_string(parameter), R"({"name": "name", "type": "string_array", "value": "["x"]"})");
+}
+
+}  // namespace
