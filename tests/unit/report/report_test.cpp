@@ -186,7 +186,8 @@ TEST(JsonReport, HoldsEverything) {
   EXPECT_EQ(json["processes"],
             nlohmann::json::parse(R"json([{"vpid":71,"name":"ping","events":10,"doubtful":false}])json"));
   EXPECT_EQ(json["losses"], nlohmann::json::parse(R"json([{"stream":"/traces/run/ust/uid/0/64-bit/ros2_0","events":37,
-      "packets":3,"uncounted":true,"begin_ns":1767225600500000000,"end_ns":1767225601500000000,"processes":[0]}])json"));
+      "packets":3,"uncounted":true,"begin_ns":1767225600500000000,"end_ns":1767225601500000000,
+      "processes":[0]}])json"));
   EXPECT_EQ(json["callbacks"][0],
             nlohmann::json::parse(R"json({"vpid":71,"node":"","owner":"unknown","address":203,"symbol":"",
       "duration":{"count":0},"intra_process":0,"unfinished":1})json"));
