@@ -186,6 +186,9 @@ void Sandbox::enter_namespaces() {
 }
 
 void Sandbox::leave_namespaces() {
+  // Libraries keep threads that they started during the test. They share our root and working directory, and a thread
+  // that shares these may not change its mount namespace (setns(2)).
+  if (mount_namespace_ >= 0) check(unshare(CLONE_FS), "unshare the working directory");
   for (int* fd : {&mount_namespace_, &network_namespace_}) {
     if (*fd < 0) continue;
     if (setns(*fd, 0) != 0) ADD_FAILURE() << "cannot return to the first namespace: " << std::strerror(errno);

@@ -190,9 +190,8 @@ bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds ti
 
 bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
-  if (const size_t removals = entities_->removals(); removals != removals_) {
+  if (entities_->removals() != removals_before_wait_) {
     // Nothing is lost: messages and timer calls are taken only below, and the next wait finds them again.
-    removals_ = removals;
     ready_.clear();
   }
   while (!ready_.empty()) {
@@ -214,6 +213,7 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
 
 void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
+  removals_before_wait_ = entities_->removals();
   ExecutorEntities::Ready ready = entities_->wait(timeout);
   for (TimerBase::WeakPtr& timer : ready.timers) {
     ready_.emplace_back(std::move(timer));

@@ -1,0 +1,110 @@
+#include "rcutils/logging.h"
+
+#include <array>
+#include <cstdlib>
+
+#include "rcl_test.hpp"
+
+namespace {
+
+constexpr rcutils_log_location_t kLocation{"function", "dir/file.cpp", 42};
+constexpr rcutils_time_point_value_t kTime = 1700000000123456789;
+
+// Logging that starts anew with the environment of the test.
+class Logging : public testing::Test {
+ protected:
+  Logging() { clear(); }
+  ~Logging() override { clear(); }
+
+  static void clear() {
+    for (const char* variable : {"RCUTILS_CONSOLE_OUTPUT_FORMAT", "RCUTILS_COLORIZED_OUTPUT",
+                                 "RCUTILS_LOGGING_USE_STDOUT", "RCUTILS_LOGGING_BUFFERED_STREAM"}) {
+      unsetenv(variable);
+    }
+    EXPECT_EQ(rcutils_logging_shutdown(), RCUTILS_RET_OK);
+  }
+
+  // What the console handler writes to stderr for a message at kTime.
+  static std::string line(int severity, const char* name, const char* format, ...) {
+    testing::internal::CaptureStderr();
+    va_list args;
+    va_start(args, format);
+    rcutils_logging_console_output_handler(&kLocation, severity, name, kTime, format, &args);
+    va_end(args);
+    return testing::internal::GetCapturedStderr();
+  }
+};
+
+TEST_F(Logging, WritesSeverityTimeNameAndMessageToStderr) {
+  EXPECT_EQ(line(RCUTILS_LOG_SEVERITY_INFO, "ns.talker", "Publishing: '%s %d'", "Hello", 5),
+            "[INFO] [1700000000.123456789] [ns.talker]: Publishing: 'Hello 5'\n");
+}
+
+TEST_F(Logging, WritesLongMessagesWhole) {
+  const std::string text(100000, 'x');
+  EXPECT_EQ(line(RCUTILS_LOG_SEVERITY_WARN, "a", "%s", text.c_str()),
+            "[WARN] [1700000000.123456789] [a]: " + text + "\n");
+}
+
+TEST_F(Logging, FollowsTheFormatOfTheEnvironment) {
+  setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT",
+         "{function_name}:{file_name}:{line_number} {time_as_nanoseconds}\\t{x} {message", 1);
+  EXPECT_EQ(line(RCUTILS_LOG_SEVERITY_INFO, "a", "m"), "function:dir/file.cpp:42 1700000000123456789\t{x} {message\n");
+}
+
+TEST_F(Logging, ColorsWholeLinesWhenTold) {
+  setenv("RCUTILS_COLORIZED_OUTPUT", "1", 1);
+  setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "{message}", 1);
+  EXPECT_EQ(line(RCUTILS_LOG_SEVERITY_ERROR, "a", "m"), "\033[31mm\033[0m\n");
+}
+
+TEST_F(Logging, WritesToStdoutWhenTold) {
+  setenv("RCUTILS_LOGGING_USE_STDOUT", "1", 1);
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(line(RCUTILS_LOG_SEVERITY_INFO, "a", "m"), "");
+  std::fflush(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "[INFO] [1700000000.123456789] [a]: m\n");
+}
+
+TEST_F(Logging, RefusesAWrongSwitch) {
+  setenv("RCUTILS_COLORIZED_OUTPUT", "yes", 1);
+  EXPECT_EQ(rcutils_logging_initialize(), RCUTILS_RET_INVALID_ARGUMENT);
+  EXPECT_EQ(rcl_test::take_error(), "RCUTILS_COLORIZED_OUTPUT is 'yes', but must be 0 or 1");
+}
+
+TEST_F(Logging, LevelsAreInheritedAlongTheName) {
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a.b.c"), RCUTILS_LOG_SEVERITY_INFO);
+  ASSERT_EQ(rcutils_logging_set_logger_level("a", RCUTILS_LOG_SEVERITY_ERROR), RCUTILS_RET_OK);
+  ASSERT_EQ(rcutils_logging_set_logger_level("a.b.c", RCUTILS_LOG_SEVERITY_DEBUG), RCUTILS_RET_OK);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a.b"), RCUTILS_LOG_SEVERITY_ERROR);
+  EXPECT_EQ(rcutils_logging_get_logger_level("a.b"), RCUTILS_LOG_SEVERITY_UNSET);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a.b.c.d"), RCUTILS_LOG_SEVERITY_DEBUG);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("ab"), RCUTILS_LOG_SEVERITY_INFO);
+  EXPECT_FALSE(rcutils_logging_logger_is_enabled_for("a.b", RCUTILS_LOG_SEVERITY_WARN));
+  EXPECT_TRUE(rcutils_logging_logger_is_enabled_for("a.b.c", RCUTILS_LOG_SEVERITY_DEBUG));
+  ASSERT_EQ(rcutils_logging_set_logger_level("a", RCUTILS_LOG_SEVERITY_UNSET), RCUTILS_RET_OK);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a.b"), RCUTILS_LOG_SEVERITY_INFO);
+}
+
+TEST_F(Logging, IsConfiguredByArguments) {
+  const rcl_test::Arguments arguments(
+      {"program", "--ros-args", "--log-level", "warn", "--log-level", "a.b:=debug", "--disable-rosout-logs"});
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  ASSERT_EQ(rcl_logging_configure(&arguments.handle, &allocator), RCL_RET_OK);
+  EXPECT_EQ(rcutils_logging_get_default_logger_level(), RCUTILS_LOG_SEVERITY_WARN);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a.b.c"), RCUTILS_LOG_SEVERITY_DEBUG);
+  EXPECT_FALSE(rcl_logging_rosout_enabled());
+  EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
+}
+
+TEST_F(Logging, IsSilentOnTheConsoleWhenTold) {
+  const rcl_test::Arguments arguments({"program", "--ros-args", "--disable-stdout-logs"});
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  ASSERT_EQ(rcl_logging_configure(&arguments.handle, &allocator), RCL_RET_OK);
+  testing::internal::CaptureStderr();
+  rcutils_log(&kLocation, RCUTILS_LOG_SEVERITY_FATAL, "a", "nothing");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
+}
+
+}  // namespace

@@ -1,0 +1,217 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "rcl/parameter_overrides.hpp"
+#include "rcl_test.hpp"
+
+namespace {
+
+using rcl::ParameterOverrides;
+using rcl::ParameterValue;
+using rcl_test::Arguments;
+using testing::ElementsAre;
+using testing::Pair;
+
+struct Typed {
+  const char* text;
+  ParameterValue expected;
+};
+
+std::ostream& operator<<(std::ostream& out, const Typed& typed) {
+  return out << typed.text;
+}
+
+class ParameterText : public testing::TestWithParam<Typed> {};
+
+TEST_P(ParameterText, HasTheTypeThatRosGivesIt) {
+  ParameterOverrides overrides;
+  overrides.set_from_text("/**", "x", GetParam().text);
+  EXPECT_THAT(overrides.for_node("/talker"), ElementsAre(Pair("x", GetParam().expected)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Bool, ParameterText,
+                         testing::Values(Typed{"true", true}, Typed{"True", true}, Typed{"yes", true},
+                                         Typed{"on", true}, Typed{"y", true}, Typed{"Y", true}, Typed{"false", false},
+                                         Typed{"No", false}, Typed{"OFF", false}, Typed{"n", false}));
+INSTANTIATE_TEST_SUITE_P(Integer, ParameterText,
+                         testing::Values(Typed{"1", std::int64_t{1}}, Typed{"-7", std::int64_t{-7}},
+                                         Typed{"+7", std::int64_t{7}}, Typed{"0x1F", std::int64_t{31}},
+                                         Typed{"010", std::int64_t{8}}, Typed{"0", std::int64_t{0}},
+                                         Typed{"9223372036854775807", std::numeric_limits<std::int64_t>::max()}));
+INSTANTIATE_TEST_SUITE_P(Double, ParameterText,
+                         testing::Values(Typed{"1.0", 1.0}, Typed{"1e3", 1000.0}, Typed{".5", 0.5},
+                                         Typed{"inf", std::numeric_limits<double>::infinity()},
+                                         Typed{".inf", std::numeric_limits<double>::infinity()},
+                                         Typed{"-.inf", -std::numeric_limits<double>::infinity()},
+                                         Typed{"9223372036854775808", 9223372036854775808.0}));
+INSTANTIATE_TEST_SUITE_P(String, ParameterText,
+                         testing::Values(Typed{"hello", "hello"}, Typed{"'1'", "1"}, Typed{"\"true\"", "true"},
+                                         Typed{"''", ""}, Typed{"null", "null"}, Typed{"~", "~"}, Typed{"1:30", "1:30"},
+                                         Typed{"2024-01-01", "2024-01-01"}, Typed{"!!str 5", "5"},
+                                         Typed{"1_000", "1_000"}, Typed{"tRUE", "tRUE"}, Typed{"a b c", "a b c"}));
+INSTANTIATE_TEST_SUITE_P(List, ParameterText,
+                         testing::Values(Typed{"[1, 2]", std::vector<std::int64_t>{1, 2}},
+                                         Typed{"[1.5, .2]", std::vector<double>{1.5, 0.2}},
+                                         Typed{"[yes, off]", std::vector<bool>{true, false}},
+                                         Typed{"[a, '1']", std::vector<std::string>{"a", "1"}}));
+
+TEST(ParameterText, NanIsADouble) {
+  ParameterOverrides overrides;
+  overrides.set_from_text("/**", "x", ".nan");
+  const auto values = overrides.for_node("/talker");
+  EXPECT_NE(std::get<double>(values.at("x")), std::get<double>(values.at("x")));
+}
+
+struct Pattern {
+  const char* pattern;
+  const char* node;
+  bool matches;
+};
+
+std::ostream& operator<<(std::ostream& out, const Pattern& p) {
+  return out << p.pattern << " on " << p.node;
+}
+
+class NodePattern : public testing::TestWithParam<Pattern> {};
+
+TEST_P(NodePattern, MatchesFullNames) {
+  ParameterOverrides overrides;
+  overrides.set(GetParam().pattern, "x", true);
+  EXPECT_EQ(overrides.for_node(GetParam().node).size(), GetParam().matches ? 1u : 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vectors, NodePattern,
+                         testing::Values(Pattern{"/**", "/talker", true}, Pattern{"/**", "/a/b/talker", true},
+                                         Pattern{"/talker", "/talker", true}, Pattern{"talker", "/talker", true},
+                                         Pattern{"talker", "/ns/talker", false},
+                                         Pattern{"/ns/talker", "/ns/talker", true},
+                                         Pattern{"/ns/talker", "/talker", false}, Pattern{"/*", "/talker", true},
+                                         Pattern{"/*", "/ns/talker", false}, Pattern{"/*/talker", "/ns/talker", true},
+                                         Pattern{"/*/talker", "/talker", false}, Pattern{"/**/talker", "/talker", true},
+                                         Pattern{"/**/talker", "/a/b/talker", true},
+                                         Pattern{"/**/talker", "/a/b/listener", false},
+                                         Pattern{"/ns/**", "/ns/a/b", true}, Pattern{"/ns/**", "/other/a", false},
+                                         Pattern{"/ns/*/x", "/ns/a/x", true}, Pattern{"/ns/*/x", "/ns/a/b/x", false},
+                                         Pattern{"/**/a/*", "/x/a/b", true}, Pattern{"/talk", "/talker", false}));
+
+// A file that is gone at the end of the test.
+class ParameterFile : public testing::Test {
+ protected:
+  ParameterFile() {
+    std::string path = (std::filesystem::temp_directory_path() / "parameters-XXXXXX").string();
+    const int descriptor = mkstemp(path.data());
+    EXPECT_NE(descriptor, -1);
+    close(descriptor);
+    path_ = path;
+  }
+  ~ParameterFile() override { std::filesystem::remove(path_); }
+
+  void write(const std::string& text) { std::ofstream(path_) << text; }
+
+  // Without the name of the file.
+  std::string load_error() {
+    ParameterOverrides overrides;
+    try {
+      overrides.load_file(path_);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).substr(path_.size());
+    }
+    return "no error";
+  }
+
+  std::string path_;
+};
+
+TEST_F(ParameterFile, NestsNodesAndParameters) {
+  write(R"(
+/**:
+  ros__parameters:
+    everywhere: 1
+ns:
+  talker:
+    ros__parameters:
+      rate: 10.0
+      qos:
+        depth: 5
+        names: [a, b]
+)");
+  ParameterOverrides overrides;
+  overrides.load_file(path_);
+  EXPECT_THAT(overrides.for_node("/ns/talker"),
+              ElementsAre(Pair("everywhere", ParameterValue(std::int64_t{1})),
+                          Pair("qos.depth", ParameterValue(std::int64_t{5})),
+                          Pair("qos.names", ParameterValue(std::vector<std::string>{"a", "b"})),
+                          Pair("rate", ParameterValue(10.0))));
+  EXPECT_EQ(overrides.for_node("/talker").size(), 1u);
+}
+
+TEST_F(ParameterFile, MayBeEmptyOrHaveNoParameters) {
+  ParameterOverrides overrides;
+  write("");
+  overrides.load_file(path_);
+  write("/**:\n  ros__parameters:\n");
+  overrides.load_file(path_);
+  write("/**:\n  ros__parameters: {}\n");
+  overrides.load_file(path_);
+  EXPECT_TRUE(overrides.empty());
+}
+
+TEST_F(ParameterFile, LaterValuesWinButPatternsKeepTheirFirstPlace) {
+  write("/**: {ros__parameters: {x: file, y: file}}");
+  const Arguments arguments({"program", "--ros-args", "-p", "talker:x:=node", "-p", "x:=all", "--params-file", path_});
+  ASSERT_EQ(arguments.result, RCL_RET_OK) << arguments.error;
+  // "/talker" was seen first, hence every value of "/**" is applied on top of it.
+  EXPECT_THAT(rcl::parameter_overrides(arguments.handle).for_node("/talker"),
+              ElementsAre(Pair("x", ParameterValue("file")), Pair("y", ParameterValue("file"))));
+
+  const Arguments reversed({"program", "--ros-args", "--params-file", path_, "-p", "talker:x:=node", "-p", "y:=all"});
+  EXPECT_THAT(rcl::parameter_overrides(reversed.handle).for_node("/talker"),
+              ElementsAre(Pair("x", ParameterValue("node")), Pair("y", ParameterValue("all"))));
+}
+
+TEST_F(ParameterFile, NamesTheLineOfAnError) {
+  write("talker:\n  ros__parameters:\n    x:\n");
+  EXPECT_EQ(load_error(), ":3: parameter 'x' has no value; an empty string is written \"\"");
+  write("talker:\n  ros__parameters:\n    x: [1, 2.5]\n");
+  EXPECT_EQ(load_error(),
+            ":3: the list of parameter 'x' must be of one type, but begins with a integer and has a double");
+  write("talker:\n  ros__parameters:\n    x: [[1]]\n");
+  EXPECT_EQ(load_error(), ":3: the list of parameter 'x' may only have plain values");
+  write("talker:\n  ros__parameters:\n    x: []\n");
+  EXPECT_EQ(load_error(), ":3: parameter 'x' is an empty list, which has no type");
+  write("talker:\n  rate: 5\n");
+  EXPECT_EQ(load_error(),
+            ":2: 'rate' stands where a node name is expected; parameters must stand below NODE: ros__parameters:");
+  write("ros__parameters:\n  x: 1\n");
+  EXPECT_EQ(load_error(), ":1: 'ros__parameters' must stand below a node name, such as '/**'");
+  write("talker:\n  ros__parameters: 5\n");
+  EXPECT_EQ(load_error(), ":2: 'ros__parameters' must hold parameters as NAME: VALUE");
+  write("- a\n- b\n");
+  EXPECT_EQ(load_error(), ":1: a parameter file must be a mapping of node names");
+  write("talker:\n  ros__parameters: &a\n    x: 1\nlistener: *a\n");
+  EXPECT_EQ(load_error(), ":4: aliases (*name) are not supported");
+  write("talker:\n  ros__parameters:\n    x: 'open\n");
+  EXPECT_EQ(load_error(), ":4: found unexpected end of stream");
+}
+
+TEST_F(ParameterFile, ChangesNothingWhenItIsWrong) {
+  write("talker: {ros__parameters: {x: 1, y: [1, a]}}");
+  ParameterOverrides overrides;
+  EXPECT_THROW(overrides.load_file(path_), std::invalid_argument);
+  EXPECT_TRUE(overrides.empty());
+}
+
+TEST(ParameterOverrides, OfADirectoryCannotBeRead) {
+  ParameterOverrides overrides;
+  try {
+    overrides.load_file("/");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "parameter file '/' cannot be read: Is a directory");
+  }
+}
+
+}  // namespace
