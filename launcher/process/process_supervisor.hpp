@@ -34,7 +34,7 @@ struct ProcessStarted {
   pid_t pid;
 };
 struct ProcessStartFailed {
-  std::string reason;  // "no program 'talkr' on PATH: No such file or directory"
+  std::string reason;  // "no program 'talkr' in the PATH of the process: No such file or directory"
   bool will_respawn = false;
 };
 struct ProcessExited {

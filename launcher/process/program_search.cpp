@@ -55,9 +55,8 @@ std::string find_program(const ProcessSpec& spec) {
   if (!not_executable.empty()) {
     throw std::system_error(EACCES, std::system_category(), fmt::format("'{}' is not executable", not_executable));
   }
-  throw std::system_error(
-      ENOENT, std::system_category(),
-      fmt::format("no program '{}' in PATH ({})", name, search.empty() ? "which is empty" : search));
+  throw std::system_error(ENOENT, std::system_category(),
+                          fmt::format("no program '{}' in the PATH of the process", name));
 }
 
 }  // namespace launch
