@@ -29,7 +29,7 @@ const char* rmw_get_serialization_format(void);
 rmw_node_t* rmw_create_node(rmw_context_t* context, const char* name, const char* namespace_);
 rmw_ret_t rmw_destroy_node(rmw_node_t* node);
 
-// Triggered whenever the graph as seen from this node changes. Owned by the node.
+// Triggered whenever the graph changes. Owned by the context, and shared by its nodes.
 const rmw_guard_condition_t* rmw_node_get_graph_guard_condition(const rmw_node_t* node);
 
 // ---- publishers
