@@ -12,6 +12,7 @@
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
 #include "launcher/core/launch_service.hpp"
+#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
 
 namespace launch {
@@ -60,10 +61,15 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   output.message(LogLevel::kInfo, "launch", fmt::format("All log files can be found below {}", log_directory.path));
   output.message(LogLevel::kInfo, "launch",
                  fmt::format("Default logging verbosity is set to {}", command.debug ? "DEBUG" : "INFO"));
+  if (!log_directory.warning.empty()) {
+    output.message(LogLevel::kWarning, "launch", log_directory.warning);
+  }
 
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
-  ProcessSupervisor supervisor(*loop, *runner, output);
+  Guardian guardian;
+  GuardedProcessRunner guarded_runner(*runner, guardian);
+  ProcessSupervisor supervisor(*loop, guarded_runner, output);
   supervisor.observe(process_messages(output));
 
   LaunchContext context(registry, environment, own_install_prefix(),
@@ -73,12 +79,8 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context.scope());
 
-  LaunchService service(context, *loop, supervisor, [&output](const LaunchError& error) {
-    output.flush();
-    print_error(error);
-  });
+  LaunchService service(context, *loop, supervisor, print_error);
   const int exit_code = service.run(*description);
-  output.flush();
   if (command.timing) {
     std::vector<TimedStep> steps = {std::move(load)};
     steps.insert(steps.end(), service.timing().begin(), service.timing().end());

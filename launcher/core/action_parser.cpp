@@ -96,7 +96,11 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
 
   const std::size_t errors_before = errors_.size();
   Fields fields(entity.where);
-  parse_attributes(entity, type->attributes, true, fields);
+  std::vector<std::string> item_tags;
+  for (const ItemSpec& item : type->items) {
+    item_tags.push_back(item.tag);
+  }
+  parse_attributes(entity, type->attributes, item_tags, true, fields);
   parse_condition(entity, fields);
 
   if (type->holds_actions && !entity.has_children_list) {
@@ -140,8 +144,8 @@ void ActionParser::report_unknown_child(const Entity& parent, const Entity& chil
   errors_.push_back({Severity::kError, message, child.where, did_you_mean(child.type_name, known)});
 }
 
-void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, bool conditions,
-                                    Fields& fields) {
+void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs,
+                                    const std::vector<std::string>& items, bool conditions, Fields& fields) {
   for (const Attribute& attribute : entity.attributes) {
     if (conditions && (attribute.name == "if" || attribute.name == "unless")) {
       continue;
@@ -156,9 +160,12 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
       if (conditions) {
         known.insert(known.end(), {"if", "unless"});
       }
+      // A YAML list without items looks like the empty value of an attribute.
+      const bool is_item = std::find(items.begin(), items.end(), attribute.name) != items.end();
       errors_.push_back({Severity::kError,
-                         fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
-                         attribute.name_where, did_you_mean(attribute.name, known)});
+                         is_item ? fmt::format("expected '{}' of '{}' to be a list of mappings", attribute.name, entity.type_name)
+                                 : fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
+                         attribute.name_where, is_item ? "leave it out when there is none" : did_you_mean(attribute.name, known)});
       continue;
     }
     collect([&] {
@@ -224,7 +231,7 @@ void ActionParser::parse_condition(const Entity& entity, Fields& fields) {
 
 void ActionParser::parse_item(const Entity& entity, const ItemSpec& spec, Fields& parent) {
   Fields fields(entity.where);
-  parse_attributes(entity, spec.attributes, false, fields);
+  parse_attributes(entity, spec.attributes, spec.recursive ? std::vector{spec.tag} : std::vector<std::string>{}, false, fields);
   for (const Entity& child : entity.children) {
     if (spec.recursive && child.type_name == spec.tag) {
       parse_item(child, spec, fields);

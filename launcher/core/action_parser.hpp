@@ -21,7 +21,9 @@ class ActionParser {
  private:
   std::vector<ActionPtr> parse_actions(const std::vector<Entity>& entities);
   ActionPtr parse_action(const Entity& entity);
-  void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, bool conditions, Fields& fields);
+  // `items` are the tags of structured items that may stand beside the attributes.
+  void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs,
+                        const std::vector<std::string>& items, bool conditions, Fields& fields);
   void parse_condition(const Entity& entity, Fields& fields);
   void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
   Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;

@@ -50,9 +50,6 @@ class OutputRouter {
   // A launcher message: "[INFO] [logger]: text" on the screen, with a time stamp in front in launch.log.
   void message(LogLevel level, std::string_view logger, std::string_view text);
 
-  // Marks where all output has to be with the kernel. It is already: every call writes before it returns.
-  void flush() {}
-
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -153,4 +153,17 @@ TEST(Loading, EveryErrorOfAFileIsReported) {
   }
 }
 
+TEST(Loading, AnEmptyYamlListOfItemsIsAnError) {
+  EXPECT_EQ(plan_text("launch:\n- node: {exec: a, param: []}\n").error,
+            "/test/system.launch.yaml:2:19: error: expected 'param' of 'node' to be a list of mappings\n"
+            "    2 | - node: {exec: a, param: []}\n"
+            "      |                   ^~~~~\n"
+            "      = help: leave it out when there is none");
+}
+
+TEST(Loading, ConditionsAreNoAttributesOfItems) {
+  EXPECT_THAT(plan_actions("<node exec=\"a\"><param name=\"p\" value=\"1\" if=\"true\"/></node>").error,
+              testing::HasSubstr("unexpected attribute 'if' in 'param'"));
+}
+
 }  // namespace
