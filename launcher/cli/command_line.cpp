@@ -12,7 +12,8 @@ namespace {
 constexpr int kUsageError = 2;
 
 constexpr const char* kDescription =
-    "Runs a ROS 2 launch file (XML or YAML): starts its traces and processes, supervises them, and leaves nothing behind.";
+    "Runs a ROS 2 launch file (XML or YAML): starts its traces and processes, supervises them, and leaves nothing "
+    "behind.";
 
 constexpr const char* kFooter =
     "Other commands:\n"

@@ -23,7 +23,8 @@ TEST(Installation, RunsFromAPrefixThatWasMoved) {
   const CommandResult plan = run_command({launch, "--dry-run", "launch_examples", "01_ping_pong.launch.xml"});
   EXPECT_THAT(plan.out, HasSubstr((prefix / "lib/demo_nodes/ping").string()));
 
-  const CommandResult run = run_command({launch, "launch_examples", "01_ping_pong.launch.yaml", "count:=2", "period_ms:=20"});
+  const CommandResult run =
+      run_command({launch, "launch_examples", "01_ping_pong.launch.yaml", "count:=2", "period_ms:=20"});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_THAT(run.out, HasSubstr(" events, 2 processes, none lost)"));
   const CommandResult report = run_command({launch, "report", sandbox.trace_directory().string()});

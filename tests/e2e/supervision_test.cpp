@@ -86,7 +86,8 @@ TEST_F(Supervision, AMissingNodeStartsNothing) {
 }
 
 TEST_F(Supervision, SigtermToTheLauncherEndsItsProcesses) {
-  const std::string file = write(R"xml(<executable name="waiter" shell="true" output="screen" cmd="echo ready; exec cat"/>)xml");
+  const std::string file =
+      write(R"xml(<executable name="waiter" shell="true" output="screen" cmd="echo ready; exec cat"/>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[waiter-1] ready"));
   run.send_signal(SIGTERM);
