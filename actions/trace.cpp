@@ -78,7 +78,7 @@ class Trace : public Action {
       config.subbuffer_size_kernel = static_cast<std::uint64_t>(subbuffer_size_kernel_->perform(scope));
     }
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
-        std::move(config), tracing::make_lttng_tracer(), context.own_prefix() + "/lib/launch/launch-report", where()));
+        std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));
   }
 
  private:

@@ -59,11 +59,11 @@ std::string output_of(const std::string& program, const std::vector<std::string>
 
 }  // namespace
 
-TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string report_command,
+TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
                        SourceRange origin)
     : config_(std::move(config)),
       tracer_(std::move(tracer)),
-      report_command_(std::move(report_command)),
+      prefix_(std::move(prefix)),
       origin_(std::move(origin)) {
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
@@ -126,8 +126,8 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
                                         error.what()),
                             origin_, error.remedy());
         }
-        if (!report_command_.empty() && !config_.snapshot_mode && !config_.dual_session && !hurry_) {
-          summary_ = output_of(report_command_, {"--summary", config_.trace_directory()});
+        if (!config_.snapshot_mode && !config_.dual_session && !hurry_) {
+          summary_ = output_of(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
         }
       },
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
@@ -150,6 +150,10 @@ void TraceScope::tell_result(const Tell& tell) const {
       tell(true, fmt::format("{} packets were overwritten in channel {} ({})", loss.lost_packets, loss.channel, loss.domain));
     }
   }
+}
+
+std::vector<std::string> TraceScope::clean_up_command() const {
+  return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
 }
 
 void TraceScope::prepare(ProcessSpec& spec) const {
