@@ -21,7 +21,7 @@ struct Free {
 constexpr std::uint64_t kCountBits = ~(std::uint64_t{1} << 63);
 
 void read_domain(const std::string& session, const lttng_domain& domain, LossAccount& account) {
-  const DomainHandle handle = domain_handle(session, domain.type);
+  const DomainHandle handle = domain_handle(session, domain);
   const std::string doing = fmt::format("read the lost events of session '{}'", session);
   lttng_channel* listed = nullptr;
   const int count = check_lttng(lttng_list_channels(handle.get(), &listed), doing);

@@ -11,6 +11,7 @@
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/session_listing.hpp"
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/tracer.hpp"
@@ -128,6 +129,9 @@ class LttngTracer : public Tracer {
   void pause(const std::string& lttng_session_name) override;
   void resume(const std::string& lttng_session_name) override;
   void record_snapshot(const std::string& lttng_session_name) override;
+  std::vector<SessionSummary> sessions() override { return list_sessions(); }
+  SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
+  TraceableEvents traceable_events() override { return list_traceable_events(); }
 };
 
 SetupReport LttngTracer::start(const TraceConfig& config) {

@@ -8,6 +8,7 @@
 #include "tracing/session/enter_or_signal.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/session_listing.hpp"
 #include "tracing/session/trace_options.hpp"
 
 namespace tracing {
@@ -99,6 +100,16 @@ void run_interactively(const TraceOptions& options, Tracer& tracer) {
   finish(options.config, tracer, [&input] { return input.take_signal(); });
 }
 
+void print_status(const std::string& session_name, Tracer& tracer) {
+  if (!session_name.empty()) {
+    fmt::print("{}", session_as_text(tracer.status(session_name)));
+    return;
+  }
+  const std::vector<SessionSummary> sessions = tracer.sessions();
+  if (sessions.empty()) fmt::print("{}", sessions_as_text(sessions));
+  for (const SessionSummary& session : sessions) fmt::print("{}", session_as_text(tracer.status(session.name)));
+}
+
 void run_verb(const TraceOptions& options, Tracer& tracer) {
   const std::string session_name = options.config.lttng_session_name();
   switch (options.verb) {
@@ -118,6 +129,14 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       EnterOrSignal signals;
       return finish(options.config, tracer, [&signals] { return signals.take_signal(); });
     }
+    case TraceVerb::kList:
+      fmt::print("{}", sessions_as_text(tracer.sessions()));
+      return;
+    case TraceVerb::kStatus:
+      return print_status(options.config.session_name, tracer);
+    case TraceVerb::kEvents:
+      fmt::print("{}", events_as_text(tracer.traceable_events()));
+      return;
     case TraceVerb::kRecordSnapshot:
       print_line("recording snapshot of tracing session");
       return tracer.record_snapshot(session_name);

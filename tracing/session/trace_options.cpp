@@ -77,9 +77,16 @@ CLI::App* add_verb(CLI::App& command, const std::string& name, const std::string
   return verb;
 }
 
+CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
+  CLI::App* verb = command.add_subcommand("status", "print channels, event rules and losses of sessions");
+  verb->add_option("session_name", arguments.session_name, "name of the session (default: all)")->option_text("NAME");
+  return verb;
+}
+
 void complete(TraceOptions& options, const SessionArguments& arguments) {
   TraceConfig& config = options.config;
-  config.session_name = arguments.session_name.empty() ? "session" + session_timestamp() : arguments.session_name;
+  const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
+  config.session_name = arguments.session_name.empty() && !all_sessions ? "session" + session_timestamp() : arguments.session_name;
   config.base_path = trace_base_path(arguments.path, environment());
   config.context_fields_ust = arguments.context_fields;
   config.context_fields_kernel = arguments.context_fields;
@@ -111,6 +118,11 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       {add_verb(command, "stop", "stop recording and end the session", session), TraceVerb::kStop},
       {add_verb(command, "record_snapshot", "write what a snapshot session holds", session),
        TraceVerb::kRecordSnapshot},
+      {command.add_subcommand("list", "print the sessions that exist"), TraceVerb::kList},
+      {add_status(command, session), TraceVerb::kStatus},
+      {command.add_subcommand("events", "print what can be recorded now: events of running programs and of the kernel, "
+                                        "context fields"),
+       TraceVerb::kEvents},
   };
 
   try {

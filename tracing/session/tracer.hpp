@@ -51,6 +51,46 @@ struct SetupReport {
   std::vector<std::string> warnings;
 };
 
+// One of the sessions that exist.
+struct SessionSummary {
+  std::string name;
+  std::string path;  // of the trace; empty for a snapshot session
+  bool active = false;
+  bool snapshot = false;
+};
+
+struct ChannelDetails {
+  std::string domain;  // "ust" or "kernel"
+  std::string name;
+  std::uint64_t subbuffer_size = 0;   // bytes
+  std::uint64_t subbuffer_count = 0;  // for each processor
+  bool overwrite = false;
+  std::vector<std::string> events;  // rules, sorted
+};
+
+struct SessionDetails {
+  SessionSummary summary;
+  std::vector<ChannelDetails> channels;
+  LossAccount losses;
+};
+
+struct TraceableEvent {
+  std::string name;
+  std::vector<std::string> processes;  // "NAME PID" of those that can fire it
+};
+
+// What can be recorded now. Userspace events are known of running programs only.
+struct TraceableEvents {
+  bool started_daemon = false;
+  std::vector<TraceableEvent> userspace;
+  std::vector<std::string> kernel;
+  std::size_t syscalls = 0;
+  std::string why_no_kernel;  // empty when kernel events can be recorded
+  std::string kernel_remedy;
+  std::vector<std::string> context_fields_ust;
+  std::vector<std::string> context_fields_kernel;
+};
+
 // All calls block, some for hundreds of milliseconds: call them from a thread of your own, one at a time.
 class Tracer {
  public:
@@ -68,6 +108,9 @@ class Tracer {
   virtual void pause(const std::string& lttng_session_name) = 0;
   virtual void resume(const std::string& lttng_session_name) = 0;
   virtual void record_snapshot(const std::string& lttng_session_name) = 0;
+  virtual std::vector<SessionSummary> sessions() = 0;
+  virtual SessionDetails status(const std::string& lttng_session_name) = 0;
+  virtual TraceableEvents traceable_events() = 0;
 };
 
 // The real one, on liblttng-ctl.
