@@ -341,6 +341,7 @@ TEST_P(PingPong, KillOfTheLauncherLeavesNoProcessNoSessionAndAWholeTrace) {
   EXPECT_EQ(read.exit_code, 0);
   EXPECT_EQ(read.err, "");
   EXPECT_THAT(read.out, HasSubstr("ros2:callback_end"));
+  EXPECT_THAT(read_file(only_trace(sandbox_) / "verdict.json"), HasSubstr("\"complete\": true"));
 }
 
 TEST(PingPongPlan, DryRunStartsNothingAndShowsBothNodes) {

@@ -71,7 +71,13 @@ void start(const TraceOptions& options, Tracer& tracer) {
 
 void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {
   print_line("stopping & destroying tracing session");
-  print_line(describe_losses(tracer.finish(config, give_up)));
+  const LossAccount losses = tracer.finish(config, give_up);
+  print_line(describe_losses(losses));
+  if (!losses.unwritten_verdict.empty()) fmt::print(stderr, "warning: {}\n", losses.unwritten_verdict);
+  if (config.fail_on_loss && !losses.complete()) {
+    throw TraceError(fmt::format("the trace of session '{}' is incomplete", config.lttng_session_name()),
+                     "use larger buffers, record fewer events, or leave out --fail-on-loss");
+  }
 }
 
 EnterOrSignal::Answer ask(const std::string& prompt, EnterOrSignal& input) {

@@ -98,6 +98,18 @@ TEST(TraceCommand, SaysWhatWasLost) {
             "1 packet lost in kernel channel kchan\n");
 }
 
+TEST(TraceCommand, FailsOnLossWhenAskedTo) {
+  FakeTracer tracer;
+  EXPECT_EQ(run({"stop", "run", "--fail-on-loss"}, tracer).exit_code, 0);
+  tracer.losses.channels = {{.domain = "ust", .channel = "ros2", .discarded_events = 1, .lost_packets = 0}};
+  EXPECT_EQ(run({"stop", "run"}, tracer).exit_code, 0);
+  const Outcome result = run({"stop", "run", "--fail-on-loss"}, tracer);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err,
+            "error: the trace of session 'run' is incomplete\n"
+            "hint: use larger buffers, record fewer events, or leave out --fail-on-loss\n");
+}
+
 TEST(TraceCommand, PrintsWarningsOfTheSetUp) {
   FakeTracer tracer;
   tracer.setup_report.warnings = {"rounded up"};
