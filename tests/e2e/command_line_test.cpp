@@ -34,6 +34,12 @@ TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
   EXPECT_EQ(launch({"report", "--help"}).exit_code, 0);
 }
 
+TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
+  const CommandResult result = launch({"reference"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md")) << "./dev launch reference > docs/launch_reference.md";
+}
+
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
   EXPECT_EQ(launch({}).err, "launch: error: no launch file given, see launch --help\n");
   EXPECT_EQ(launch({}).exit_code, 2);
