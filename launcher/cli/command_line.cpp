@@ -19,6 +19,7 @@ constexpr const char* kFooter =
     "Other commands:\n"
     "  launch trace …    records a trace by hand (launch trace --help)\n"
     "  launch report DIR describes a recorded trace (launch report --help)\n"
+    "  launch reference  prints the reference of the launch language\n"
     "\n"
     "Examples:\n"
     "  launch system.launch.xml rate:=20\n"

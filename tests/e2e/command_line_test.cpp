@@ -34,6 +34,12 @@ TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
   EXPECT_EQ(launch({"report", "--help"}).exit_code, 0);
 }
 
+TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
+  const CommandResult result = launch({"reference"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md")) << "./dev launch reference > docs/launch_reference.md";
+}
+
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
   EXPECT_EQ(launch({}).err, "launch: error: no launch file given, see launch --help\n");
   EXPECT_EQ(launch({}).exit_code, 2);
@@ -109,6 +115,7 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
                                        "2 processes, 0 traces; nothing was started\n");
   const Command json{.argv = {LAUNCH_PROGRAM, "--dry-run=json", file.string()}, .environment = {{"GONE", "1"}}};
   EXPECT_EQ(run_command(json).out, R"json({
+  "outcome": "ok",
   "processes": [
     {
       "name": "talker",
@@ -148,17 +155,34 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
         "GONE": null
       },
       "shell": false,
+      "params": [
+        {
+          "/ns/n": {
+            "ros__parameters": {
+              "rate": 10
+            }
+          }
+        }
+      ],
       "source": {
         "file": ")json" + file.string() +
                                        R"json(",
         "line": 7
+      },
+      "node": {
+        "package": null,
+        "executable": "/bin/true",
+        "name": "n",
+        "namespace": "/ns"
       }
     }
   ],
-  "params": [
-    "/ns/n:\n  ros__parameters:\n    rate: 10\n"
-  ],
-  "traces": []
+  "composable": [],
+  "traces": [],
+  "logs": [],
+  "python_includes": [],
+  "includes": 0,
+  "shutdown": false
 }
 )json");
 }
