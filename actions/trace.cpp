@@ -26,9 +26,13 @@ class Trace : public Action {
         context_fields_(fields.optional_words("context-fields")),
         subbuffer_size_ust_(fields.number("subbuffer-size-ust")),
         subbuffer_size_kernel_(fields.number("subbuffer-size-kernel")),
+        subbuffer_count_ust_(fields.number("subbuffer-count-ust")),
+        read_timer_ust_(fields.number("read-timer-ust")),
+        switch_timer_ust_(fields.number("switch-timer-ust")),
         snapshot_mode_(fields.boolean("snapshot-mode", false)),
         dual_session_(fields.boolean("dual-session", false)) {
-    for (std::optional<NumberField>* size : {&subbuffer_size_ust_, &subbuffer_size_kernel_}) {
+    for (std::optional<NumberField>* size : {&subbuffer_size_ust_, &subbuffer_size_kernel_, &subbuffer_count_ust_,
+                                              &read_timer_ust_, &switch_timer_ust_}) {
       if (*size) {
         (*size)->require_not_negative();
       }
@@ -79,6 +83,15 @@ class Trace : public Action {
     if (subbuffer_size_kernel_) {
       config.subbuffer_size_kernel = static_cast<std::uint64_t>(subbuffer_size_kernel_->perform(scope));
     }
+    if (subbuffer_count_ust_) {
+      config.subbuffer_count_ust = static_cast<std::uint64_t>(subbuffer_count_ust_->perform(scope));
+    }
+    if (read_timer_ust_) {
+      config.read_timer_ust = static_cast<std::uint32_t>(read_timer_ust_->perform(scope));
+    }
+    if (switch_timer_ust_) {
+      config.switch_timer_ust = static_cast<std::uint32_t>(switch_timer_ust_->perform(scope));
+    }
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
         std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));
   }
@@ -95,6 +108,9 @@ class Trace : public Action {
   Words context_fields_;
   std::optional<NumberField> subbuffer_size_ust_;
   std::optional<NumberField> subbuffer_size_kernel_;
+  std::optional<NumberField> subbuffer_count_ust_;
+  std::optional<NumberField> read_timer_ust_;
+  std::optional<NumberField> switch_timer_ust_;
   BooleanField snapshot_mode_;
   BooleanField dual_session_;
 };
@@ -117,6 +133,9 @@ ActionType trace_action() {
            {"syscalls", AttributeType::kCommandLine, false, "none", "system calls"},
            {"context-fields", AttributeType::kCommandLine, false, "procname vpid vtid", "fields added to every event"},
            {"subbuffer-size-ust", AttributeType::kInteger, false, "32768", "bytes"},
+           {"subbuffer-count-ust", AttributeType::kInteger, false, "2; 4 in snapshot mode", "sub-buffers for each processor"},
+           {"read-timer-ust", AttributeType::kInteger, false, "200", "microseconds between two reads of the buffers"},
+           {"switch-timer-ust", AttributeType::kInteger, false, "0", "microseconds until a part-full sub-buffer is written; 0: never"},
            {"subbuffer-size-kernel", AttributeType::kInteger, false, "131072", "bytes"},
            {"snapshot-mode", AttributeType::kBoolean, false, "false", "keep the newest events in memory until recorded"},
            {"dual-session", AttributeType::kBoolean, false, "false", "be the snapshot half of a dual session"}},

@@ -9,6 +9,7 @@
 #include "actions/builtin_actions.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
 #include "launcher/core/launch_service.hpp"
@@ -119,7 +120,10 @@ int run_command(const CommandLine& command, Environment environment) {
     set_arguments(command, context.scope());
 
     const auto before = std::chrono::steady_clock::now();
-    const auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    if (command.trace) {
+      description = with_trace(*description, registry);
+    }
     const TimedStep load = {"load", std::chrono::steady_clock::now() - before};
     switch (command.mode) {
       case CommandMode::kShowArguments:

@@ -18,8 +18,8 @@ constexpr const char* kUserspaceChannel = "ros2";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint64_t kSubbuffers = 2;
 constexpr std::uint64_t kSubbuffersOfSnapshot = 4;
-constexpr unsigned int kReadTimer = 200;  // µs: the consumer polls, no traced process has to wake it
-constexpr unsigned int kSwitchTimer = 0;  // off: a sub-buffer is handed over when it is full
+constexpr unsigned int kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
+constexpr std::uint64_t kMostSubbuffers = std::uint64_t{1} << 20;
 constexpr std::uint64_t kLargestSubbuffer = std::uint64_t{1} << 40;
 
 lttng_domain make_domain(lttng_domain_type type) {
@@ -50,6 +50,23 @@ std::uint64_t usable_subbuffer_size(std::uint64_t given, lttng_domain_type domai
         fmt::format("sub-buffer size of {} bytes for the {} domain is rounded up to {}: LTTng needs a "
                     "power of two, at least a page",
                     given, domain_name(domain), usable));
+  }
+  return usable;
+}
+
+std::uint64_t default_subbuffer_count(const TraceConfig& config) {
+  return config.records_snapshots() ? kSubbuffersOfSnapshot : kSubbuffers;
+}
+
+// A power of two, and two at least: one is written to while the other is read.
+std::uint64_t usable_subbuffer_count(const TraceConfig& config, std::vector<std::string>& warnings) {
+  const std::uint64_t given = config.subbuffer_count_ust;
+  if (given == 0) return default_subbuffer_count(config);
+  if (given > kMostSubbuffers) throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
+  const std::uint64_t usable = std::bit_ceil(std::max(given, kSubbuffers));
+  if (usable != given) {
+    warnings.push_back(fmt::format("number of sub-buffers {} is rounded up to {}: LTTng needs a power of two, at least 2",
+                                   given, usable));
   }
   return usable;
 }
@@ -96,6 +113,9 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
                      .syscalls = {},
                      .context_fields = without_repetitions(config.context_fields_ust),
                      .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_ust, LTTNG_DOMAIN_UST, warnings),
+                     .subbuffer_count = usable_subbuffer_count(config, warnings),
+                     .read_timer = config.read_timer_ust,
+                     .switch_timer = config.switch_timer_ust,
                      .overwrite = config.records_snapshots()});
   }
   if (!config.events_kernel.empty() || !config.syscalls.empty()) {
@@ -106,6 +126,8 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
          .syscalls = without_repetitions(config.syscalls),
          .context_fields = without_repetitions(config.context_fields_kernel),
          .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_kernel, LTTNG_DOMAIN_KERNEL, warnings),
+         .subbuffer_count = default_subbuffer_count(config),
+         .read_timer = kKernelReadTimer,
          .overwrite = config.records_snapshots()});
   }
   for (const DomainPlan& plan : plans) {
@@ -122,9 +144,9 @@ void enable_channel(const std::string& lttng_session_name, const DomainPlan& pla
   plan.channel.copy(channel->name, sizeof channel->name - 1);
   channel->attr.overwrite = plan.overwrite ? 1 : 0;
   channel->attr.subbuf_size = plan.subbuffer_size;
-  channel->attr.num_subbuf = plan.overwrite ? kSubbuffersOfSnapshot : kSubbuffers;
-  channel->attr.switch_timer_interval = kSwitchTimer;
-  channel->attr.read_timer_interval = kReadTimer;
+  channel->attr.num_subbuf = plan.subbuffer_count;
+  channel->attr.switch_timer_interval = plan.switch_timer;
+  channel->attr.read_timer_interval = plan.read_timer;
   channel->attr.output = LTTNG_EVENT_MMAP;
   const DomainHandle handle = domain_handle(lttng_session_name, plan.domain);
   check_lttng(lttng_enable_channel(handle.get(), channel.get()),

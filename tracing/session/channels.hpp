@@ -35,6 +35,9 @@ struct DomainPlan {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields;
   std::uint64_t subbuffer_size = 0;  // bytes
+  std::uint64_t subbuffer_count = 2;
+  std::uint32_t read_timer = 200;   // µs
+  std::uint32_t switch_timer = 0;   // µs
   bool overwrite = false;            // keep the newest events rather than the oldest: what a snapshot needs
 };
 

@@ -267,6 +267,21 @@ TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2Tracing) {
   tracer->finish(config_named("run"), never);
 }
 
+TEST_F(LttngTracer, ChannelHasTheNumberAndTimersThatWereAskedFor) {
+  TraceConfig config = config_named("run");
+  config.subbuffer_count_ust = 7;
+  config.read_timer_ust = 50'000;
+  config.switch_timer_ust = 1'000'000;
+  EXPECT_THAT(tracer->start(config).warnings,
+              testing::ElementsAre(
+                  "number of sub-buffers 7 is rounded up to 8: LTTng needs a power of two, at least 2"));
+  const std::string listing = run_command({"lttng", "list", "run"}).out;
+  for (const char* expected : {"Sub-buffer count: 8", "Switch timer:     1000000 us", "Read timer:       50000 us"}) {
+    EXPECT_THAT(listing, testing::HasSubstr(expected));
+  }
+  tracer->finish(config, never);
+}
+
 TEST_F(LttngTracer, LossesEqualWhatTheTraceSays) {
   TraceConfig config = config_named("flood");
   config.subbuffer_size_ust = 4096;
@@ -307,7 +322,7 @@ TEST_F(LttngTracer, FinishOfASessionThatSomebodyDestroyedIsAnError) {
     FAIL() << "no error";
   } catch (const TraceError& error) {
     EXPECT_STREQ(error.what(), "cannot stop trace session 'run': Session name not found");
-    EXPECT_EQ(error.remedy(), "`lttng list` shows the sessions that exist");
+    EXPECT_EQ(error.remedy(), "`launch trace list` shows the sessions that exist");
   }
 }
 
