@@ -1,26 +1,28 @@
 // How long a message takes from publish() to the callback of a subscription in another process, through the stack and
 // through bare Fast DDS, and what recording every ros2 event adds to it.
 //
-// All variants run in one process pair each and take turns, batch by batch, so that whatever the machine does meanwhile
-// meets them all. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
+// Every variant is a pair of processes. They take turns, batch by batch, so that whatever the machine does meanwhile meets
+// them all. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 
 #include "latency_run.hpp"
 #include "tracing_session.hpp"
 
 namespace {
 
-using latency::Batch;
 using latency::kSizes;
 using Nanoseconds = std::vector<std::int64_t>;
 
-constexpr int kRounds = 48;
-constexpr int kRoundsPerCost = 6;
-constexpr std::uint64_t kMessages = 60;        // of a batch
+// Two runs of the same program differ by more than what is measured, by where their memory happens to lie. Hence every
+// process is started anew for each of these, with its own rounds.
+constexpr int kGenerations = 5;
+constexpr int kRounds = 10;                    // of a generation
+constexpr std::uint64_t kMessages = 50;        // of a batch
 constexpr std::int64_t kPeriod = 400'000;      // nanoseconds
 constexpr std::uint64_t kWarmUpMessages = 50;  // of each size
 
@@ -47,17 +49,22 @@ struct Samples {
   }
 };
 
+// A kind of program pair, with the samples of each size.
 struct Variant {
-  Variant(std::string variant_name, const std::string& program, const std::string& role, int domain,
-          std::map<std::string, std::string> environment = {})
-      : name(std::move(variant_name)), pair([&] {
-          environment["ROS_DOMAIN_ID"] = std::to_string(domain);
-          return latency::Pair(program, role, environment);
-        }()) {}
-
   std::string name;
-  latency::Pair pair;
+  std::string program;
+  std::string subscriber_role;
+  int domain;
+  std::map<std::string, std::string> environment = {};
   std::vector<Samples> sizes = std::vector<Samples>(kSizes.size());
+  std::unique_ptr<latency::Pair> pair = nullptr;  // of the current generation
+
+  void start() {
+    pair.reset();
+    environment["ROS_DOMAIN_ID"] = std::to_string(domain);
+    pair = std::make_unique<latency::Pair>(program, subscriber_role, environment);
+  }
+  Nanoseconds run(std::size_t size, std::uint64_t messages) const { return pair->run({size, messages, kPeriod}); }
 };
 
 // The median over the rounds of how much longer `variant` took than `floor`, in microseconds: neighbours in time are
@@ -105,49 +112,55 @@ void print_table(const std::vector<const Variant*>& variants) {
 
 int main() try {
   latency::TracingSession session;
-  constexpr int kFirstDomain = 60;
-  Variant listener("bare, in listener", LATENCY_BARE, "listener", kFirstDomain);
-  Variant bare("bare, wait set", LATENCY_BARE, "wait_set", kFirstDomain + 1);
-  Variant disabled("stack, no tracing", LATENCY_STACK, "subscriber", kFirstDomain + 2,
-                   {{"TRACETOOLS_RUNTIME_DISABLE", "1"}});
-  Variant idle("stack, tracing idle", LATENCY_STACK, "subscriber", kFirstDomain + 3);
-  // The same processes as `idle`, with the session started.
-  std::vector<Samples> recorded(kSizes.size());
-  latency::Worker tracepoints({LATENCY_TRACEPOINTS}, {});
-
+  Variant bare{"bare, wait set", LATENCY_BARE, "wait_set", 60};
+  Variant idle{"stack, tracing idle", LATENCY_STACK, "subscriber", 61};
+  Variant disabled{"stack, no tracing", LATENCY_STACK, "subscriber", 62, {{"TRACETOOLS_RUNTIME_DISABLE", "1"}}};
+  Variant listener{"bare, in listener", LATENCY_BARE, "listener", 63};
   const std::vector<Variant*> variants = {&bare, &idle, &disabled, &listener};
-  for (Variant* variant : variants) {
-    variant->pair.wait_ready();
-    for (std::size_t size = 0; size < kSizes.size(); ++size) {
-      variant->pair.run({size, kWarmUpMessages, kPeriod});
-    }
-  }
+  // Of the processes of `idle` with the session started, and of those of `disabled` at the same time.
+  std::vector<Samples> recorded(kSizes.size());
+  std::vector<Samples> beside_recorded(kSizes.size());
   std::vector<double> path_costs;
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t size = 0; size < kSizes.size(); ++size) {
-      for (std::size_t turn = 0; turn < variants.size(); ++turn) {
-        Variant& variant = *variants[(turn + static_cast<std::size_t>(round)) % variants.size()];
-        variant.sizes[size].add(variant.pair.run({size, kMessages, kPeriod}));
+  latency::Worker tracepoints({LATENCY_TRACEPOINTS}, {}, 1);
+
+  for (int generation = 0; generation < kGenerations; ++generation) {
+    for (Variant* variant : variants) {
+      variant->start();
+    }
+    for (Variant* variant : variants) {
+      variant->pair->wait_ready();
+      for (std::size_t size = 0; size < kSizes.size(); ++size) {
+        variant->run(size, kWarmUpMessages);
       }
     }
-    session.start();
-    for (std::size_t size = 0; size < kSizes.size(); ++size) {
-      recorded[size].add(idle.pair.run({size, kMessages, kPeriod}));
+    for (std::size_t round = 0; round < kRounds; ++round) {
+      for (std::size_t size = 0; size < kSizes.size(); ++size) {
+        for (std::size_t turn = 0; turn < variants.size(); ++turn) {
+          Variant& variant = *variants[(turn + round) % variants.size()];
+          variant.sizes[size].add(variant.run(size, kMessages));
+        }
+      }
+      session.start();
+      for (std::size_t size = 0; size < kSizes.size(); ++size) {
+        beside_recorded[size].add(disabled.run(size, kMessages));
+        recorded[size].add(idle.run(size, kMessages));
+      }
+      if (round == 0) {
+        path_costs.push_back(cost_of_tracepoints_on_the_path(tracepoints));
+      }
+      session.stop();
     }
-    if (round % kRoundsPerCost == 0) {
-      path_costs.push_back(cost_of_tracepoints_on_the_path(tracepoints));
-    }
-    session.stop();
   }
 
-  fmt::print("latency in microseconds, {} messages each\n", kRounds * kMessages);
+  fmt::print("latency in microseconds, {} messages each\n", kGenerations * kRounds * kMessages);
   print_table({&bare, &idle, &disabled, &listener});
 
   const double path = median(path_costs);
-  fmt::print("\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop; added to the latency by:\n{:<8}{:>20}{:>26}{:>14}\n",
-             path, "KiB", "tracing idle", "every event recorded", "of the loop");
+  fmt::print("\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop; added to the latency by:\n",
+             path);
+  fmt::print("{:<8}{:>20}{:>26}{:>14}\n", "KiB", "tracing idle", "every event recorded", "of the loop");
   for (std::size_t size = 0; size < kSizes.size(); ++size) {
-    const double by_recording = added(recorded[size], idle.sizes[size]);
+    const double by_recording = added(recorded[size], beside_recorded[size]);
     fmt::print("{:<8}{:>20.2f}{:>26.2f}{:>14.2f}\n", kSizes[size] / 1024, added(idle.sizes[size], disabled.sizes[size]),
                by_recording, by_recording / path);
   }

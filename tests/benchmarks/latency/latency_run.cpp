@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -25,13 +26,37 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   return result;
 }
 
+// Runs the calling thread on one processor as long as it lives.
+class PinnedTo {
+ public:
+  explicit PinnedTo(int processor) {
+    sched_getaffinity(0, sizeof before_, &before_);
+    processor %= CPU_COUNT(&before_);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+      if (CPU_ISSET(cpu, &before_) && processor-- == 0) {
+        CPU_SET(cpu, &one);
+      }
+    }
+    sched_setaffinity(0, sizeof one, &one);
+  }
+  ~PinnedTo() { sched_setaffinity(0, sizeof before_, &before_); }
+  PinnedTo(const PinnedTo&) = delete;
+  PinnedTo& operator=(const PinnedTo&) = delete;
+
+ private:
+  cpu_set_t before_;
+};
+
 }  // namespace
 
 void fail(const std::string& message) {
   throw std::runtime_error(message);
 }
 
-Worker::Worker(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment)
+Worker::Worker(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment,
+               int processor)
     : name_(argv.back() + " of " + argv.front()) {
   int in[2];
   int out[2];
@@ -51,6 +76,7 @@ Worker::Worker(const std::vector<std::string>& argv, const std::map<std::string,
     std::erase_if(variables, [&](const std::string& entry) { return entry.starts_with(name + "="); });
     variables.push_back(name + "=" + value);
   }
+  const PinnedTo pinned(processor);  // what the child inherits
   if (posix_spawn(&pid_, argv[0].c_str(), &actions, nullptr, pointers(words).data(), pointers(variables).data()) != 0) {
     fail("cannot start " + name_);
   }
@@ -91,7 +117,7 @@ void Worker::receive(void* bytes, std::size_t length) {
 
 Pair::Pair(const std::string& program, const std::string& subscriber_role,
            const std::map<std::string, std::string>& environment)
-    : subscriber_({program, subscriber_role}, environment), publisher_({program, "publisher"}, environment) {}
+    : subscriber_({program, subscriber_role}, environment, 1), publisher_({program, "publisher"}, environment, 0) {}
 
 void Pair::wait_ready() {
   char ready;

@@ -14,7 +14,8 @@ namespace latency {
 // A program on stdin and stdout pipes; killed at the end of scope.
 class Worker {
  public:
-  Worker(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment);
+  // Runs on the `processor`-th of those that this process may use.
+  Worker(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment, int processor);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -30,6 +31,7 @@ class Worker {
   int out_ = -1;
 };
 
+// On a processor each: where the scheduler happens to place threads makes more of a difference than what is measured.
 class Pair {
  public:
   Pair(const std::string& program, const std::string& subscriber_role,
