@@ -39,8 +39,7 @@ std::vector<std::string> plain_argv(const ProcessSpec& spec, std::vector<std::st
 }
 
 std::string shell_quoted(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-";
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
     return word;
   }
@@ -95,7 +94,8 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
       text += fmt::format("  cwd: {}\n", spec.working_directory);
     }
     for (const auto& [name, value] : difference(spec.environment, launcher_environment)) {
-      text += value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
+      text +=
+          value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
     }
     for (std::size_t i = first_content; i < contents.size(); ++i) {
       text += fmt::format("  @params:{}:\n{}", i, indented(contents[i]));

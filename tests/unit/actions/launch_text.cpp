@@ -7,10 +7,10 @@ namespace test_support {
 Planned plan_text(const std::string& text, const PlanOptions& options) {
   static const launch::Registry registry = launch::builtin_actions();
   Planned planned;
-  launch::LaunchContext context(
-      registry, options.environment, "", [&](launch::LogLevel, std::string_view logger, std::string_view message) {
-        planned.messages.push_back("[" + std::string(logger) + "] " + std::string(message));
-      });
+  launch::LaunchContext context(registry, options.environment, "",
+                                [&](launch::LogLevel, std::string_view logger, std::string_view message) {
+                                  planned.messages.push_back("[" + std::string(logger) + "] " + std::string(message));
+                                });
   for (const auto& [name, value] : options.arguments) {
     context.scope().configurations.insert_or_assign(name, value);
   }
