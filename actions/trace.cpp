@@ -26,6 +26,7 @@ class Trace : public Action {
         context_fields_(fields.optional_words("context-fields")),
         subbuffer_size_ust_(fields.number("subbuffer-size-ust")),
         subbuffer_size_kernel_(fields.number("subbuffer-size-kernel")),
+        init_channel_(fields.boolean("init-channel", false)),
         subbuffer_count_ust_(fields.number("subbuffer-count-ust")),
         read_timer_ust_(fields.number("read-timer-ust")),
         switch_timer_ust_(fields.number("switch-timer-ust")),
@@ -83,6 +84,7 @@ class Trace : public Action {
     if (subbuffer_size_kernel_) {
       config.subbuffer_size_kernel = static_cast<std::uint64_t>(subbuffer_size_kernel_->perform(scope));
     }
+    config.init_channel = init_channel_.perform(scope);
     if (subbuffer_count_ust_) {
       config.subbuffer_count_ust = static_cast<std::uint64_t>(subbuffer_count_ust_->perform(scope));
     }
@@ -108,6 +110,7 @@ class Trace : public Action {
   Words context_fields_;
   std::optional<NumberField> subbuffer_size_ust_;
   std::optional<NumberField> subbuffer_size_kernel_;
+  BooleanField init_channel_;
   std::optional<NumberField> subbuffer_count_ust_;
   std::optional<NumberField> read_timer_ust_;
   std::optional<NumberField> switch_timer_ust_;
@@ -133,6 +136,7 @@ ActionType trace_action() {
            {"syscalls", AttributeType::kCommandLine, false, "none", "system calls"},
            {"context-fields", AttributeType::kCommandLine, false, "procname vpid vtid", "fields added to every event"},
            {"subbuffer-size-ust", AttributeType::kInteger, false, "32768", "bytes"},
+           {"init-channel", AttributeType::kBoolean, false, "false", "initialisation events in a channel of their own, ros2_init"},
            {"subbuffer-count-ust", AttributeType::kInteger, false, "2; 4 in snapshot mode", "sub-buffers for each processor"},
            {"read-timer-ust", AttributeType::kInteger, false, "200", "microseconds between two reads of the buffers"},
            {"switch-timer-ust", AttributeType::kInteger, false, "0", "microseconds until a part-full sub-buffer is written; 0: never"},

@@ -15,6 +15,8 @@ namespace tracing {
 namespace {
 
 constexpr const char* kUserspaceChannel = "ros2";
+constexpr const char* kInitialisationChannel = "ros2_init";
+constexpr const char* kAllRosEvents = "ros2:*";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint64_t kSubbuffers = 2;
 constexpr std::uint64_t kSubbuffersOfSnapshot = 4;
@@ -69,6 +71,25 @@ std::uint64_t usable_subbuffer_count(const TraceConfig& config, std::vector<std:
                                    given, usable));
   }
   return usable;
+}
+
+// Moves the initialisation events of the userspace channel, which is the first plan, to a channel of their own. A pattern
+// other than "ros2:*" stays where it is: an event that two rules match would be recorded twice.
+void split_initialisation_events(std::vector<DomainPlan>& plans) {
+  const std::vector<std::string>& all = initialisation_ros_events();
+  const std::set<std::string> initialisation(all.begin(), all.end());
+  DomainPlan first = plans.front();
+  first.channel = kInitialisationChannel;
+  first.events.clear();
+  std::vector<std::string> rest;
+  for (const std::string& name : plans.front().events) {
+    const std::vector<std::string> names = name == kAllRosEvents ? default_ros_events() : std::vector{name};
+    for (const std::string& event : names) (initialisation.contains(event) ? first.events : rest).push_back(event);
+  }
+  first.events = without_repetitions(first.events);
+  plans.front().events = without_repetitions(rest);
+  if (rest.empty()) plans.erase(plans.begin());
+  if (!first.events.empty()) plans.insert(plans.begin(), std::move(first));
 }
 
 void enable_event(lttng_handle* handle, const std::string& name, lttng_event_type type, const std::string& channel) {
@@ -130,6 +151,7 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
          .read_timer = kKernelReadTimer,
          .overwrite = config.records_snapshots()});
   }
+  if (config.init_channel && !config.events_ust.empty()) split_initialisation_events(plans);
   for (const DomainPlan& plan : plans) {
     for (const std::string& name : plan.context_fields) ContextField{name, plan.domain};
   }

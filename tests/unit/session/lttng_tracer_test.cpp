@@ -282,6 +282,28 @@ TEST_F(LttngTracer, ChannelHasTheNumberAndTimersThatWereAskedFor) {
   tracer->finish(config, never);
 }
 
+TEST_F(LttngTracer, InitialisationEventsHaveAChannelOfTheirOwnWhereAskedFor) {
+  TraceConfig config = config_named("run");
+  config.events_ust = {"ros2:*", "my:event"};
+  config.init_channel = true;
+  tracer->start(config);
+  TracedApp(30, 10).end();
+  const std::vector<tracing::ChannelDetails> channels = tracer->status("run").channels;
+  ASSERT_EQ(channels.size(), 2u);
+  for (const tracing::ChannelDetails& channel : channels) {
+    const bool initialisation = channel.name == "ros2_init";
+    EXPECT_EQ(channel.events.size(), initialisation ? 22u : 21u) << channel.name;
+    EXPECT_THAT(channel.events, testing::Contains(initialisation ? "ros2:rcl_init" : "ros2:callback_start"));
+  }
+  const LossAccount losses = tracer->finish(config, never);
+  EXPECT_EQ(read_trace(config.trace_directory()).events["ros2:rclcpp_callback_register"], 30) << "each once";
+  ASSERT_EQ(losses.channels.size(), 2u);
+  const auto bytes = [&losses](const std::string& name) {
+    return losses.channels.at(losses.channels.at(0).channel == name ? 0 : 1).bytes;
+  };
+  EXPECT_GT(bytes("ros2_init"), bytes("ros2") + 30 * 30) << "they are not in the other one";
+}
+
 TEST_F(LttngTracer, LossesEqualWhatTheTraceSays) {
   TraceConfig config = config_named("flood");
   config.subbuffer_size_ust = 4096;
