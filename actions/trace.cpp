@@ -1,6 +1,9 @@
 // <trace session-name="…"/>: records the run. Takes effect before any process starts, wherever it stands in the file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "actions/trace_scope.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
@@ -10,6 +13,11 @@ namespace launch {
 namespace {
 
 using Words = std::optional<std::vector<Template>>;
+
+// LTTng's timers are 32 bits wide: more than 71 minutes is as good as never.
+std::uint32_t microseconds(const NumberField& field, Scope& scope) {
+  return static_cast<std::uint32_t>(std::min<double>(field.perform(scope), std::numeric_limits<std::uint32_t>::max()));
+}
 
 class Trace : public Action {
  public:
@@ -89,10 +97,10 @@ class Trace : public Action {
       config.subbuffer_count_ust = static_cast<std::uint64_t>(subbuffer_count_ust_->perform(scope));
     }
     if (read_timer_ust_) {
-      config.read_timer_ust = static_cast<std::uint32_t>(read_timer_ust_->perform(scope));
+      config.read_timer_ust = microseconds(*read_timer_ust_, scope);
     }
     if (switch_timer_ust_) {
-      config.switch_timer_ust = static_cast<std::uint32_t>(switch_timer_ust_->perform(scope));
+      config.switch_timer_ust = microseconds(*switch_timer_ust_, scope);
     }
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
         std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));

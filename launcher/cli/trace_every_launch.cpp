@@ -35,7 +35,8 @@ std::string session_name_of(const std::string& path) {
   name.resize(std::min(name.find('.'), name.size()));
   std::replace_if(
       name.begin(), name.end(),
-      [](unsigned char character) { return std::isalnum(character) == 0 && character != '-' && character != '_'; }, '_');
+      [](unsigned char character) { return std::isalnum(character) == 0 && character != '-' && character != '_'; },
+      '_');
   return name.empty() ? "launch" : name;
 }
 

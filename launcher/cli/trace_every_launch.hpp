@@ -8,8 +8,9 @@
 
 namespace launch {
 
-// The description with a <trace> of the default attributes at its end, named after the file and the time. It counts only
-// when the visit of everything before has asked for no trace. Position is no matter: traces begin before processes.
+// The description with a <trace> of the default attributes at its end, named after the file and the time. It counts
+// only when the visit of everything before has asked for no trace. Position is no matter: traces begin before
+// processes.
 std::shared_ptr<const LaunchDescription> with_trace(const LaunchDescription& description, const Registry& registry);
 
 }  // namespace launch

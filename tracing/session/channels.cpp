@@ -64,17 +64,18 @@ std::uint64_t default_subbuffer_count(const TraceConfig& config) {
 std::uint64_t usable_subbuffer_count(const TraceConfig& config, std::vector<std::string>& warnings) {
   const std::uint64_t given = config.subbuffer_count_ust;
   if (given == 0) return default_subbuffer_count(config);
-  if (given > kMostSubbuffers) throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
+  if (given > kMostSubbuffers)
+    throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
   const std::uint64_t usable = std::bit_ceil(std::max(given, kSubbuffers));
   if (usable != given) {
-    warnings.push_back(fmt::format("number of sub-buffers {} is rounded up to {}: LTTng needs a power of two, at least 2",
-                                   given, usable));
+    warnings.push_back(fmt::format(
+        "number of sub-buffers {} is rounded up to {}: LTTng needs a power of two, at least 2", given, usable));
   }
   return usable;
 }
 
-// Moves the initialisation events of the userspace channel, which is the first plan, to a channel of their own. A pattern
-// other than "ros2:*" stays where it is: an event that two rules match would be recorded twice.
+// Moves the initialisation events of the userspace channel, which is the first plan, to a channel of their own. A
+// pattern other than "ros2:*" stays where it is: an event that two rules match would be recorded twice.
 void split_initialisation_events(std::vector<DomainPlan>& plans) {
   const std::vector<std::string>& all = initialisation_ros_events();
   const std::set<std::string> initialisation(all.begin(), all.end());
