@@ -15,9 +15,11 @@
 #include <vector>
 
 #include "rclcpp/callback_group.hpp"
+#include "rclcpp/client_base.hpp"
 #include "rclcpp/context.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
 
@@ -41,6 +43,8 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   struct Ready {
     std::vector<TimerBase::WeakPtr> timers;
     std::vector<SubscriptionBase::WeakPtr> subscriptions;
+    std::vector<ServiceBase::WeakPtr> services;
+    std::vector<ClientBase::WeakPtr> clients;
   };
   // Waits until something is ready, interrupt() is called, or the time is over (negative: never). One thread at a time.
   Ready wait(std::chrono::nanoseconds timeout);
@@ -64,6 +68,8 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   struct Waitables {
     std::vector<Waitable<rcl_timer_t, TimerBase>> timers;
     std::vector<Waitable<rcl_subscription_t, SubscriptionBase>> subscriptions;
+    std::vector<Waitable<rcl_service_t, ServiceBase>> services;
+    std::vector<Waitable<rcl_client_t, ClientBase>> clients;
   };
   // Owners that a locked section met on its way. They may be the last ones, and destructors report back here: the
   // caller lets go of them after the lock.

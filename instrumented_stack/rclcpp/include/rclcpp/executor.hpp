@@ -97,7 +97,8 @@ class Executor {
 
   std::shared_ptr<ExecutorEntities> entities_;
   // What the last wait found: O(1) per callback, however many entities there are.
-  std::deque<std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr>> ready_;
+  std::deque<std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr>>
+      ready_;
   size_t removals_before_wait_ = 0;  // of nodes and groups; later ones make ready_ stale
   OnShutdownCallbackHandle shutdown_callback_;
 };
