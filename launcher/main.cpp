@@ -6,7 +6,9 @@
 #include <cstring>
 #include <string_view>
 
+#include "actions/builtin_actions.hpp"
 #include "launcher/cli/command_line.hpp"
+#include "launcher/cli/reference.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "tracing/session/trace_command.hpp"
 
@@ -44,6 +46,10 @@ int main(int argc, char** argv) {
   }
   if (command == "trace") {
     return tracing::run_trace_command({argv + 2, argv + argc});
+  }
+  if (command == "reference") {
+    fmt::print("{}", launch::reference_page(launch::builtin_actions()));
+    return 0;
   }
   const auto parsed = launch::parse_command_line(argc, argv);
   if (const auto* const exit_now = std::get_if<launch::ExitNow>(&parsed)) {

@@ -12,6 +12,9 @@ namespace launch {
 
 namespace {
 
+// A file that includes itself has a chain of hundreds.
+constexpr int kShownIncludes = 8;
+
 // A character cell of the shown line.
 struct Cell {
   std::string text;        // what is printed, UTF-8
@@ -167,8 +170,14 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
     result += fmt::format("      {}= help:{} {}\n", style.help, style.reset, diagnostic.help);
   }
   if (where) {
+    int shown = 0;
     for (SourceRange from = where.file->included_from(); from; from = from.file->included_from()) {
-      result += fmt::format("      {}= included from{} {}\n", style.help, style.reset, to_string(from));
+      if (++shown <= kShownIncludes) {
+        result += fmt::format("      {}= included from{} {}\n", style.help, style.reset, to_string(from));
+      }
+    }
+    if (shown > kShownIncludes) {
+      result += fmt::format("      {}= and from{} {} more\n", style.help, style.reset, shown - kShownIncludes);
     }
   }
   return result;

@@ -12,12 +12,14 @@ namespace {
 constexpr int kUsageError = 2;
 
 constexpr const char* kDescription =
-    "Runs a ROS 2 launch file (XML or YAML): starts its traces and processes, supervises them, and leaves nothing behind.";
+    "Runs a ROS 2 launch file (XML or YAML): starts its traces and processes, supervises them, and leaves nothing "
+    "behind.";
 
 constexpr const char* kFooter =
     "Other commands:\n"
     "  launch trace …    records a trace by hand (launch trace --help)\n"
     "  launch report DIR describes a recorded trace (launch report --help)\n"
+    "  launch reference  prints the reference of the launch language\n"
     "\n"
     "Examples:\n"
     "  launch system.launch.xml rate:=20\n"

@@ -12,7 +12,7 @@ enum class CommandMode { kRun, kShowArguments, kDryRunText, kDryRunJson };
 
 struct CommandLine {
   CommandMode mode = CommandMode::kRun;
-  std::vector<std::string> target;  // a path, or a package and a file name
+  std::vector<std::string> target;                             // a path, or a package and a file name
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value, in order
   bool debug = false;
   bool timing = false;

@@ -35,14 +35,14 @@ std::string find_in_package(const std::string& package, const std::string& name,
     }
   }
   if (found.empty()) {
-    throw LaunchError(fmt::format("file '{}' was not found in the share directory of package '{}' which is at '{}'", name,
-                                  package, share),
+    throw LaunchError(fmt::format("file '{}' was not found in the share directory of package '{}' which is at '{}'",
+                                  name, package, share),
                       {}, did_you_mean(name, names));
   }
   if (found.size() > 1) {
     std::sort(found.begin(), found.end());
-    throw LaunchError(fmt::format("file '{}' was found more than once in the share directory of package '{}': ['{}']", name,
-                                  package, fmt::join(found, "', '")),
+    throw LaunchError(fmt::format("file '{}' was found more than once in the share directory of package '{}': ['{}']",
+                                  name, package, fmt::join(found, "', '")),
                       {}, "give the path of the one you mean");
   }
   return found.front();

@@ -39,7 +39,8 @@ void set_arguments(const CommandLine& command, Scope& scope) {
 void print_timing(const std::vector<TimedStep>& steps) {
   fmt::print(stderr, "timing:\n");
   for (const TimedStep& step : steps) {
-    fmt::print(stderr, "  {:<36} {:>9.3f} ms\n", step.name, std::chrono::duration<double, std::milli>(step.took).count());
+    fmt::print(stderr, "  {:<36} {:>9.3f} ms\n", step.name,
+               std::chrono::duration<double, std::milli>(step.took).count());
   }
 }
 

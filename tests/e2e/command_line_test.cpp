@@ -1,5 +1,8 @@
-// The command line of the launcher, and what it says to files that it can't read: exit code 1, the place, nothing started.
+// The command line of the launcher, and what it says to files that it can't read: exit code 1, the place, nothing
+// started.
 #include <gmock/gmock.h>
+
+#include <ostream>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -31,12 +34,19 @@ TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
   EXPECT_EQ(launch({"report", "--help"}).exit_code, 0);
 }
 
+TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
+  const CommandResult result = launch({"reference"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md")) << "./dev launch reference > docs/launch_reference.md";
+}
+
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
   EXPECT_EQ(launch({}).err, "launch: error: no launch file given, see launch --help\n");
   EXPECT_EQ(launch({}).exit_code, 2);
   EXPECT_EQ(launch({"file.xml", "x:="}).err,
             "launch: error: malformed launch argument 'x:=', expected format '<name>:=<value>'\n");
-  EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err, "launch: error: --dry-run=xml is unknown, expected text or json\n");
+  EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err,
+            "launch: error: --dry-run=xml is unknown, expected text or json\n");
   EXPECT_EQ(launch({"--no-such-option", "file.xml"}).exit_code, 2);
 }
 
@@ -105,6 +115,7 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
                                        "2 processes, 0 traces; nothing was started\n");
   const Command json{.argv = {LAUNCH_PROGRAM, "--dry-run=json", file.string()}, .environment = {{"GONE", "1"}}};
   EXPECT_EQ(run_command(json).out, R"json({
+  "outcome": "ok",
   "processes": [
     {
       "name": "talker",
@@ -121,7 +132,8 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
       },
       "shell": false,
       "source": {
-        "file": ")json" + file.string() + R"json(",
+        "file": ")json" + file.string() +
+                                       R"json(",
         "line": 4
       }
     },
@@ -143,16 +155,34 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
         "GONE": null
       },
       "shell": false,
+      "params": [
+        {
+          "/ns/n": {
+            "ros__parameters": {
+              "rate": 10
+            }
+          }
+        }
+      ],
       "source": {
-        "file": ")json" + file.string() + R"json(",
+        "file": ")json" + file.string() +
+                                       R"json(",
         "line": 7
+      },
+      "node": {
+        "package": null,
+        "executable": "/bin/true",
+        "name": "n",
+        "namespace": "/ns"
       }
     }
   ],
-  "params": [
-    "/ns/n:\n  ros__parameters:\n    rate: 10\n"
-  ],
-  "traces": []
+  "composable": [],
+  "traces": [],
+  "logs": [],
+  "python_includes": [],
+  "includes": 0,
+  "shutdown": false
 }
 )json");
 }
@@ -164,6 +194,10 @@ struct Malformed {
   const char* error;  // after "FILE:"
 };
 
+void PrintTo(const Malformed& row, std::ostream* out) {
+  *out << row.name;
+}
+
 class MalformedFiles : public CommandLine, public testing::WithParamInterface<Malformed> {};
 
 TEST_P(MalformedFiles, AreErrorsAtTheirPlaceAndStartNothing) {
@@ -171,7 +205,8 @@ TEST_P(MalformedFiles, AreErrorsAtTheirPlaceAndStartNothing) {
   const auto file = sandbox_.directory() / malformed.file;
   const auto witness = sandbox_.directory() / "started";
   write_file(file, malformed.text);
-  const CommandResult result = run_command(Command{.argv = {LAUNCH_PROGRAM, file.string(), "witness:=" + witness.string()}});
+  const CommandResult result =
+      run_command(Command{.argv = {LAUNCH_PROGRAM, file.string(), "witness:=" + witness.string()}});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, StartsWith(file.string() + ":" + malformed.error)) << result.err;
   EXPECT_THAT(result.err, HasSubstr("^"));
@@ -181,19 +216,40 @@ TEST_P(MalformedFiles, AreErrorsAtTheirPlaceAndStartNothing) {
 INSTANTIATE_TEST_SUITE_P(
     Ten, MalformedFiles,
     testing::Values(
-        Malformed{"UnclosedTag", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<group>\n</launch>\n", "3:1: error: <group> is never closed\n"},
-        Malformed{"TwoRoots", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n</launch>\n<launch/>\n", "4:"},
-        Malformed{"WrongRoot", "a.launch.xml", "<lunch>\n<executable cmd='touch $(var witness)'/>\n</lunch>\n", "1:2: error: "},
-        Malformed{"DuplicateAttribute", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='a' message='b'/>\n</launch>\n", "3:18: error: "},
-        Malformed{"UnknownXmlEntity", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='&nope;'/>\n</launch>\n", "3:15: error: "},
-        Malformed{"UnknownTag", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<nodes/>\n</launch>\n", "3:2: error: unrecognized entity of the type 'nodes'\n"},
-        Malformed{"UnknownSubstitution", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(vr x)'/>\n</launch>\n", "3:"},
-        Malformed{"UnbalancedSubstitution", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(var x'/>\n</launch>\n", "3:"},
-        Malformed{"TabInYaml", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- log:\n\tmessage: x\n", "4:1: error: "},
-        Malformed{"TwoKeysInAYamlAction", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- log: {message: x}\n  let: {name: a, value: b}\n", "4:"},
-        Malformed{"NullYamlAction", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- shutdown:\n", "3:"},
-        Malformed{"WrongYamlType", "a.launch.yaml", "launch:\n- executable: {cmd: touch $(var witness)}\n- arg: {name: a, default: 1}\n", "3:27: error: attribute 'default' of 'arg' is expected to be of type str, got int\n"},
-        Malformed{"UndefinedVariable", "a.launch.xml", "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(var nothing)'/>\n</launch>\n", "3:"}),
+        Malformed{"UnclosedTag", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<group>\n</launch>\n",
+                  "3:1: error: <group> is never closed\n"},
+        Malformed{"TwoRoots", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n</launch>\n<launch/>\n", "4:"},
+        Malformed{"WrongRoot", "a.launch.xml", "<lunch>\n<executable cmd='touch $(var witness)'/>\n</lunch>\n",
+                  "1:2: error: "},
+        Malformed{"DuplicateAttribute", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='a' message='b'/>\n</launch>\n",
+                  "3:18: error: "},
+        Malformed{"UnknownXmlEntity", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='&nope;'/>\n</launch>\n",
+                  "3:15: error: "},
+        Malformed{"UnknownTag", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<nodes/>\n</launch>\n",
+                  "3:2: error: unrecognized entity of the type 'nodes'\n"},
+        Malformed{"UnknownSubstitution", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(vr x)'/>\n</launch>\n", "3:"},
+        Malformed{"UnbalancedSubstitution", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(var x'/>\n</launch>\n", "3:"},
+        Malformed{"TabInYaml", "a.launch.yaml",
+                  "launch:\n- executable: {cmd: touch $(var witness)}\n- log:\n\tmessage: x\n", "4:1: error: "},
+        Malformed{
+            "TwoKeysInAYamlAction", "a.launch.yaml",
+            "launch:\n- executable: {cmd: touch $(var witness)}\n- log: {message: x}\n  let: {name: a, value: b}\n",
+            "4:"},
+        Malformed{"NullYamlAction", "a.launch.yaml",
+                  "launch:\n- executable: {cmd: touch $(var witness)}\n- shutdown:\n", "3:"},
+        Malformed{"WrongYamlType", "a.launch.yaml",
+                  "launch:\n- executable: {cmd: touch $(var witness)}\n- arg: {name: a, default: 1}\n",
+                  "3:27: error: attribute 'default' of 'arg' is expected to be of type str, got int\n"},
+        Malformed{"UndefinedVariable", "a.launch.xml",
+                  "<launch>\n<executable cmd='touch $(var witness)'/>\n<log message='$(var nothing)'/>\n</launch>\n",
+                  "3:"}),
     [](const auto& row) { return std::string(row.param.name); });
 
 }  // namespace

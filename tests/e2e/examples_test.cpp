@@ -1,6 +1,8 @@
 // Every example runs, in both formats, and does what the table of launch_examples/README.md says.
 #include <gmock/gmock.h>
 
+#include <ostream>
+
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
@@ -15,12 +17,17 @@ struct Example {
   std::vector<std::string> expected;  // parts of the output
 };
 
+void PrintTo(const Example& row, std::ostream* out) {
+  *out << row.name;
+}
+
 class Examples : public testing::TestWithParam<std::tuple<Example, const char*>> {};
 
 TEST_P(Examples, DoWhatTheReadmeSays) {
   test_support::Sandbox sandbox;
   const auto& [example, format] = GetParam();
-  std::vector<std::string> argv = {LAUNCH_PROGRAM, std::string(EXAMPLES_DIRECTORY "/") + example.name + ".launch." + format};
+  std::vector<std::string> argv = {LAUNCH_PROGRAM,
+                                   std::string(EXAMPLES_DIRECTORY "/") + example.name + ".launch." + format};
   argv.insert(argv.end(), example.arguments.begin(), example.arguments.end());
   const CommandResult result = test_support::run_command(argv);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -33,10 +40,18 @@ TEST_P(Examples, DoWhatTheReadmeSays) {
 INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Combine(
-        testing::Values(Example{"02_names", {}, {"[listener-2] ", "[listener-3] ", "[left.ear]: I heard: [Hello World: ", "[right.ear]: I heard: [Hello World: "}},
-                        Example{"03_conditions", {"verbose:=yes"}, {"mode sim, rate 10", "inside the group the rate is 1000", "outside it is still 10"}},
+        testing::Values(Example{"02_names",
+                                {},
+                                {"[listener-2] ", "[listener-3] ",
+                                 "[left.ear]: I heard: [Hello World: ", "[right.ear]: I heard: [Hello World: "}},
+                        Example{"03_conditions",
+                                {"verbose:=yes"},
+                                {"mode sim, rate 10", "inside the group the rate is 1000", "outside it is still 10"}},
                         Example{"04_include", {}, {"mode robot, rate 50", "after the include, mode is robot"}},
-                        Example{"05_processes", {}, {"[greeter-1] hello", "[greeter-1] world", "[clock-2] tick", "that was it", "sending signal 'SIGINT' to process[waiter-3]"}},
+                        Example{"05_processes",
+                                {},
+                                {"[greeter-1] hello", "[greeter-1] world", "[clock-2] tick", "that was it",
+                                 "sending signal 'SIGINT' to process[waiter-3]"}},
                         Example{"06_trace_options", {}, {"trace written to: "}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });

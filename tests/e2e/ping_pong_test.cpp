@@ -1,7 +1,9 @@
 // The whole line of the product: launch file, session, two nodes over DDS, and a trace that reads as ROS 2's does.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "tests/e2e/recorded_trace.hpp"
 #include "tests/support/command.hpp"
@@ -15,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr int kExchanges = 10;
+constexpr std::size_t kExchanges = 10;
 using Events = std::vector<RecordedEvent>;
 
 std::vector<std::string> names(const Events& events) {
@@ -51,7 +53,8 @@ class Process {
   const Events& all_events() const { return all_events_; }
 
   // Index of the first event of that name from `from` on, with `field` equal to `value` when a field is named.
-  std::size_t find(const std::string& name, std::size_t from = 0, const std::string& field = {}, std::uint64_t value = 0) const {
+  std::size_t find(const std::string& name, std::size_t from = 0, const std::string& field = {},
+                   std::uint64_t value = 0) const {
     for (std::size_t i = from; i < events_.size(); ++i) {
       if (events_[i].name == "ros2:" + name && (field.empty() || events_[i].number(field) == value)) {
         return i;
@@ -70,7 +73,8 @@ class Process {
     return events_.size();
   }
   Events range(std::size_t begin, std::size_t end) const {
-    return {events_.begin() + static_cast<std::ptrdiff_t>(begin), events_.begin() + static_cast<std::ptrdiff_t>(std::min(end, events_.size()))};
+    return {events_.begin() + static_cast<std::ptrdiff_t>(begin),
+            events_.begin() + static_cast<std::ptrdiff_t>(std::min(end, events_.size()))};
   }
   // The same without what the node publishes on a topic of its own accord, like /rosout.
   Events without_topic(Events events, const std::string& topic) const {
@@ -133,7 +137,8 @@ Subscription check_subscription(const Process& process, const std::string& topic
   EXPECT_EQ(events[3].number("subscription"), events[2].number("subscription"));
   EXPECT_EQ(events[4].number("callback"), events[3].number("callback"));
   EXPECT_NE(events[4].text("symbol"), "");
-  return {events[1].number("subscription_handle"), events[1].number("rmw_subscription_handle"), events[3].number("callback")};
+  return {events[1].number("subscription_handle"), events[1].number("rmw_subscription_handle"),
+          events[3].number("callback")};
 }
 
 // The source timestamps of the messages that were published on a topic, checking the three layers of each.
@@ -223,7 +228,8 @@ class PingPong : public testing::TestWithParam<const char*> {
   Sandbox sandbox_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Formats, PingPong, testing::Values("xml", "yaml"), [](const auto& row) { return std::string(row.param); });
+INSTANTIATE_TEST_SUITE_P(Formats, PingPong, testing::Values("xml", "yaml"),
+                         [](const auto& row) { return std::string(row.param); });
 
 TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, file(), "period_ms:=20"});
@@ -259,10 +265,15 @@ TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
 
   const std::vector<std::uint64_t> pings = published(ping, "/ping");
   const std::vector<std::uint64_t> pongs = published(pong, "/pong");
-  EXPECT_EQ(pings.size(), static_cast<std::size_t>(kExchanges));
-  // The timestamp that was handed to the writer is the one that the reader tells, to the nanosecond.
-  EXPECT_EQ(received(pong, check_subscription(pong, "/ping")), pings);
-  EXPECT_EQ(received(ping, check_subscription(ping, "/pong")), pongs);
+  // The timestamp that was handed to the writer is the one that the reader tells, to the nanosecond. On a busy machine
+  // ping asks again, and may have gone before the last answer comes.
+  const std::vector<std::uint64_t> at_pong = received(pong, check_subscription(pong, "/ping"));
+  const std::vector<std::uint64_t> at_ping = received(ping, check_subscription(ping, "/pong"));
+  for (const auto& [takes, publications] : {std::pair(at_pong, pings), std::pair(at_ping, pongs)}) {
+    EXPECT_GE(takes.size(), kExchanges);
+    ASSERT_LE(takes.size(), publications.size());
+    EXPECT_TRUE(std::equal(takes.begin(), takes.end(), publications.begin()));
+  }
 }
 
 TEST_P(PingPong, Babeltrace2ReadsTheTraceWithoutAWarning) {
@@ -295,7 +306,8 @@ TEST_P(PingPong, CtrlCEndsTheNodesAndLeavesAWholeTraceAndNoSession) {
 
 TEST(PingPongPlan, DryRunStartsNothingAndShowsBothNodes) {
   Sandbox sandbox;
-  const CommandResult xml = run_command({LAUNCH_PROGRAM, "--dry-run=json", EXAMPLES_DIRECTORY "/01_ping_pong.launch.xml"});
+  const CommandResult xml =
+      run_command({LAUNCH_PROGRAM, "--dry-run=json", EXAMPLES_DIRECTORY "/01_ping_pong.launch.xml"});
   const CommandResult yaml = run_command({LAUNCH_PROGRAM, "--dry-run", EXAMPLES_DIRECTORY "/01_ping_pong.launch.yaml"});
   EXPECT_EQ(xml.exit_code, 0) << xml.err;
   EXPECT_THAT(xml.out, HasSubstr("/lib/demo_nodes/ping\""));

@@ -81,7 +81,9 @@ long memory_of(pid_t pid, const std::string& line_name) {
   return 0;
 }
 
-double milliseconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e6; }
+double milliseconds(std::int64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) / 1e6;
+}
 
 std::int64_t median(std::vector<std::int64_t> values) {
   std::sort(values.begin(), values.end());
@@ -99,7 +101,8 @@ int main() {
   setenv("STAMP_PIPE", pipe_path.c_str(), 1);
   setenv("ROS_LOG_DIR", (directory / "log").c_str(), 1);
   const std::string file = directory / "system.launch.xml";
-  std::ofstream(file) << "<launch>\n<executable cmd=\"" STAMP_PROGRAM "\"/>\n<executable cmd=\"" STAMP_PROGRAM "\"/>\n</launch>\n";
+  std::ofstream(file) << "<launch>\n<executable cmd=\"" STAMP_PROGRAM "\"/>\n<executable cmd=\"" STAMP_PROGRAM
+                         "\"/>\n</launch>\n";
 
   std::vector<std::int64_t> launched;
   std::vector<std::int64_t> bare;
@@ -124,7 +127,7 @@ int main() {
   fmt::print("  launch               {:8.2f} ms\n", milliseconds(median(launched)));
   fmt::print("  bare posix_spawn     {:8.2f} ms   ratio {:.1f}\n", milliseconds(median(bare)),
              milliseconds(median(launched)) / milliseconds(median(bare)));
-  fmt::print("  launcher resident    {:8.1f} MiB, of it private {:.1f} MiB\n", static_cast<double>(median(resident)) / 1024,
-             static_cast<double>(median(private_memory)) / 1024);
+  fmt::print("  launcher resident    {:8.1f} MiB, of it private {:.1f} MiB\n",
+             static_cast<double>(median(resident)) / 1024, static_cast<double>(median(private_memory)) / 1024);
   fs::remove_all(directory);
 }

@@ -7,10 +7,10 @@ namespace test_support {
 Planned plan_text(const std::string& text, const PlanOptions& options) {
   static const launch::Registry registry = launch::builtin_actions();
   Planned planned;
-  launch::LaunchContext context(
-      registry, options.environment, "", [&](launch::LogLevel, std::string_view logger, std::string_view message) {
-        planned.messages.push_back("[" + std::string(logger) + "] " + std::string(message));
-      });
+  launch::LaunchContext context(registry, options.environment, "",
+                                [&](launch::LogLevel, std::string_view logger, std::string_view message) {
+                                  planned.messages.push_back("[" + std::string(logger) + "] " + std::string(message));
+                                });
   for (const auto& [name, value] : options.arguments) {
     context.scope().configurations.insert_or_assign(name, value);
   }
@@ -27,6 +27,18 @@ Planned plan_text(const std::string& text, const PlanOptions& options) {
 
 Planned plan_actions(const std::string& xml, const PlanOptions& options) {
   return plan_text("<launch>\n" + xml + "\n</launch>\n", options);
+}
+
+std::string run_error(const std::string& xml) {
+  const launch::Registry registry = launch::builtin_actions();
+  launch::LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
+  try {
+    const auto file = std::make_shared<launch::SourceFile>("/test/system.launch.xml", "<launch>\n" + xml + "\n</launch>\n");
+    context.visit(*launch::parse_launch_description(file, registry));
+  } catch (const launch::LaunchError& error) {
+    return error.what();
+  }
+  return {};
 }
 
 }  // namespace test_support

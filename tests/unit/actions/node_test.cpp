@@ -35,8 +35,8 @@ TEST(Node, OrderOfArgvIsThatOfRos2) {
       <param name="p" value="1"/>
       <remap from="~/x" to="y"/>
     </node>)xml"),
-              ElementsAre("prog", "a", "b c", "--ros-args", "--log-level", "debug", "--ros-args", "-r", "__node:=n", "-r",
-                          "__ns:=/ns", "--params-file", "", "-r", "chatter:=/out", "-r", "~/x:=y"));
+              ElementsAre("prog", "a", "b c", "--ros-args", "--log-level", "debug", "--ros-args", "-r", "__node:=n",
+                          "-r", "__ns:=/ns", "--params-file", "", "-r", "chatter:=/out", "-r", "~/x:=y"));
 }
 
 struct NamespaceCase {
@@ -44,6 +44,10 @@ struct NamespaceCase {
   const char* given;
   const char* expected;
 };
+
+void PrintTo(const NamespaceCase& row, std::ostream* out) {
+  *out << "expected " << row.expected;
+}
 
 class NodeNamespace : public testing::TestWithParam<NamespaceCase> {};
 
@@ -80,9 +84,10 @@ TEST(Node, InvalidNamesAreErrorsAtTheirPlace) {
 TEST(Node, TwoWithOneNameGiveAWarning) {
   const Planned planned = plan_actions(R"xml(
     <node exec="p" name="n" namespace="a"/><node exec="p" name="n" namespace="a"/><node exec="p" name="n"/>)xml");
-  EXPECT_THAT(planned.messages,
-              ElementsAre("[launch_ros.actions.node] there are now at least 2 nodes with the name /a/n created within this "
-                          "launch context"));
+  EXPECT_THAT(
+      planned.messages,
+      ElementsAre("[launch_ros.actions.node] there are now at least 2 nodes with the name /a/n created within this "
+                  "launch context"));
 }
 
 TEST(Node, LabelIsTheBaseNameOfTheProgram) {
@@ -141,14 +146,15 @@ TEST_F(NodeInPackage, ParameterFilesArePassedUnread) {
   EXPECT_THAT(argv_of("<node exec=\"p\"><param from=\"" + file + "\"/></node>"),
               ElementsAre("p", "--ros-args", "--params-file", file));
 
-  const Planned performed =
-      plan_actions("<let name=\"a\" value=\"7\"/><node exec=\"p\"><param from=\"" + file + "\" allow_substs=\"true\"/></node>");
+  const Planned performed = plan_actions("<let name=\"a\" value=\"7\"/><node exec=\"p\"><param from=\"" + file +
+                                         "\" allow_substs=\"true\"/></node>");
   EXPECT_EQ(performed.error, "");
   EXPECT_EQ(performed.plan.processes.at(0).files.at(0).content, "/**: {ros__parameters: {a: 7}}\n");
 
   const Planned missing = plan_actions(R"xml(<node exec="p"><param from="/no/such.yaml"/></node>)xml");
-  EXPECT_THAT(missing.messages, ElementsAre("[launch_ros.actions.node] /test/system.launch.xml:2:29: parameter file path is "
-                                            "not a file: /no/such.yaml"));
+  EXPECT_THAT(missing.messages,
+              ElementsAre("[launch_ros.actions.node] /test/system.launch.xml:2:29: parameter file path is "
+                          "not a file: /no/such.yaml"));
   EXPECT_THAT(missing.plan.processes.at(0).argv, ElementsAre("p", "--ros-args"));
 }
 
@@ -166,14 +172,19 @@ TEST(NodeParameters, AreWrittenForTheNodeOrForAnyNode) {
 }
 
 TEST(NodeParameters, FormsThatExcludeEachOtherAreErrors) {
-  const auto error = [](const std::string& params) { return plan_actions("<node exec=\"p\">" + params + "</node>").error; };
-  EXPECT_THAT(error(R"xml(<param name="a" value="1" from="f"/>)xml"), HasSubstr("name and from attributes are mutually exclusive"));
+  const auto error = [](const std::string& params) {
+    return plan_actions("<node exec=\"p\">" + params + "</node>").error;
+  };
+  EXPECT_THAT(error(R"xml(<param name="a" value="1" from="f"/>)xml"),
+              HasSubstr("name and from attributes are mutually exclusive"));
   EXPECT_THAT(error(R"xml(<param name="a" value="1"><param name="b" value="2"/></param>)xml"),
               HasSubstr("nested parameters and value attributes are mutually exclusive"));
   EXPECT_THAT(error(R"xml(<param name="a"/>)xml"), HasSubstr("either a value attribute or nested params are needed"));
   EXPECT_THAT(error(R"xml(<param value="1"/>)xml"), HasSubstr("param entity should have a name or a from attribute"));
-  EXPECT_THAT(error(R"xml(<param name="a" value="1" allow_substs="true"/>)xml"), HasSubstr("allow_substs can only be used with from"));
-  EXPECT_THAT(error(R"xml(<param name="a" value="1" type="integer"/>)xml"), HasSubstr("got invalid type identifier 'integer'"));
+  EXPECT_THAT(error(R"xml(<param name="a" value="1" allow_substs="true"/>)xml"),
+              HasSubstr("allow_substs can only be used with from"));
+  EXPECT_THAT(error(R"xml(<param name="a" value="1" type="integer"/>)xml"),
+              HasSubstr("got invalid type identifier 'integer'"));
 }
 
 }  // namespace

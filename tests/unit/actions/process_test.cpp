@@ -67,9 +67,8 @@ TEST(Executable, ConfigurationsGiveDefaults) {
   const std::string xml = R"xml(<executable cmd="prog"/>)xml";
   EXPECT_THAT(only_process(xml, {.arguments = {{"launch-prefix", "gdb -ex run"}}}).argv,
               ElementsAre("gdb", "-ex", "run", "prog"));
-  EXPECT_THAT(
-      only_process(xml, {.arguments = {{"launch-prefix", "gdb"}, {"launch-prefix-filter", "ro"}}}).argv,
-      ElementsAre("prog"));
+  EXPECT_THAT(only_process(xml, {.arguments = {{"launch-prefix", "gdb"}, {"launch-prefix-filter", "ro"}}}).argv,
+              ElementsAre("prog"));
   EXPECT_THAT(only_process(xml, {.arguments = {{"launch-prefix", "gdb"}, {"launch-prefix-filter", "p.o"}}}).argv,
               ElementsAre("gdb", "prog"));
   EXPECT_EQ(only_process(xml, {.arguments = {{"sigterm_timeout", "9"}}}).sigterm_timeout, std::chrono::seconds(9));
@@ -83,12 +82,13 @@ TEST(Executable, OutputModeCanBeOverriddenByTheEnvironment) {
 }
 
 TEST(Executable, WrongValuesAreErrorsAtTheirPlace) {
-  EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" output="scren"/>)xml").error,
-            "/test/system.launch.xml:2:32: error: 'scren' is not a valid output mode, expected screen, log, both, own_log "
-            "or full\n"
-            "    2 | <executable cmd=\"prog\" output=\"scren\"/>\n"
-            "      |                                ^~~~~\n"
-            "      = help: did you mean 'screen'?");
+  EXPECT_EQ(
+      plan_actions(R"xml(<executable cmd="prog" output="scren"/>)xml").error,
+      "/test/system.launch.xml:2:32: error: 'scren' is not a valid output mode, expected screen, log, both, own_log "
+      "or full\n"
+      "    2 | <executable cmd=\"prog\" output=\"scren\"/>\n"
+      "      |                                ^~~~~\n"
+      "      = help: did you mean 'screen'?");
   EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" on_exit="restart"/>)xml").error,
               HasSubstr(":2:33: error: on_exit can only be 'shutdown', got 'restart'"));
   EXPECT_THAT(plan_actions(R"xml(<executable cmd="prog" respawn="maybe"/>)xml").error,

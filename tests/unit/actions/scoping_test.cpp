@@ -45,8 +45,8 @@ TEST(Scoping, GroupRestoresTheEnvironmentAndForwardingFalseResetsIt) {
     <log message="$(env A)"/>
     <unset_env name="A"/>
     <log message="$(env A none)"/>)xml");
-  EXPECT_THAT(planned.messages, ElementsAre("[launch.user] inner", "[launch.user] none", "[launch.user] outer",
-                                            "[launch.user] none"));
+  EXPECT_THAT(planned.messages,
+              ElementsAre("[launch.user] inner", "[launch.user] none", "[launch.user] outer", "[launch.user] none"));
 }
 
 TEST(Scoping, ArgKeepsAValueThatIsThere) {
@@ -57,7 +57,8 @@ TEST(Scoping, ArgKeepsAValueThatIsThere) {
 }
 
 TEST(Scoping, ArgDefaultSeesOnlyWhatIsSetBefore) {
-  const std::string text = R"xml(<arg name="a" default="$(var b)"/><arg name="b" default="1"/><log message="$(var a)"/>)xml";
+  const std::string text =
+      R"xml(<arg name="a" default="$(var b)"/><arg name="b" default="1"/><log message="$(var a)"/>)xml";
   EXPECT_NE(plan_actions(text).error, "");
   EXPECT_THAT(plan_actions(text, {.arguments = {{"a", "given"}}}).messages, ElementsAre("[launch.user] given"));
 }
@@ -91,11 +92,12 @@ TEST(Conditions, FalseSkipsTheActionWithoutPerformingItsAttributes) {
 }
 
 TEST(Conditions, OtherWordsAreErrors) {
-  EXPECT_EQ(plan_actions(R"xml(<log if="yes" message="x"/>)xml").error,
-            "/test/system.launch.xml:2:10: error: invalid condition expression, expected one of [true, 1, false, 0] but "
-            "got 'yes'\n"
-            "    2 | <log if=\"yes\" message=\"x\"/>\n"
-            "      |          ^~~");
+  EXPECT_EQ(
+      plan_actions(R"xml(<log if="yes" message="x"/>)xml").error,
+      "/test/system.launch.xml:2:10: error: invalid condition expression, expected one of [true, 1, false, 0] but "
+      "got 'yes'\n"
+      "    2 | <log if=\"yes\" message=\"x\"/>\n"
+      "      |          ^~~");
 }
 
 TEST(Conditions, IfAndUnlessExcludeEachOther) {
@@ -125,7 +127,8 @@ TEST(Timers, ShutdownEndsThePlan) {
 }
 
 TEST(Timers, PeriodMustBeANumberThatIsNotNegative) {
-  EXPECT_THAT(plan_actions(R"xml(<timer period="soon"/>)xml").error, testing::HasSubstr("expected a number, got 'soon'"));
+  EXPECT_THAT(plan_actions(R"xml(<timer period="soon"/>)xml").error,
+              testing::HasSubstr("expected a number, got 'soon'"));
   EXPECT_THAT(plan_actions(R"xml(<timer period="-1.0"/>)xml").error,
               testing::HasSubstr("expected a number that is not negative, got '-1.0'"));
   EXPECT_THAT(plan_text("launch:\n- timer: {period: 1, children: []}\n").error,

@@ -81,10 +81,14 @@ TEST(Trace, ConditionsApply) {
 }
 
 TEST(Trace, BadNamesAreErrorsAtTheirPlace) {
-  EXPECT_THAT(plan_actions(R"xml(<trace session-name=""/>)xml").error, HasSubstr(":2:22: error: the session name is empty"));
-  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a/b"/>)xml").error, HasSubstr("the session name 'a/b' has a slash"));
-  EXPECT_THAT(plan_actions(R"xml(<trace/>)xml").error, HasSubstr("attribute 'session-name' not found in entity 'trace'"));
-  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a" event-ust="x"/>)xml").error, HasSubstr("did you mean 'events-ust'?"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name=""/>)xml").error,
+              HasSubstr(":2:22: error: the session name is empty"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a/b"/>)xml").error,
+              HasSubstr("the session name 'a/b' has a slash"));
+  EXPECT_THAT(plan_actions(R"xml(<trace/>)xml").error,
+              HasSubstr("attribute 'session-name' not found in entity 'trace'"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="a" event-ust="x"/>)xml").error,
+              HasSubstr("did you mean 'events-ust'?"));
 }
 
 }  // namespace

@@ -80,7 +80,8 @@ class LaunchServiceTest : public testing::Test {
   LaunchServiceTest() : registry_(builtin_actions()) {
     registry_.add({.tag = "scope",
                    .help = "",
-                   .attributes = {{"name", AttributeType::kLiteral, true, "", ""}, {"fails", AttributeType::kLiteral, false, "", ""}},
+                   .attributes = {{"name", AttributeType::kLiteral, true, "", ""},
+                                  {"fails", AttributeType::kLiteral, false, "", ""}},
                    .items = {},
                    .make = [this](const Fields& fields) { return std::make_shared<ScopeAction>(fields, journal_); }});
     supervisor_.observe([this](const ProcessEvent& event) {
@@ -94,10 +95,12 @@ class LaunchServiceTest : public testing::Test {
 
   int run(const std::string& actions) {
     const auto file = std::make_shared<SourceFile>("/test/system.launch.xml", "<launch>\n" + actions + "\n</launch>");
-    LaunchContext context(registry_, {{"PATH", "/bin"}}, "", [this](LogLevel, std::string_view logger, std::string_view text) {
-      messages_.push_back(fmt::format("[{}] {}", logger, text));
-    });
-    LaunchService service(context, loop_, supervisor_, [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
+    LaunchContext context(registry_, {{"PATH", "/bin"}}, "",
+                          [this](LogLevel, std::string_view logger, std::string_view text) {
+                            messages_.push_back(fmt::format("[{}] {}", logger, text));
+                          });
+    LaunchService service(context, loop_, supervisor_,
+                          [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
     return service.run(*parse_launch_description(file, registry_));
   }
 
@@ -136,7 +139,9 @@ TEST_F(LaunchServiceTest, AnErrorOfTheFirstVisitStartsNothing) {
 }
 
 TEST_F(LaunchServiceTest, AnErrorOfALaterVisitShutsTheSystemDown) {
-  EXPECT_EQ(run(R"xml(<scope name="x"/><executable cmd="a"/><timer period="1.0"><log message="$(var missing)"/></timer>)xml"), 1);
+  EXPECT_EQ(
+      run(R"xml(<scope name="x"/><executable cmd="a"/><timer period="1.0"><log message="$(var missing)"/></timer>)xml"),
+      1);
   EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "start a-1", "exit a-1", "end x", "ended x"));
   EXPECT_EQ(runner_.signals().at(0).signal, SIGINT);
 }
@@ -147,8 +152,9 @@ TEST_F(LaunchServiceTest, EndsByItselfWhenNothingIsLeft) {
 }
 
 TEST_F(LaunchServiceTest, APendingTimerKeepsTheLaunchAlive) {
-  EXPECT_EQ(run(R"xml(<timer period="5.0"><executable cmd="late"/></timer><executable cmd="a"/><timer period="7"><shutdown/></timer>)xml"),
-            0);
+  EXPECT_EQ(
+      run(R"xml(<timer period="5.0"><executable cmd="late"/></timer><executable cmd="a"/><timer period="7"><shutdown/></timer>)xml"),
+      0);
   EXPECT_THAT(journal_, ElementsAre("start a-1", "start late-2", "exit a-1", "exit late-2"));
   EXPECT_EQ(runner_.spawned().at(1).at, 5s);
 }
@@ -192,7 +198,8 @@ TEST_F(LaunchServiceTest, ASignalShutsDownAndASecondKillsAndHurries) {
   const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
   EXPECT_EQ(run(R"xml(<scope name="x"/><executable cmd="stubborn"/>)xml"), 0);
-  EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "start stubborn-1", "exit stubborn-1", "end x in a hurry", "ended x"));
+  EXPECT_THAT(journal_,
+              ElementsAre("begin x", "begun x", "start stubborn-1", "exit stubborn-1", "end x in a hurry", "ended x"));
   EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
                                      "[launch] user interrupted with ctrl-c (SIGINT) again, killing what is left"));
   EXPECT_LT(loop_.now(), 3s);

@@ -9,17 +9,14 @@
 
 #include <lttng/tracepoint.h>
 
-LTTNG_UST_TRACEPOINT_EVENT(ros2, rcl_init,
-  LTTNG_UST_TP_ARGS(const void *, context, const char *, version_text),
-  LTTNG_UST_TP_FIELDS(
-    lttng_ust_field_integer_hex(const void *, context_handle, context)
-    lttng_ust_field_string(version, version_text)))
+LTTNG_UST_TRACEPOINT_EVENT(ros2, rcl_init, LTTNG_UST_TP_ARGS(const void*, context, const char*, version_text),
+                           LTTNG_UST_TP_FIELDS(lttng_ust_field_integer_hex(const void*, context_handle, context)
+                                                   lttng_ust_field_string(version, version_text)))
 
 LTTNG_UST_TRACEPOINT_EVENT(ros2, rclcpp_callback_register,
-  LTTNG_UST_TP_ARGS(const void *, callback_address, const char *, symbol_text),
-  LTTNG_UST_TP_FIELDS(
-    lttng_ust_field_integer_hex(const void *, callback, callback_address)
-    lttng_ust_field_string(symbol, symbol_text)))
+                           LTTNG_UST_TP_ARGS(const void*, callback_address, const char*, symbol_text),
+                           LTTNG_UST_TP_FIELDS(lttng_ust_field_integer_hex(const void*, callback, callback_address)
+                                                   lttng_ust_field_string(symbol, symbol_text)))
 
 #endif
 

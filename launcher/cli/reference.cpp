@@ -1,0 +1,83 @@
+#include "launcher/cli/reference.hpp"
+
+#include <fmt/format.h>
+
+#include "launcher/substitution/template_parser.hpp"
+
+namespace launch {
+
+namespace {
+
+std::string_view type_text(AttributeType type) {
+  switch (type) {
+    case AttributeType::kText:
+      return "text";
+    case AttributeType::kLiteral:
+      return "literal";
+    case AttributeType::kBoolean:
+      return "boolean";
+    case AttributeType::kFloat:
+      return "float";
+    case AttributeType::kInteger:
+      return "integer";
+    case AttributeType::kCommandLine:
+      return "words";
+    case AttributeType::kParameter:
+      return "any";
+  }
+  return "";
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char character : text) {
+    if (character == '|') {
+      result += '\\';
+    }
+    result += character;
+  }
+  return result;
+}
+
+std::string attribute_table(const std::vector<AttributeSpec>& attributes) {
+  if (attributes.empty()) {
+    return "";
+  }
+  std::string text = "| attribute | type | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const AttributeSpec& attribute : attributes) {
+    text += fmt::format("| `{}` | {} | {} | {} |\n", attribute.name, type_text(attribute.type),
+                        attribute.required ? "required" : escaped(attribute.default_value), escaped(attribute.help));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string reference_page(const Registry& registry) {
+  std::string text =
+      "# Launch language\n"
+      "\n"
+      "Made by `launch reference` from the declarations of the actions and substitutions.\n"
+      "\n"
+      "Every action also takes `if` and `unless`. Types: **text** with substitutions, **literal** text without, **boolean**, "
+      "**float** and **integer** as a literal or substitutions that give one, **words** split as a shell does, **any** scalar "
+      "or list.\n"
+      "\n"
+      "## Actions\n"
+      "\n";
+  for (const auto& [tag, type] : registry.types()) {
+    text += fmt::format("### `{}`\n\n{}{}\n\n", tag, type.help, type.holds_actions ? " Holds actions." : "");
+    text += attribute_table(type.attributes);
+    for (const ItemSpec& item : type.items) {
+      text += fmt::format("Item `{}`: {}{}.\n\n", item.tag, item.help, item.recursive ? "; may be nested" : "");
+      text += attribute_table(item.attributes);
+    }
+  }
+  text += "## Substitutions\n\n| substitution | gives |\n| --- | --- |\n";
+  for (const SubstitutionType& type : substitution_types()) {
+    text += fmt::format("| `{}` | {} |\n", escaped(type.usage), escaped(type.help));
+  }
+  return text;
+}
+
+}  // namespace launch

@@ -1,0 +1,13 @@
+// The reference page of the launch language, made from the declarations.
+#pragma once
+
+#include <string>
+
+#include "launcher/core/registry.hpp"
+
+namespace launch {
+
+// Markdown: every action with its attributes and items, every substitution. docs/launch_reference.md holds it.
+std::string reference_page(const Registry& registry);
+
+}  // namespace launch
