@@ -1,4 +1,4 @@
-// <arg name="…" default="…"/>: declares a launch argument. A value that is already there is kept.
+// <arg name="…" default="…"/> and <bool_arg …/>: declare a launch argument. A value that is already there is kept.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,9 @@ namespace {
 
 class DeclareLaunchArgument : public Action {
  public:
-  explicit DeclareLaunchArgument(const Fields& fields) : Action(fields.where(), fields.condition()) {
+  explicit DeclareLaunchArgument(const Fields& fields, std::vector<std::string> choices = {})
+      : Action(fields.where(), fields.condition()) {
+    declaration_.choices = std::move(choices);
     declaration_.name = fields.literal("name");
     declaration_.default_value = fields.optional_text("default");
     declaration_.description = fields.literal("description");
@@ -48,15 +50,33 @@ class DeclareLaunchArgument : public Action {
   ArgumentDeclaration declaration_;
 };
 
+std::vector<AttributeSpec> argument_attributes() {
+  return {{"name", AttributeType::kLiteral, true, "", "name of the configuration"},
+          {"default", AttributeType::kText, false, "", "value when none is given; none: the argument is required"},
+          {"description", AttributeType::kLiteral, false, "no description given", "shown by --show-args"}};
+}
+
 }  // namespace
+
+ActionType bool_arg_action() {
+  return {
+      .tag = "bool_arg",
+      .help = "Declares a launch argument that is true or false.",
+      .attributes = argument_attributes(),
+      .items = {},
+      .make =
+          [](const Fields& fields) {
+            const std::vector<std::string> choices = {"true", "false", "True", "False", "TRUE", "FALSE"};
+            return std::make_shared<DeclareLaunchArgument>(fields, choices);
+          },
+  };
+}
 
 ActionType arg_action() {
   return {
       .tag = "arg",
       .help = "Declares a launch argument. A value given from outside, or set before, is kept.",
-      .attributes = {{"name", AttributeType::kLiteral, true, "", "name of the configuration"},
-                     {"default", AttributeType::kText, false, "", "value when none is given; none: the argument is required"},
-                     {"description", AttributeType::kLiteral, false, "no description given", "shown by --show-args"}},
+      .attributes = argument_attributes(),
       .items = {{"choice", "an allowed value", {{"value", AttributeType::kLiteral, true, "", "the value"}}}},
       .make = [](const Fields& fields) { return std::make_shared<DeclareLaunchArgument>(fields); },
   };

@@ -4,17 +4,40 @@ namespace launch {
 
 // The list. Each name stands for a function NAME_action() that returns the declaration, in the file of its tag or family.
 #define LAUNCH_BUILTIN_ACTIONS(ACTION) \
+  ACTION(append_env)                   \
   ACTION(arg)                          \
+  ACTION(bool_arg)                     \
   ACTION(executable)                   \
+  ACTION(for)                          \
+  ACTION(for_each)                     \
   ACTION(group)                        \
   ACTION(include)                      \
   ACTION(let)                          \
+  ACTION(lifecycle_node)               \
+  ACTION(load_composable_node)         \
   ACTION(log)                          \
+  ACTION(log_debug)                    \
+  ACTION(log_error)                    \
+  ACTION(log_info)                     \
+  ACTION(log_warning)                  \
   ACTION(node)                         \
+  ACTION(node_container)               \
+  ACTION(push_ros_namespace)           \
+  ACTION(push_ros_namespace_alias)     \
+  ACTION(rep_env)                      \
+  ACTION(reset)                        \
+  ACTION(reset_env)                    \
+  ACTION(ros_timer)                    \
   ACTION(set_env)                      \
+  ACTION(set_parameter)                \
+  ACTION(set_parameters_from_file)     \
+  ACTION(set_remap)                    \
+  ACTION(set_ros_log_dir)              \
+  ACTION(set_use_sim_time)             \
   ACTION(shutdown)                     \
   ACTION(timer)                        \
   ACTION(trace)                        \
+  ACTION(unset)                        \
   ACTION(unset_env)
 
 #define LAUNCH_DECLARE_ACTION(name) ActionType name##_action();

@@ -1,4 +1,4 @@
-// <set_env> and <unset_env>: the launch environment, which $(env …) reads and later processes inherit.
+// <set_env>, <unset_env>, <append_env>, <reset_env> and <rep_env>: the launch environment, which $(env …) reads and later processes inherit.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 
@@ -37,7 +37,101 @@ class UnsetEnvironmentVariable : public Action {
   Template name_;
 };
 
+class AppendEnvironmentVariable : public Action {
+ public:
+  explicit AppendEnvironmentVariable(const Fields& fields)
+      : Action(fields.where(), fields.condition()),
+        name_(fields.text("name")),
+        value_(fields.text("value")),
+        prepend_(fields.boolean("prepend", false)),
+        separator_(fields.optional_text("separator")) {}
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    Scope& scope = context.scope();
+    const std::string name = name_.perform(scope);
+    const std::string value = value_.perform(scope);
+    const bool prepend = prepend_.perform(scope);
+    const std::string separator = separator_ ? separator_->perform(scope) : ":";
+    const auto [variable, absent] = scope.environment.try_emplace(name, value);
+    if (!absent) {
+      variable->second = prepend ? value + separator + variable->second : variable->second + separator + value;
+    }
+  }
+
+ private:
+  Template name_;
+  Template value_;
+  BooleanField prepend_;
+  std::optional<Template> separator_;
+};
+
+class ResetEnvironment : public Action {
+ public:
+  explicit ResetEnvironment(const Fields& fields) : Action(fields.where(), fields.condition()) {}
+
+ protected:
+  void execute(LaunchContext& context) const override { context.scope().environment = context.initial_environment(); }
+};
+
+class ReplaceEnvironment : public Action {
+ public:
+  explicit ReplaceEnvironment(const Fields& fields) : Action(fields.where(), fields.condition()) {
+    for (const Fields* variable : fields.items("env")) {
+      variables_.emplace_back(variable->text("name"), variable->text("value"));
+    }
+  }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    Environment environment;
+    for (const auto& [name, value] : variables_) {
+      environment.insert_or_assign(name.perform(context.scope()), value.perform(context.scope()));
+    }
+    context.scope().environment = std::move(environment);
+  }
+
+ private:
+  std::vector<std::pair<Template, Template>> variables_;
+};
+
 }  // namespace
+
+ActionType append_env_action() {
+  return {
+      .tag = "append_env",
+      .help = "Appends a value to a variable of the launch environment, or sets it.",
+      .attributes = {{"name", AttributeType::kText, true, "", "name of the variable"},
+                     {"value", AttributeType::kText, true, "", "what is appended"},
+                     {"prepend", AttributeType::kBoolean, false, "false", "true: put it in front"},
+                     {"separator", AttributeType::kText, false, ":", "what stands between the values"}},
+      .items = {},
+      .make = [](const Fields& fields) { return std::make_shared<AppendEnvironmentVariable>(fields); },
+  };
+}
+
+ActionType reset_env_action() {
+  return {
+      .tag = "reset_env",
+      .help = "Restores the environment that the launcher was started with.",
+      .attributes = {},
+      .items = {},
+      .make = [](const Fields& fields) { return std::make_shared<ResetEnvironment>(fields); },
+  };
+}
+
+ActionType rep_env_action() {
+  return {
+      .tag = "rep_env",
+      .help = "Replaces the whole launch environment.",
+      .attributes = {},
+      .items = {{"env",
+                 "a variable of the new environment",
+                 {{"name", AttributeType::kText, true, "", "name of the variable"},
+                  {"value", AttributeType::kText, true, "", "its value"}}}},
+      .make = [](const Fields& fields) { return std::make_shared<ReplaceEnvironment>(fields); },
+  };
+}
 
 ActionType set_env_action() {
   return {

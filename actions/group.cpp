@@ -29,7 +29,7 @@ class Group : public Action {
     }
     const bool scoped = scoped_.perform(inner);
     if (scoped && !forwarding_.perform(inner)) {
-      inner.configurations.clear();
+      inner.clear_configurations();
       inner.environment = context.initial_environment();
     }
     for (auto& [name, value] : kept) {

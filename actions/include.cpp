@@ -1,6 +1,8 @@
 // <include file="…"/>: visits another launch file here, in the scope that is there.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "launcher/core/fields.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_context.hpp"
@@ -42,23 +44,41 @@ class IncludeLaunchDescription : public Action {
                         "a file includes itself, directly or through others");
     }
     const std::string path = declaration_.file.perform(context.scope());
+    if (path.ends_with(".py")) {
+      note_python_include(path, context);
+      return;
+    }
     const auto included = load_launch_description(path, context.registry(), declaration_.file.where());
 
     std::vector<std::string> given;
-    const auto set_arguments = [&] {
-      // Performed here, so that $(dirname) in a value means the included file, as in ros2 launch.
-      for (const auto& [name, value] : declaration_.arguments) {
-        context.scope().configurations.insert_or_assign(name.perform(context.scope()), value.perform(context.scope()));
-      }
-    };
     for (const auto& [name, value] : declaration_.arguments) {
       given.push_back(name.perform(context.scope()));
     }
     check_required_arguments(*included, context.registry(), context.scope(), given, where());
-    context.visit(*included, set_arguments);
+    ++context.requests().includes;
+    // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
+    context.visit(*included, [&] { set_arguments(context.scope()); });
   }
 
  private:
+  void set_arguments(Scope& scope) const {
+    for (const auto& [name, value] : declaration_.arguments) {
+      std::string key = name.perform(scope);
+      scope.configurations.insert_or_assign(std::move(key), value.perform(scope));
+    }
+  }
+
+  // What a Python launch file would do is unknown: a plan goes on without it, whether it is there or not.
+  void note_python_include(const std::string& path, LaunchContext& context) const {
+    context.cannot_run(fmt::format("Python launch files can't be included: {}", path), declaration_.file.where(),
+                       "rewrite it in XML or YAML, or launch it with ros2 launch");
+    context.message(LogLevel::kWarning, "launch",
+                    fmt::format("{}: what the Python launch file asks for is not known: {}",
+                                to_string(declaration_.file.where()), path));
+    context.requests().python_includes.push_back(std::filesystem::absolute(path).lexically_normal().string());
+    set_arguments(context.scope());
+  }
+
   IncludeDeclaration declaration_;
 };
 

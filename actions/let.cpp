@@ -1,4 +1,4 @@
-// <let name="…" value="…"/>: sets a launch configuration.
+// <let name="…" value="…"/> and <unset name="…"/>: set and remove a launch configuration.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 
@@ -23,7 +23,31 @@ class SetLaunchConfiguration : public Action {
   Template value_;
 };
 
+class UnsetLaunchConfiguration : public Action {
+ public:
+  explicit UnsetLaunchConfiguration(const Fields& fields)
+      : Action(fields.where(), fields.condition()), name_(fields.text("name")) {}
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    context.scope().configurations.erase(name_.perform(context.scope()));
+  }
+
+ private:
+  Template name_;
+};
+
 }  // namespace
+
+ActionType unset_action() {
+  return {
+      .tag = "unset",
+      .help = "Removes a launch configuration; no error when there is none.",
+      .attributes = {{"name", AttributeType::kText, true, "", "name of the configuration"}},
+      .items = {},
+      .make = [](const Fields& fields) { return std::make_shared<UnsetLaunchConfiguration>(fields); },
+  };
+}
 
 ActionType let_action() {
   return {

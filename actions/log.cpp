@@ -1,4 +1,4 @@
-// <log message="…"/>: prints a message.
+// <log message="…" level="…"/> and <log_info message="…"/> with its sisters: print a message.
 #include <fmt/format.h>
 
 #include "launcher/core/fields.hpp"
@@ -19,18 +19,24 @@ const std::vector<std::pair<std::string, LogLevel>>& level_names() {
 
 class Log : public Action {
  public:
-  explicit Log(const Fields& fields)
-      : Action(fields.where(), fields.condition()), message_(fields.text("message")), level_(fields.optional_text("level")) {}
+  // `fallback` counts when the tag doesn't take a level or none is given.
+  Log(const Fields& fields, LogLevel fallback)
+      : Action(fields.where(), fields.condition()),
+        message_(fields.text("message")),
+        level_(fields.optional_text("level")),
+        fallback_(fallback) {}
 
  protected:
   void execute(LaunchContext& context) const override {
-    context.message(level(context.scope()), "launch.user", message_.perform(context.scope()));
+    const std::string text = message_.perform(context.scope());
+    context.message(level(context.scope()), "launch.user", text);
+    context.requests().logs.push_back(text);
   }
 
  private:
   LogLevel level(Scope& scope) const {
     if (!level_) {
-      return LogLevel::kInfo;
+      return fallback_;
     }
     std::string name = level_->perform(scope);
     for (char& character : name) {
@@ -49,9 +55,25 @@ class Log : public Action {
 
   Template message_;
   std::optional<Template> level_;
+  LogLevel fallback_;
 };
 
+ActionType log_with_level(const std::string& level_name, LogLevel level) {
+  return {
+      .tag = "log_" + level_name,
+      .help = fmt::format("Prints a message of level {}.", level_name),
+      .attributes = {{"message", AttributeType::kText, true, "", "the text"}},
+      .items = {},
+      .make = [level](const Fields& fields) { return std::make_shared<Log>(fields, level); },
+  };
+}
+
 }  // namespace
+
+ActionType log_debug_action() { return log_with_level("debug", LogLevel::kDebug); }
+ActionType log_info_action() { return log_with_level("info", LogLevel::kInfo); }
+ActionType log_warning_action() { return log_with_level("warning", LogLevel::kWarning); }
+ActionType log_error_action() { return log_with_level("error", LogLevel::kError); }
 
 ActionType log_action() {
   return {
@@ -60,7 +82,7 @@ ActionType log_action() {
       .attributes = {{"message", AttributeType::kText, true, "", "the text"},
                      {"level", AttributeType::kText, false, "info", "debug, info, warning, error or critical"}},
       .items = {},
-      .make = [](const Fields& fields) { return std::make_shared<Log>(fields); },
+      .make = [](const Fields& fields) { return std::make_shared<Log>(fields, LogLevel::kInfo); },
   };
 }
 

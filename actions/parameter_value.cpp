@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/substitution/boolean.hpp"
@@ -124,6 +127,30 @@ bool has_type(ParameterType type, const ParameterScalar& scalar) {
          (type == ParameterType::kStr && std::holds_alternative<std::string>(scalar));
 }
 
+void require_uniform(const std::vector<ParameterScalar>& items, const char* message, const SourceRange& where) {
+  for (const ParameterScalar& item : items) {
+    if (item.index() != items.front().index()) {
+      throw LaunchError(message, where, kNoParameterType);
+    }
+  }
+}
+
+// Whether a node reads the text, unquoted, as the string that it is.
+bool reads_as_string(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:@+-";
+  constexpr std::string_view kOtherTypes[] = {"y", "n", "yes", "no", "on", "off", "true", "false", "null", "inf", "infinity", "nan"};
+  if (text.empty() || text.find_first_not_of(kPlain) != std::string::npos || text.ends_with(':')) {
+    return false;
+  }
+  std::string lower;
+  for (const char character : text) {
+    lower += static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
+  }
+  const bool begins_as_text = std::isalpha(static_cast<unsigned char>(text.front())) || text.front() == '/' || text.front() == '_';
+  return begins_as_text && std::find(std::begin(kOtherTypes), std::end(kOtherTypes), lower) == std::end(kOtherTypes);
+}
+
 std::string scalar_to_yaml(const ParameterScalar& scalar) {
   if (const bool* const boolean = std::get_if<bool>(&scalar)) {
     return *boolean ? "true" : "false";
@@ -210,7 +237,7 @@ ParameterValueSource::ParameterValueSource(const Value& value, const std::string
       known.push_back(*finished);
     }
   }
-  require_uniform(known, "the result is a non-uniform list");
+  require_uniform(known, "the result is a non-uniform list", where_);
 }
 
 void ParameterValueSource::take_value(const Value& value) {
@@ -308,30 +335,7 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
     }
     return std::move(*value);
   }
-  if (text.empty()) {
-    return ParameterScalar(std::string());
-  }
-  // The performed text stands in no file: errors point at the template that gave it.
-  std::optional<Value> typed;
-  try {
-    typed = yaml11_value(LocatedText(text));
-  } catch (const YamlSyntaxError&) {
-    return ParameterScalar(text);
-  } catch (const LaunchError& error) {
-    throw LaunchError(fmt::format("{}: '{}'", error.diagnostics().front().message, text), where, kNoParameterType);
-  }
-  if (typed->scalar() != nullptr) {
-    return to_parameter(*typed->scalar(), where);
-  }
-  std::vector<ParameterScalar> items;
-  for (const Value& item : *typed->list()) {
-    if (item.scalar() == nullptr) {
-      throw LaunchError("a list can't hold lists", where, kNoParameterType);
-    }
-    items.push_back(to_parameter(*item.scalar(), where));
-  }
-  require_uniform(items, "the output list is not uniform");
-  return items;
+  return typed_parameter(text, where);
 }
 
 ParameterValue ParameterValueSource::perform(Scope& scope) const {
@@ -355,16 +359,40 @@ ParameterValue ParameterValueSource::perform(Scope& scope) const {
     }
     values.push_back(std::get<ParameterScalar>(std::move(value)));
   }
-  require_uniform(values, "the output list is not uniform");
+  require_uniform(values, "the output list is not uniform", where_);
   return values;
 }
 
-void ParameterValueSource::require_uniform(const std::vector<ParameterScalar>& items, const char* message) const {
-  for (const ParameterScalar& item : items) {
-    if (item.index() != items.front().index()) {
-      throw LaunchError(message, where_, kNoParameterType);
-    }
+ParameterValue parameter_of(const Value& value) {
+  if (value.scalar() != nullptr) {
+    return to_parameter(*value.scalar(), value.where);
   }
+  std::vector<ParameterScalar> items;
+  for (const Value& item : *value.list()) {
+    if (item.scalar() == nullptr) {
+      throw LaunchError("a list can't hold lists", value.where, kNoParameterType);
+    }
+    items.push_back(to_parameter(*item.scalar(), value.where));
+  }
+  require_uniform(items, "the output list is not uniform", value.where);
+  return items;
+}
+
+ParameterValue typed_parameter(const std::string& text, const SourceRange& where) {
+  if (text.empty()) {
+    return ParameterScalar(std::string());
+  }
+  // The performed text stands in no file: errors point at the template that gave it.
+  std::optional<Value> typed;
+  try {
+    typed = yaml11_value(LocatedText(text));
+  } catch (const YamlSyntaxError&) {
+    return ParameterScalar(text);
+  } catch (const LaunchError& error) {
+    throw LaunchError(fmt::format("{}: '{}'", error.diagnostics().front().message, text), where, kNoParameterType);
+  }
+  typed->where = where;
+  return parameter_of(*typed);
 }
 
 std::string to_yaml(const ParameterValue& value) {
@@ -376,6 +404,18 @@ std::string to_yaml(const ParameterValue& value) {
     text += (text.empty() ? "" : ", ") + scalar_to_yaml(item);
   }
   return "[" + text + "]";
+}
+
+std::string to_argument(const ParameterValue& value) {
+  const auto* const scalar = std::get_if<ParameterScalar>(&value);
+  if (scalar == nullptr) {
+    return to_yaml(value);
+  }
+  if (const auto* const text = std::get_if<std::string>(scalar)) {
+    return reads_as_string(*text) ? *text : to_yaml(value);
+  }
+  // "True" is a boolean for nodes too; not-a-number and infinity aren't written alike.
+  return std::holds_alternative<bool>(*scalar) ? to_python_text(value) : to_yaml(value);
 }
 
 std::string quote_yaml_if_needed(const std::string& key) {

@@ -5,7 +5,6 @@
 // x=7: the quotes are gone before the substitution is performed.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,13 +12,10 @@
 #include <vector>
 
 #include "launcher/frontend/entity.hpp"
+#include "launcher/substitution/parameter.hpp"
 #include "launcher/substitution/substitution.hpp"
 
 namespace launch {
-
-using ParameterScalar = std::variant<bool, std::int64_t, double, std::string>;
-// All items of a list have one type.
-using ParameterValue = std::variant<ParameterScalar, std::vector<ParameterScalar>>;
 
 // The types that a `type` attribute names.
 enum class ParameterType { kAny, kStr, kBool, kInt, kFloat };
@@ -42,7 +38,6 @@ class ParameterValueSource {
   void take_value(const Value& value);
   void take_items(const std::vector<Value>& values);
   ParameterValue type_text(const std::string& text, const SourceRange& where) const;
-  void require_uniform(const std::vector<ParameterScalar>& items, const char* message) const;
 
   ParameterType type_ = ParameterType::kAny;
   bool type_is_list_ = false;
@@ -51,8 +46,17 @@ class ParameterValueSource {
   std::vector<Item> items_;  // one, unless is_list_
 };
 
+// Types performed text by YAML 1.1 rules; empty text is an empty string. Throws LaunchError at `where` for what can't be
+// a parameter: nothing, a mapping, a list of several types.
+ParameterValue typed_parameter(const std::string& text, const SourceRange& where);
+// The parameter that a typed value is. Throws LaunchError, as typed_parameter().
+ParameterValue parameter_of(const Value& value);
+
 // One line of YAML that any reader of parameter files types alike: strings are always quoted.
 std::string to_yaml(const ParameterValue& value);
+// What stands behind "-p NAME:=": as ros2 launch writes it, but strings that a node would read as another type are quoted
+// and lists are YAML.
+std::string to_argument(const ParameterValue& value);
 // A mapping key, quoted unless it is plain letters, digits, '_', '.', '-' and '/'.
 std::string quote_yaml_if_needed(const std::string& key);
 

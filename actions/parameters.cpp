@@ -4,7 +4,8 @@
 
 #include <filesystem>
 
-#include "launcher/frontend/frontend.hpp"
+#include "actions/parameter_file.hpp"
+#include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
 namespace launch {
@@ -68,14 +69,49 @@ Parameters::Tree Parameters::parse_tree(const Fields& fields) {
   return tree;
 }
 
-void Parameters::write_tree(const Tree& tree, const std::string& prefix, Scope& scope, std::string& yaml) {
+void Parameters::perform_tree(const Tree& tree, const std::string& prefix, Scope& scope,
+                              std::vector<NamedParameter>& parameters) {
   const std::string name = prefix + tree.name.perform(scope);
   if (tree.value) {
-    yaml += fmt::format("    {}: {}\n", quote_yaml_if_needed(name), to_yaml(tree.value->perform(scope)));
+    parameters.push_back({name, tree.value->perform(scope)});
     return;
   }
   for (const Tree& child : tree.nested) {
-    write_tree(child, name + ".", scope, yaml);
+    perform_tree(child, name + ".", scope, parameters);
+  }
+}
+
+LocatedText Parameters::performed_file(const std::string& path, Scope& scope) const {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where());
+  }
+  const auto file = SourceFile::read(path, file_->where());
+  const SourceRange whole{file, 0, static_cast<std::uint32_t>(file->text().size())};
+  LocatedText performed(parse_template(LocatedText(file->text(), whole)).perform(scope));
+  std::vector<Diagnostic> duplicate_keys;  // a node takes the last one
+  try {
+    read_yaml(performed, duplicate_keys);
+  } catch (const LaunchError& error) {
+    throw LaunchError(fmt::format("parameter file '{}' is not YAML after its substitutions: {}", path,
+                                  error.diagnostics().front().message),
+                      file_->where());
+  }
+  return performed;
+}
+
+void Parameters::append_to(std::vector<NamedParameter>& parameters, LaunchContext& context,
+                           const std::string& qualified_name) const {
+  Scope& scope = context.scope();
+  if (tree_) {
+    perform_tree(*tree_, "", scope, parameters);
+    return;
+  }
+  const std::string path = file_->perform(scope);
+  if (allow_substitutions_) {
+    append_parameter_text(performed_file(path, scope), qualified_name, parameters);
+  } else {
+    append_parameter_file(path, qualified_name, file_->where(), parameters);
   }
 }
 
@@ -83,27 +119,25 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
   Scope& scope = context.scope();
   std::string content;
   if (tree_) {
+    std::vector<NamedParameter> parameters;
+    perform_tree(*tree_, "", scope, parameters);
     content = fmt::format("{}:\n  ros__parameters:\n", qualified_name.empty() ? "/**" : qualified_name);
-    write_tree(*tree_, "", scope, content);
+    for (const NamedParameter& parameter : parameters) {
+      content += fmt::format("    {}: {}\n", quote_yaml_if_needed(parameter.name), to_yaml(parameter.value));
+    }
   } else {
     const std::string path = file_->perform(scope);
-    std::error_code ignored;
-    const bool is_file = std::filesystem::is_regular_file(path, ignored);
     if (!allow_substitutions_) {
-      if (!is_file) {
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(path, ignored)) {
+        spec.argv.insert(spec.argv.end(), {"--params-file", path});
+      } else {
         context.message(LogLevel::kWarning, "launch_ros.actions.node",
                         fmt::format("{}: parameter file path is not a file: {}", to_string(file_->where()), path));
-        return;
       }
-      spec.argv.insert(spec.argv.end(), {"--params-file", path});
       return;
     }
-    if (!is_file) {
-      throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where());
-    }
-    const auto file = SourceFile::read(path, file_->where());
-    const auto size = static_cast<std::uint32_t>(file->text().size());
-    content = parse_template(LocatedText(file->text(), SourceRange{file, 0, size})).perform(scope);
+    content = performed_file(path, scope).text();
   }
   spec.argv.push_back("--params-file");
   spec.files.push_back({spec.argv.size(), "launch_params.yaml", std::move(content)});

@@ -1,4 +1,4 @@
-// <timer period="…">: visits actions once, after a delay.
+// <timer period="…"> and <ros_timer period="…">: visit actions once, after a delay.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 
@@ -32,12 +32,10 @@ class TimerAction : public Action {
   std::vector<ActionPtr> actions_;
 };
 
-}  // namespace
-
-ActionType timer_action() {
+ActionType timer(std::string tag, std::string help) {
   return {
-      .tag = "timer",
-      .help = "Visits its actions once, a while after the system has started.",
+      .tag = std::move(tag),
+      .help = std::move(help),
       .attributes = {{"period", AttributeType::kFloat, true, "", "delay in seconds"},
                      {"cancel_on_shutdown", AttributeType::kBoolean, false, "true",
                       "false: a shutdown waits until the timer has fired"}},
@@ -45,6 +43,15 @@ ActionType timer_action() {
       .holds_actions = true,
       .make = [](const Fields& fields) { return std::make_shared<TimerAction>(fields); },
   };
+}
+
+}  // namespace
+
+ActionType timer_action() { return timer("timer", "Visits its actions once, a while after the system has started."); }
+
+// The launcher is no ROS node and hears no /clock, so ROS time is the system's time here.
+ActionType ros_timer_action() {
+  return timer("ros_timer", "The same as timer: this launcher counts system time, never simulated time.");
 }
 
 }  // namespace launch

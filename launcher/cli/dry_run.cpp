@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
 #include <optional>
+
+#include "actions/parameter_value.hpp"
+#include "launcher/cli/parameter_json.hpp"
 
 namespace launch {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::map<std::string, std::optional<std::string>> difference(const Environment& of, const Environment& to) {
   std::map<std::string, std::optional<std::string>> changes;
@@ -28,14 +28,73 @@ std::map<std::string, std::optional<std::string>> difference(const Environment& 
   return changes;
 }
 
-// The argv of a process with "@params:N" for generated files, whose contents go to `contents`.
-std::vector<std::string> plain_argv(const ProcessSpec& spec, std::vector<std::string>& contents) {
+// The argv of a process with "@params:N" for the path of its generated file N.
+std::vector<std::string> plain_argv(const ProcessSpec& spec) {
   std::vector<std::string> argv = spec.argv;
-  for (const GeneratedFile& file : spec.files) {
-    argv[file.argument] = fmt::format("@params:{}", contents.size());
-    contents.push_back(file.content);
+  for (std::size_t i = 0; i < spec.files.size(); ++i) {
+    argv[spec.files[i].argument] = fmt::format("@params:{}", i);
   }
   return argv;
+}
+
+Json source_as_json(const SourceRange& where) {
+  return {{"file", where.file->path()}, {"line", where.file->position(where.begin).line}};
+}
+
+template <typename Text>
+Json or_null(const std::optional<Text>& text) {
+  return text ? Json(*text) : Json(nullptr);
+}
+
+Json process_as_json(const ProcessSpec& spec, const Environment& launcher_environment) {
+  Json process;
+  process["name"] = spec.name;
+  process["argv"] = plain_argv(spec);
+  process["cwd"] = spec.working_directory.empty() ? Json(nullptr) : Json(spec.working_directory);
+  Json environment = Json::object();
+  for (const auto& [name, value] : difference(spec.environment, launcher_environment)) {
+    environment[name] = or_null(value);
+  }
+  process["env"] = std::move(environment);
+  process["shell"] = spec.shell;
+  if (!spec.files.empty()) {
+    Json contents = Json::array();
+    for (const GeneratedFile& file : spec.files) {
+      contents.push_back(parameter_file_as_json(file.content));
+    }
+    process["params"] = std::move(contents);
+  }
+  if (spec.origin) {
+    process["source"] = source_as_json(spec.origin);
+  }
+  return process;
+}
+
+Json load_request_as_json(const LoadRequest& request) {
+  const auto named = [](const std::vector<NamedParameter>& parameters) {
+    Json list = Json::array();
+    for (const NamedParameter& parameter : parameters) {
+      list.push_back({parameter.name, parameter_type_name(parameter.value), parameter_as_json(parameter.value)});
+    }
+    return list;
+  };
+  Json nodes = Json::array();
+  for (const ComposableNode& component : request.nodes) {
+    Json node;
+    node["package"] = component.package;
+    node["plugin"] = component.plugin;
+    node["name"] = component.name;
+    node["namespace"] = component.name_space;
+    node["parameters"] = named(component.parameters);
+    Json remaps = Json::array();
+    for (const auto& [from, to] : component.remaps) {
+      remaps.push_back(from + ":=" + to);
+    }
+    node["remaps"] = std::move(remaps);
+    node["extra_arguments"] = named(component.extra_arguments);
+    nodes.push_back(std::move(node));
+  }
+  return {{"target", request.target}, {"nodes", std::move(nodes)}};
 }
 
 std::string shell_quoted(const std::string& word) {
@@ -82,11 +141,9 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
     }
     text += '\n';
   }
-  std::vector<std::string> contents;
   for (const ProcessSpec& spec : plan.processes) {
-    const std::size_t first_content = contents.size();
     std::string command;
-    for (const std::string& word : plain_argv(spec, contents)) {
+    for (const std::string& word : plain_argv(spec)) {
       command += (command.empty() ? "" : " ") + (spec.shell ? word : shell_quoted(word));
     }
     text += fmt::format("{} ({})\n  {}\n", spec.name, to_string(spec.origin), command);
@@ -97,8 +154,22 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
       text +=
           value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
     }
-    for (std::size_t i = first_content; i < contents.size(); ++i) {
-      text += fmt::format("  @params:{}:\n{}", i, indented(contents[i]));
+    for (std::size_t i = 0; i < spec.files.size(); ++i) {
+      text += fmt::format("  @params:{}:\n{}", i, indented(spec.files[i].content));
+    }
+    text += '\n';
+  }
+  for (const LoadRequest& request : plan.loads) {
+    text += fmt::format("load into {} ({})\n", request.target, to_string(request.origin));
+    for (const ComposableNode& node : request.nodes) {
+      text += fmt::format("  {} {} as {}\n", node.package, node.plugin,
+                          node.name_space.empty() ? node.name : node.name_space + "/" + node.name);
+      for (const NamedParameter& parameter : node.parameters) {
+        text += fmt::format("    {}: {}\n", parameter.name, to_yaml(parameter.value));
+      }
+      for (const auto& [from, to] : node.remaps) {
+        text += fmt::format("    {}:={}\n", from, to);
+      }
     }
     text += '\n';
   }
@@ -108,23 +179,18 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
 
 std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
   Json processes = Json::array();
-  std::vector<std::string> contents;
   for (const ProcessSpec& spec : plan.processes) {
-    Json process;
-    process["name"] = spec.name;
-    process["argv"] = plain_argv(spec, contents);
-    process["cwd"] = spec.working_directory.empty() ? Json(nullptr) : Json(spec.working_directory);
-    Json environment = Json::object();
-    for (const auto& [name, value] : difference(spec.environment, launcher_environment)) {
-      environment[name] = value ? Json(*value) : Json(nullptr);
-    }
-    process["env"] = std::move(environment);
-    process["shell"] = spec.shell;
-    if (spec.origin) {
-      process["source"] = {{"file", spec.origin.file->path()},
-                           {"line", spec.origin.file->position(spec.origin.begin).line}};
-    }
-    processes.push_back(std::move(process));
+    processes.push_back(process_as_json(spec, launcher_environment));
+  }
+  for (const NodeDescription& node : plan.nodes) {
+    processes[node.process]["node"] = {{"package", or_null(node.package)},
+                                       {"executable", node.executable},
+                                       {"name", or_null(node.name)},
+                                       {"namespace", or_null(node.name_space)}};
+  }
+  Json loads = Json::array();
+  for (const LoadRequest& request : plan.loads) {
+    loads.push_back(load_request_as_json(request));
   }
   Json traces = Json::array();
   for (const auto& scope : plan.scopes) {
@@ -132,14 +198,18 @@ std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_env
     for (const ScopeSetting& setting : scope->describe()) {
       std::visit([&](const auto& held) { trace[setting.name] = held; }, setting.value);
     }
-    trace["source"] = {{"file", scope->origin().file->path()},
-                       {"line", scope->origin().file->position(scope->origin().begin).line}};
+    trace["source"] = source_as_json(scope->origin());
     traces.push_back(std::move(trace));
   }
   Json root;
+  root["outcome"] = "ok";
   root["processes"] = std::move(processes);
-  root["params"] = contents;
+  root["composable"] = std::move(loads);
   root["traces"] = std::move(traces);
+  root["logs"] = plan.logs;
+  root["python_includes"] = plan.python_includes;
+  root["includes"] = plan.includes;
+  root["shutdown"] = plan.shutdown;
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -28,6 +28,14 @@ std::string expected_kind(AttributeType type) {
   }
 }
 
+std::vector<std::string> tags_of(const std::vector<ItemSpec>& items) {
+  std::vector<std::string> tags;
+  for (const ItemSpec& item : items) {
+    tags.push_back(item.tag);
+  }
+  return tags;
+}
+
 bool accepts(AttributeType type, const Scalar& scalar) {
   using Type = Scalar::Type;
   if (scalar.type == Type::kUntyped || scalar.type == Type::kString) {
@@ -96,11 +104,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
 
   const std::size_t errors_before = errors_.size();
   Fields fields(entity.where);
-  std::vector<std::string> item_tags;
-  for (const ItemSpec& item : type->items) {
-    item_tags.push_back(item.tag);
-  }
-  parse_attributes(entity, type->attributes, item_tags, true, fields);
+  parse_attributes(entity, type->attributes, tags_of(type->items), true, fields);
   parse_condition(entity, fields);
 
   if (type->holds_actions && !entity.has_children_list) {
@@ -130,10 +134,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
 
 void ActionParser::report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items,
                                         bool actions) {
-  std::vector<std::string> known;
-  for (const ItemSpec& item : items) {
-    known.push_back(item.tag);
-  }
+  std::vector<std::string> known = tags_of(items);
   if (actions) {
     for (const auto& [tag, unused] : registry_.types()) {
       known.push_back(tag);
@@ -231,12 +232,21 @@ void ActionParser::parse_condition(const Entity& entity, Fields& fields) {
 
 void ActionParser::parse_item(const Entity& entity, const ItemSpec& spec, Fields& parent) {
   Fields fields(entity.where);
-  parse_attributes(entity, spec.attributes, spec.recursive ? std::vector{spec.tag} : std::vector<std::string>{}, false, fields);
+  std::vector<ItemSpec> items = spec.items;
+  if (spec.recursive) {
+    items.push_back(spec);
+  }
+  parse_attributes(entity, spec.attributes, tags_of(items), spec.has_condition, fields);
+  if (spec.has_condition) {
+    parse_condition(entity, fields);
+  }
   for (const Entity& child : entity.children) {
-    if (spec.recursive && child.type_name == spec.tag) {
-      parse_item(child, spec, fields);
+    const auto item = std::find_if(items.begin(), items.end(),
+                                   [&](const ItemSpec& candidate) { return candidate.tag == child.type_name; });
+    if (item != items.end()) {
+      parse_item(child, *item, fields);
     } else {
-      report_unknown_child(entity, child, {}, false);
+      report_unknown_child(entity, child, items, false);
     }
   }
   parent.items_.emplace_back(entity.type_name, std::move(fields));

@@ -31,6 +31,15 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
       messages_(std::move(messages)) {
   scope_.environment = initial_environment_;
   scope_.packages = std::make_shared<PackageIndex>(own_prefix_);
+  scope_.warn = [this](const SourceRange& where, const std::string& text) {
+    message(LogLevel::kWarning, "launch", fmt::format("{}: {}", to_string(where), text));
+  };
+}
+
+void LaunchContext::cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const {
+  if (!plan_only_) {
+    throw LaunchError(message, where, help);
+  }
 }
 
 void LaunchContext::visit(const std::vector<ActionPtr>& actions) {

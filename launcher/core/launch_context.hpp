@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "launcher/core/action.hpp"
+#include "launcher/core/composable_node.hpp"
 #include "launcher/core/launch_description.hpp"
 #include "launcher/core/registry.hpp"
 #include "launcher/core/run_scope.hpp"
@@ -34,12 +35,26 @@ struct ShutdownRequest {
   std::string reason;
 };
 
+// The ROS node that a process is asked to be; empty where the launch file leaves it to the program.
+struct NodeDescription {
+  std::size_t process = 0;  // which of the processes
+  std::optional<std::string> package;
+  std::string executable;
+  std::optional<std::string> name;
+  std::optional<std::string> name_space;
+};
+
 // What one traversal asked for. Scopes begin before its processes start.
 struct Requests {
   std::vector<std::unique_ptr<RunScope>> scopes;
   std::vector<ProcessSpec> processes;
+  std::vector<NodeDescription> nodes;
+  std::vector<LoadRequest> loads;
   std::vector<TimerRequest> timers;
   std::optional<ShutdownRequest> shutdown;
+  std::vector<std::string> logs;             // messages of `log` actions
+  std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
+  int includes = 0;                          // other launch files that were included
 };
 
 class LaunchContext {
@@ -55,6 +70,12 @@ class LaunchContext {
   // The environment that the launcher was started with.
   const Environment& initial_environment() const { return initial_environment_; }
   const std::string& own_prefix() const { return own_prefix_; }
+
+  // From now on nothing of what is visited will be carried out: what cannot_run() is only noted.
+  void plan_only() { plan_only_ = true; }
+  // For what a launch file may ask for and this launcher can't carry out: throws LaunchError, before anything has been
+  // started, unless the visit is only to know what would run.
+  void cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const;
 
   // Visits actions in order, in the current scope. Throws LaunchError.
   void visit(const std::vector<ActionPtr>& actions);
@@ -78,6 +99,7 @@ class LaunchContext {
   MessageSink messages_;
   Scope scope_;
   Requests requests_;
+  bool plan_only_ = false;
   std::unordered_map<std::string, int> nodes_;
 };
 

@@ -7,8 +7,21 @@ namespace launch {
 
 namespace {
 
+template <typename Item>
+void append(std::vector<Item>& to, std::vector<Item>& from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
 void collect(LaunchPlan& plan, Requests requests, std::multimap<Duration, TimerRequest>& timers, Duration now) {
-  std::move(requests.scopes.begin(), requests.scopes.end(), std::back_inserter(plan.scopes));
+  append(plan.scopes, requests.scopes);
+  for (NodeDescription& node : requests.nodes) {
+    node.process += plan.processes.size();
+    plan.nodes.push_back(std::move(node));
+  }
+  append(plan.loads, requests.loads);
+  append(plan.logs, requests.logs);
+  append(plan.python_includes, requests.python_includes);
+  plan.includes += requests.includes;
   for (ProcessSpec& spec : requests.processes) {
     for (const auto& scope : plan.scopes) {
       scope->prepare(spec);
@@ -26,6 +39,7 @@ void collect(LaunchPlan& plan, Requests requests, std::multimap<Duration, TimerR
 LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description) {
   LaunchPlan plan;
   std::multimap<Duration, TimerRequest> timers;
+  context.plan_only();
   context.visit(description);
   collect(plan, context.take_requests(), timers, Duration(0));
   while (!timers.empty() && !plan.shutdown) {

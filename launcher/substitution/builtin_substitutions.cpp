@@ -1,78 +1,21 @@
 // The built-in substitutions: one function and one row of the table at the end for each.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "launcher/substitution/boolean.hpp"
-#include "launcher/substitution/package_index.hpp"
+#include "launcher/substitution/substitution_call.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
 namespace launch {
 
 namespace {
 
-// One use of a substitution while it is performed.
-class Call {
- public:
-  Call(const std::vector<Template>& arguments, const SourceRange& where, Scope& scope)
-      : arguments_(arguments), where_(where), scope_(scope) {}
-
-  std::size_t count() const { return arguments_.size(); }
-  bool has(std::size_t index) const { return index < arguments_.size(); }
-
-  // The text of an argument; performed anew by each call.
-  std::string text(std::size_t index) const { return arguments_[index].perform(scope_); }
-
-  bool boolean(std::size_t index) const {
-    const std::string value = text(index);
-    const std::optional<bool> result = yaml_boolean(value);
-    if (!result) {
-      throw LaunchError(fmt::format("'{}' is not a boolean", value), arguments_[index].where(),
-                        "expected true, false, yes, no, on, off, 1 or 0");
-    }
-    return *result;
-  }
-
-  [[noreturn]] void fail(std::string message, std::string help) const {
-    throw LaunchError(std::move(message), where_, std::move(help));
-  }
-
-  // Runs a look-up of the package index, whose errors have no place, and gives them this one.
-  template <typename LookUp, typename Candidates>
-  std::string look_up(LookUp find, std::string_view name, Candidates candidates) const {
-    try {
-      return find(*scope_.packages);
-    } catch (const std::runtime_error& error) {
-      fail(error.what(), did_you_mean(name, candidates(*scope_.packages)));
-    }
-  }
-
-  Scope& scope() const { return scope_; }
-
- private:
-  const std::vector<Template>& arguments_;
-  const SourceRange& where_;
-  Scope& scope_;
-};
-
-template <typename Map>
-std::vector<std::string> names_of(const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : map) {
-    names.push_back(name);
-  }
-  return names;
-}
-
 std::string truth(bool value) {
   return value ? "true" : "false";
 }
 
-std::string var(const Call& call) {
+std::string var(const SubstitutionCall& call) {
   const std::string name = call.text(0);
   const auto& configurations = call.scope().configurations;
   if (const auto found = configurations.find(name); found != configurations.end()) {
@@ -88,7 +31,7 @@ std::string var(const Call& call) {
   call.fail(fmt::format("launch configuration '{}' does not exist", name), std::move(help));
 }
 
-std::string env(const Call& call) {
+std::string env(const SubstitutionCall& call) {
   const std::string name = call.text(0);
   const Environment& environment = call.scope().environment;
   if (const auto found = environment.find(name); found != environment.end()) {
@@ -104,30 +47,35 @@ std::string env(const Call& call) {
   call.fail(fmt::format("environment variable '{}' does not exist", name), std::move(help));
 }
 
-std::string filename(const Call& call) {
+std::string filename(const SubstitutionCall& call) {
   if (call.scope().current_file == nullptr) {
     call.fail("no launch file is being visited here", {});
   }
   return std::filesystem::absolute(call.scope().current_file->path()).lexically_normal().string();
 }
 
-std::string dirname(const Call& call) {
+std::string dirname(const SubstitutionCall& call) {
   return std::filesystem::path(filename(call)).parent_path().string();
 }
 
-std::string find_pkg_prefix(const Call& call) {
+std::string find_pkg_prefix(const SubstitutionCall& call) {
   const std::string package = call.text(0);
   return call.look_up([&](PackageIndex& index) { return index.prefix(package, call.scope().environment); }, package,
                       [&](PackageIndex& index) { return index.packages(call.scope().environment); });
 }
 
-std::string find_pkg_share(const Call& call) {
+std::string find_pkg_share(const SubstitutionCall& call) {
   const std::string package = call.text(0);
-  return call.look_up([&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
+  std::string path = call.look_up([&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
                       [&](PackageIndex& index) { return index.packages(call.scope().environment); });
+  std::error_code ignored;
+  if (call.scope().warn && !std::filesystem::is_directory(path, ignored)) {
+    call.scope().warn(call.where(), fmt::format("package '{}' has no share directory: '{}' does not exist", package, path));
+  }
+  return path;
 }
 
-std::string exec_in_pkg(const Call& call) {
+std::string exec_in_pkg(const SubstitutionCall& call) {
   const std::string executable = call.text(0);
   const std::string package = call.text(1);
   const Environment& environment = call.scope().environment;
@@ -138,7 +86,7 @@ std::string exec_in_pkg(const Call& call) {
                       executable, [&](PackageIndex& index) { return index.executables(package, environment); });
 }
 
-std::string find_exec(const Call& call) {
+std::string find_exec(const SubstitutionCall& call) {
   const std::string name = call.text(0);
   std::string path = PackageIndex::find_on_path(name, call.scope().environment);
   if (path.empty()) {
@@ -147,16 +95,16 @@ std::string find_exec(const Call& call) {
   return path;
 }
 
-std::string log_dir(const Call& call) {
+std::string log_dir(const SubstitutionCall& call) {
   return call.scope().log_directory;
 }
 
-std::string not_(const Call& call) {
+std::string not_(const SubstitutionCall& call) {
   return truth(!call.boolean(0));
 }
 
 // `and`, `or`, `all` and `any` perform all their arguments, so that a bad one is found whatever the others are.
-std::string all(const Call& call) {
+std::string all(const SubstitutionCall& call) {
   bool result = true;
   for (std::size_t i = 0; i < call.count(); ++i) {
     result = call.boolean(i) && result;
@@ -164,7 +112,7 @@ std::string all(const Call& call) {
   return truth(result);
 }
 
-std::string any(const Call& call) {
+std::string any(const SubstitutionCall& call) {
   bool result = false;
   for (std::size_t i = 0; i < call.count(); ++i) {
     result = call.boolean(i) || result;
@@ -172,22 +120,22 @@ std::string any(const Call& call) {
   return truth(result);
 }
 
-std::string equals(const Call& call) {
+std::string equals(const SubstitutionCall& call) {
   return truth(launch_equal(call.text(0), call.text(1)));
 }
 
-std::string not_equals(const Call& call) {
+std::string not_equals(const SubstitutionCall& call) {
   return truth(!launch_equal(call.text(0), call.text(1)));
 }
 
-std::string if_(const Call& call) {
+std::string if_(const SubstitutionCall& call) {
   if (call.boolean(0)) {
     return call.text(1);
   }
   return call.has(2) ? call.text(2) : std::string();
 }
 
-std::string string_join(const Call& call) {
+std::string string_join(const SubstitutionCall& call) {
   const std::string separator = call.text(0);
   std::string result = call.text(1);
   for (std::size_t i = 2; i < call.count(); ++i) {
@@ -196,10 +144,54 @@ std::string string_join(const Call& call) {
   return result;
 }
 
+// The value of an earlier `set_parameter`. The last one counts, as it does for nodes; parameter files are not searched.
+std::string param(const SubstitutionCall& call) {
+  const std::string name = call.text(0);
+  const std::vector<GlobalParameter>& parameters = call.scope().global_parameters;
+  std::vector<std::string> names;
+  for (auto parameter = parameters.rbegin(); parameter != parameters.rend(); ++parameter) {
+    if (const auto* const named = std::get_if<NamedParameter>(&*parameter)) {
+      if (named->name == name) {
+        return to_python_text(named->value);
+      }
+      names.push_back(named->name);
+    }
+  }
+  if (call.has(1)) {
+    return call.text(1);
+  }
+  std::string help = did_you_mean(name, names);
+  call.fail(fmt::format("parameter '{}' does not exist", name),
+            help.empty() ? fmt::format("set it before with 'set_parameter', or give a default: $(param {} DEFAULT)", name)
+                         : std::move(help));
+}
+
+std::string loop_variable(const SubstitutionCall& call, const char* kind, const char* loop) {
+  const std::string name = call.text(0);
+  const auto& variables = call.scope().loop_variables;
+  if (const auto found = variables.find(name); found != variables.end()) {
+    return found->second;
+  }
+  if (call.has(1)) {
+    return call.text(1);
+  }
+  std::string help = did_you_mean(name, names_of(variables));
+  call.fail(fmt::format("{} '{}' does not exist here", kind, name),
+            help.empty() ? fmt::format("it is set inside a '{}' only", loop) : std::move(help));
+}
+
+std::string for_var(const SubstitutionCall& call) {
+  return loop_variable(call, "loop variable", "for_each");
+}
+
+std::string index(const SubstitutionCall& call) {
+  return loop_variable(call, "loop index", "for");
+}
+
 // A substitution that performs one of the functions above.
 class Builtin : public Substitution {
  public:
-  using Function = std::string (*)(const Call&);
+  using Function = std::string (*)(const SubstitutionCall&);
 
   // In `description`, {0} {1} ... stand for the descriptions of the arguments and {*} for all of them.
   Builtin(Function function, std::string_view description, std::vector<Template> arguments, SourceRange where)
@@ -208,7 +200,7 @@ class Builtin : public Substitution {
         description_(description),
         arguments_(std::move(arguments)) {}
 
-  std::string perform(Scope& scope) const override { return function_(Call(arguments_, where(), scope)); }
+  std::string perform(Scope& scope) const override { return function_(SubstitutionCall(arguments_, where(), scope)); }
 
   std::string describe() const override {
     std::string result;
@@ -278,6 +270,15 @@ const std::vector<SubstitutionType>& substitution_types() {
        make(if_, "IfElseSubstitution({0}, {1}, {2})")},
       {"string-join", 2, kAny, "$(string-join SEPARATOR A...)", "the texts with the separator between them",
        make(string_join, "StringJoinSubstitution({*})")},
+      {"eval", 1, 2, "$(eval 'EXPRESSION' ['MODULE, ...'])", "value of a Python expression",
+       make(eval, "PythonExpr({0})")},
+      {"command", 1, 2, "$(command 'COMMAND' [fail|warn|ignore|capture])", "standard output of a command",
+       make(command, "Command({0})")},
+      {"anon", 1, 1, "$(anon NAME)", "NAME made unique", make(anon, "AnonName({0})")},
+      {"param", 1, 2, "$(param NAME [DEFAULT])", "value of an earlier set_parameter", make(param, "Parameter({0})")},
+      {"file-content", 1, 1, "$(file-content PATH)", "text of a file", make(file_content, "FileContent({0})")},
+      {"for-var", 1, 2, "$(for-var NAME [DEFAULT])", "variable of the enclosing for_each", make(for_var, "ForEachVar({0})")},
+      {"index", 1, 1, "$(index NAME)", "index of the enclosing for", make(index, "ForLoopIndex({0})")},
   };
   return types;
 }

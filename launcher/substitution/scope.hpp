@@ -1,12 +1,15 @@
 // What substitutions can see: the plain state of a launch at one moment.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "launcher/base/source.hpp"
+#include "launcher/substitution/parameter.hpp"
 
 namespace launch {
 
@@ -20,12 +23,26 @@ struct Scope {
   std::map<std::string, std::string> configurations;
   // The launch environment: what $(env X) reads and what children inherit.
   Environment environment;
+  // What every later node is given before its own parameters and remaps, in the order in which it was set.
+  std::vector<GlobalParameter> global_parameters;
+  std::vector<std::pair<std::string, std::string>> global_remaps;  // from, to
+  // Variables of the enclosing `for` and `for_each`: what $(index i) and $(for-var x) read.
+  std::map<std::string, std::string> loop_variables;
   // The launch file being visited: what $(dirname) and $(filename) give. Null outside any file.
   std::shared_ptr<const SourceFile> current_file;
   // This run's log directory.
   std::string log_directory;
   // Finds packages by AMENT_PREFIX_PATH of `environment`, never null while visiting.
   std::shared_ptr<PackageIndex> packages;
+  // Tells the user what is suspicious but no error, with its place. May be empty.
+  std::function<void(const SourceRange& where, const std::string& text)> warn;
+
+  // Forgets the configurations and what belongs to them: `reset`, and `forwarding="false"` of a group.
+  void clear_configurations() {
+    configurations.clear();
+    global_parameters.clear();
+    global_remaps.clear();
+  }
 };
 
 }  // namespace launch

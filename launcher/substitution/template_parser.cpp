@@ -14,10 +14,6 @@ namespace {
 // Far above what a person writes, far below what would exhaust the stack.
 constexpr int kMaximumNesting = 200;
 
-// Substitutions of ROS 2 that this build doesn't have: known, so not to be reported as spelling mistakes.
-constexpr std::array<std::string_view, 7> kNotAvailable = {"eval",         "command", "anon", "param",
-                                                           "file-content", "for-var", "index"};
-
 // What ROS 1 files call a substitution, and what it has become.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFormerNames = {{
     {"arg", "$(var NAME)"},
@@ -252,9 +248,6 @@ class TemplateParser {
   }
 
   static LaunchError unknown(const std::string& name, const SourceRange& where) {
-    if (std::find(kNotAvailable.begin(), kNotAvailable.end(), name) != kNotAvailable.end()) {
-      return {fmt::format("substitution '{}' is not available in this build", name), where};
-    }
     std::string help;
     for (const auto& [former, present] : kFormerNames) {
       if (name == former) {
@@ -262,7 +255,7 @@ class TemplateParser {
       }
     }
     if (help.empty()) {
-      std::vector<std::string> names(kNotAvailable.begin(), kNotAvailable.end());
+      std::vector<std::string> names;
       for (const SubstitutionType& type : substitution_types()) {
         names.push_back(type.name);
       }

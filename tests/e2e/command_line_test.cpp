@@ -115,6 +115,7 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
                                        "2 processes, 0 traces; nothing was started\n");
   const Command json{.argv = {LAUNCH_PROGRAM, "--dry-run=json", file.string()}, .environment = {{"GONE", "1"}}};
   EXPECT_EQ(run_command(json).out, R"json({
+  "outcome": "ok",
   "processes": [
     {
       "name": "talker",
@@ -154,17 +155,34 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
         "GONE": null
       },
       "shell": false,
+      "params": [
+        {
+          "/ns/n": {
+            "ros__parameters": {
+              "rate": 10
+            }
+          }
+        }
+      ],
       "source": {
         "file": ")json" + file.string() +
                                        R"json(",
         "line": 7
+      },
+      "node": {
+        "package": null,
+        "executable": "/bin/true",
+        "name": "n",
+        "namespace": "/ns"
       }
     }
   ],
-  "params": [
-    "/ns/n:\n  ros__parameters:\n    rate: 10\n"
-  ],
-  "traces": []
+  "composable": [],
+  "traces": [],
+  "logs": [],
+  "python_includes": [],
+  "includes": 0,
+  "shutdown": false
 }
 )json");
 }

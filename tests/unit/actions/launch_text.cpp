@@ -29,4 +29,16 @@ Planned plan_actions(const std::string& xml, const PlanOptions& options) {
   return plan_text("<launch>\n" + xml + "\n</launch>\n", options);
 }
 
+std::string run_error(const std::string& xml) {
+  const launch::Registry registry = launch::builtin_actions();
+  launch::LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
+  try {
+    const auto file = std::make_shared<launch::SourceFile>("/test/system.launch.xml", "<launch>\n" + xml + "\n</launch>\n");
+    context.visit(*launch::parse_launch_description(file, registry));
+  } catch (const launch::LaunchError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace test_support

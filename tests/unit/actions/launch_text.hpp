@@ -25,4 +25,7 @@ Planned plan_text(const std::string& text, const PlanOptions& options = {});
 // The same for the children of <launch>.
 Planned plan_actions(const std::string& xml, const PlanOptions& options = {});
 
+// The error of visiting the children of <launch> for a run; nothing is started. "" for none.
+std::string run_error(const std::string& xml);
+
 }  // namespace test_support

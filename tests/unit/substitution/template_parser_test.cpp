@@ -154,10 +154,11 @@ INSTANTIATE_TEST_SUITE_P(
                           "t:1:3: error: unknown substitution 'xyzzy'\n"
                           "    1 | $(xyzzy)\n"
                           "      |   ^~~~~\n"},
-                    Fault{"$(eval '1 + 2')",
-                          "t:1:3: error: substitution 'eval' is not available in this build\n"
-                          "    1 | $(eval '1 + 2')\n"
-                          "      |   ^~~~\n"},
+                    Fault{"$(eval 1 + 2)",
+                          "t:1:1: error: substitution 'eval' takes 1 or 2 arguments, got 3\n"
+                          "    1 | $(eval 1 + 2)\n"
+                          "      | ^~~~~~~~~~~~~\n"
+                          "      = help: usage: $(eval 'EXPRESSION' ['MODULE, ...']); quote an argument that has spaces\n"},
                     Fault{"$(var)",
                           "t:1:1: error: substitution 'var' takes 1 or 2 arguments, got 0\n"
                           "    1 | $(var)\n"

@@ -1,0 +1,43 @@
+// The <composable_node> items of <node_container> and <load_composable_node>.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "actions/parameters.hpp"
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+
+namespace launch {
+
+class ComposableNodes {
+ public:
+  // composable_node and composable_lifecycle_node.
+  static std::vector<ItemSpec> items();
+
+  explicit ComposableNodes(const Fields& fields);
+
+  bool empty() const { return nodes_.empty(); }
+  // Asks for those nodes to be loaded into the container `target` whose conditions hold.
+  void request(LaunchContext& context, const std::string& target, const SourceRange& where) const;
+
+ private:
+  struct Description {
+    SourceRange where;
+    Condition condition;
+    Template package;
+    Template plugin;
+    Template name;
+    std::optional<Template> name_space;
+    std::vector<Parameters> parameters;
+    std::vector<std::pair<Template, Template>> remaps;
+    std::vector<std::pair<Template, Template>> extra_arguments;
+    BooleanField autostart;
+  };
+  static ComposableNode evaluate(const Description& node, LaunchContext& context);
+
+  std::vector<Description> nodes_;
+};
+
+}  // namespace launch

@@ -1,0 +1,47 @@
+// What <node>, <node_container> and <lifecycle_node> have in common: a process that understands --ros-args.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "actions/parameters.hpp"
+#include "actions/process_fields.hpp"
+
+namespace launch {
+
+class NodeProcess {
+ public:
+  // Declarations for an ActionType. With `named`, name and namespace are required.
+  static std::vector<AttributeSpec> attributes(bool named);
+  static std::vector<ItemSpec> items();
+
+  explicit NodeProcess(const Fields& fields);
+
+  // Asks the context to start it. Returns the node's fully qualified name, empty while a part of it is left to the
+  // program.
+  std::string request(LaunchContext& context) const;
+
+ private:
+  std::string program(Scope& scope) const;
+  std::optional<std::string> node_name(Scope& scope) const;
+
+  SourceRange where_;
+  std::optional<Template> package_;
+  Template executable_;
+  std::optional<Template> name_;
+  std::optional<Template> exec_name_;
+  std::optional<Template> namespace_;
+  std::vector<Template> arguments_;
+  std::optional<std::vector<Template>> ros_arguments_;
+  std::vector<Parameters> parameters_;
+  std::vector<std::pair<Template, Template>> remaps_;
+  ProcessFields process_;
+};
+
+// The <remap> items of nodes and components.
+ItemSpec remap_item();
+std::vector<std::pair<Template, Template>> remaps_of(const Fields& fields);
+
+}  // namespace launch

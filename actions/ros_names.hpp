@@ -1,0 +1,25 @@
+// Names of the ROS graph: which are valid, and how namespaces combine.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "launcher/substitution/substitution.hpp"
+
+namespace launch {
+
+// Letters, digits and underscores, not starting with a digit.
+bool is_valid_node_name(std::string_view name);
+
+// The namespace that `given` means in the scope: below the pushed one unless it is absolute. Nothing when neither
+// exists. Throws LaunchError, at the template or at `where` without one, when the result is no valid namespace.
+std::optional<std::string> resolve_namespace(const std::optional<Template>& given, Scope& scope, const SourceRange& where);
+
+// Makes a namespace that of the scope.
+void push_namespace(const Template& given, Scope& scope);
+
+// "/left" and "talker" are "/left/talker".
+std::string qualified_name(const std::string& name_space, const std::string& name);
+
+}  // namespace launch

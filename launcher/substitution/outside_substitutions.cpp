@@ -1,0 +1,111 @@
+// Substitutions that look beyond the launch files: at commands, files, Python, and the name of this run.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "launcher/substitution/command_output.hpp"
+#include "launcher/substitution/python_expression.hpp"
+#include "launcher/substitution/substitution_call.hpp"
+#include "launcher/substitution/template_parser.hpp"
+
+namespace launch {
+
+namespace {
+
+// The end of a text without its line ends, for a message.
+std::string last_line(std::string text) {
+  text.erase(text.find_last_not_of("\r\n") + 1);
+  return text.substr(text.find_last_of('\n') + 1);
+}
+
+}  // namespace
+
+std::string command(const SubstitutionCall& call) {
+  const std::string line = call.text(0);
+  const std::string on_stderr = call.has(1) ? call.text(1) : "fail";
+  const std::vector<std::string> policies = {"fail", "warn", "ignore", "capture"};
+  if (std::find(policies.begin(), policies.end(), on_stderr) == policies.end()) {
+    throw LaunchError(fmt::format("'{}' is not what to do with standard error, expected fail, warn, ignore or capture", on_stderr),
+                      call.where(1), did_you_mean(on_stderr, policies));
+  }
+  const std::vector<std::string> words = split_shell_words(line, call.where(0));
+  if (words.empty()) {
+    throw LaunchError("the command is empty", call.where(0));
+  }
+  const std::string program = PackageIndex::find_on_path(words.front(), call.scope().environment);
+  if (program.empty()) {
+    call.fail(fmt::format("executing command '{}' failed: '{}' was not found", line, words.front()),
+              words.front().find(' ') != std::string::npos ? "one quoted word is one program name; quote less"
+                                                           : "install it, or extend the PATH");
+  }
+  CommandOutput output;
+  try {
+    output = capture_command(program, words, call.scope().environment, on_stderr == "capture");
+  } catch (const std::runtime_error& error) {
+    call.fail(fmt::format("executing command '{}' failed: {}", line, error.what()), {});
+  }
+  const std::string said = output.error.empty() ? std::string() : fmt::format("it wrote: {}", last_line(output.error));
+  if (output.status != 0) {
+    call.fail(fmt::format("executing command '{}' failed: {}", line, describe_status(output.status)), said);
+  }
+  if (!output.error.empty() && on_stderr == "fail") {
+    call.fail(fmt::format("executing command '{}' failed: it wrote to standard error", line),
+              fmt::format("{}; to accept that: $(command '…' warn), or ignore, or capture", said));
+  }
+  if (!output.error.empty() && on_stderr == "warn" && call.scope().warn) {
+    call.scope().warn(call.where(), fmt::format("command '{}' wrote to standard error: {}", line, last_line(output.error)));
+  }
+  return output.text;
+}
+
+std::string eval(const SubstitutionCall& call) {
+  const std::string expression = call.text(0);
+  try {
+    return evaluate_python(expression, call.has(1) ? call.text(1) : "math");
+  } catch (const std::runtime_error& error) {
+    std::string help;
+    for (const char* const word : {"true", "false"}) {
+      if (std::string_view(error.what()).find(fmt::format("name '{}' is not defined", word)) != std::string_view::npos) {
+        help = fmt::format("Python writes booleans True and False; compare the text: \"$(var x)\" == \"{}\"", word);
+      }
+    }
+    call.fail(fmt::format("failed to evaluate the Python expression '{}': {}", expression, error.what()), std::move(help));
+  }
+}
+
+std::string file_content(const SubstitutionCall& call) {
+  const std::string path = call.text(0);
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  if (!file || !(content << file.rdbuf())) {
+    call.fail(fmt::format("file not found: '{}'", path), {});
+  }
+  return std::move(content).str();
+}
+
+// The name is kept as a configuration, so that it is the same wherever the scope reaches.
+std::string anon(const SubstitutionCall& call) {
+  const std::string name = call.text(0);
+  const std::string key = "anon" + name;
+  auto& configurations = call.scope().configurations;
+  if (const auto found = configurations.find(key); found != configurations.end()) {
+    return found->second;
+  }
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  std::random_device random;
+  std::string unique = fmt::format("{}_{}_{}_{}", name, host.data(), ::getpid(), random());
+  for (char& character : unique) {
+    if (character == '.' || character == '-' || character == ':') {
+      character = '_';
+    }
+  }
+  return configurations.emplace(key, unique).first->second;
+}
+
+}  // namespace launch

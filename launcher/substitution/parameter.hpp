@@ -1,0 +1,31 @@
+// Values of ROS parameters, and those that a scope gives to every later node.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+
+namespace launch {
+
+using ParameterScalar = std::variant<bool, std::int64_t, double, std::string>;
+// All items of a list have one type.
+using ParameterValue = std::variant<ParameterScalar, std::vector<ParameterScalar>>;
+
+// As Python's str() writes the value: True, 1.0, (1, 2).
+std::string to_python_text(const ParameterValue& value);
+
+// What a `set_parameter` or a `set_parameters_from_file` leaves in the scope.
+struct NamedParameter {
+  std::string name;
+  ParameterValue value;
+};
+struct ParameterFilePath {
+  std::string path;
+  SourceRange where;  // which asks for it
+};
+using GlobalParameter = std::variant<NamedParameter, ParameterFilePath>;
+
+}  // namespace launch

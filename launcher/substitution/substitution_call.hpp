@@ -1,0 +1,80 @@
+// One use of a built-in substitution while it is performed, and the functions that perform them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "launcher/substitution/boolean.hpp"
+#include "launcher/substitution/package_index.hpp"
+#include "launcher/substitution/substitution.hpp"
+
+namespace launch {
+
+class SubstitutionCall {
+ public:
+  SubstitutionCall(const std::vector<Template>& arguments, const SourceRange& where, Scope& scope)
+      : arguments_(arguments), where_(where), scope_(scope) {}
+
+  std::size_t count() const { return arguments_.size(); }
+  bool has(std::size_t index) const { return index < arguments_.size(); }
+
+  // The text of an argument; performed anew by each call.
+  std::string text(std::size_t index) const { return arguments_[index].perform(scope_); }
+
+  bool boolean(std::size_t index) const {
+    const std::string value = text(index);
+    const std::optional<bool> result = yaml_boolean(value);
+    if (!result) {
+      throw LaunchError(fmt::format("'{}' is not a boolean", value), arguments_[index].where(),
+                        "expected true, false, yes, no, on, off, 1 or 0");
+    }
+    return *result;
+  }
+
+  [[noreturn]] void fail(std::string message, std::string help) const {
+    throw LaunchError(std::move(message), where_, std::move(help));
+  }
+
+  // Runs a look-up of the package index, whose errors have no place, and gives them this one.
+  template <typename LookUp, typename Candidates>
+  std::string look_up(LookUp find, std::string_view name, Candidates candidates) const {
+    try {
+      return find(*scope_.packages);
+    } catch (const std::runtime_error& error) {
+      fail(error.what(), did_you_mean(name, candidates(*scope_.packages)));
+    }
+  }
+
+  Scope& scope() const { return scope_; }
+  const SourceRange& where() const { return where_; }
+  const SourceRange& where(std::size_t index) const { return arguments_[index].where(); }
+
+ private:
+  const std::vector<Template>& arguments_;
+  const SourceRange& where_;
+  Scope& scope_;
+};
+
+// The names of a map, for suggestions.
+template <typename Map>
+std::vector<std::string> names_of(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+// In outside_substitutions.cpp: those that look beyond the launch files.
+std::string command(const SubstitutionCall& call);
+std::string eval(const SubstitutionCall& call);
+std::string file_content(const SubstitutionCall& call);
+std::string anon(const SubstitutionCall& call);
+
+}  // namespace launch
