@@ -30,3 +30,32 @@ rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t*
                                                                  topic_names_and_types)
                                  : RCL_RET_NODE_INVALID;
 }
+
+rcl_ret_t rcl_count_services(const rcl_node_t* node, const char* service_name, size_t* count) {
+  return rcl_node_is_valid(node) ? rmw_count_services(rcl_node_get_rmw_handle(node), service_name, count)
+                                 : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_count_clients(const rcl_node_t* node, const char* service_name, size_t* count) {
+  return rcl_node_is_valid(node) ? rmw_count_clients(rcl_node_get_rmw_handle(node), service_name, count)
+                                 : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_service_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                          rcl_names_and_types_t* service_names_and_types) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RCL_RET_INVALID_ARGUMENT);
+  return rcl_node_is_valid(node)
+             ? rmw_get_service_names_and_types(rcl_node_get_rmw_handle(node), allocator, service_names_and_types)
+             : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available) {
+  if (!rcl_node_is_valid(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  if (!rcl_client_is_valid(client)) {
+    return RCL_RET_CLIENT_INVALID;
+  }
+  return rmw_service_server_is_available(rcl_node_get_rmw_handle(node), rcl_client_get_rmw_handle(client),
+                                         is_available);
+}

@@ -13,13 +13,19 @@ struct rcl_wait_set_impl_s {
   std::vector<const rcl_subscription_t*> subscriptions;
   std::vector<const rcl_guard_condition_t*> guard_conditions;
   std::vector<const rcl_timer_t*> timers;
+  std::vector<const rcl_client_t*> clients;
+  std::vector<const rcl_service_t*> services;
   // How many entries of each are in use.
   size_t subscription_count = 0;
   size_t guard_condition_count = 0;
   size_t timer_count = 0;
+  size_t client_count = 0;
+  size_t service_count = 0;
   // What rmw waits for: the same entities, then the guard conditions of the timers.
   std::vector<void*> rmw_subscriptions;
   std::vector<void*> rmw_guard_conditions;
+  std::vector<void*> rmw_clients;
+  std::vector<void*> rmw_services;
 };
 
 namespace {
@@ -83,20 +89,32 @@ void collect_rmw_entities(rcl_wait_set_impl_t& impl) {
     impl.rmw_guard_conditions.push_back(
         rcl_guard_condition_get_rmw_handle(rcl_timer_get_guard_condition(impl.timers[i]))->data);
   }
+  impl.rmw_clients.clear();
+  for (size_t i = 0; i < impl.client_count; ++i) {
+    impl.rmw_clients.push_back(rcl_client_get_rmw_handle(impl.clients[i])->data);
+  }
+  impl.rmw_services.clear();
+  for (size_t i = 0; i < impl.service_count; ++i) {
+    impl.rmw_services.push_back(rcl_service_get_rmw_handle(impl.services[i])->data);
+  }
+}
+
+// Nulls the entries for which rmw has nulled its own.
+template <typename Entity>
+void keep_ready(std::vector<const Entity*>& entities, size_t count, const std::vector<void*>& rmw_entities) {
+  for (size_t i = 0; i < count; ++i) {
+    if (rmw_entities[i] == nullptr) {
+      entities[i] = nullptr;
+    }
+  }
 }
 
 // Nulls the entries that are not ready. False if no timer is.
 rcl_ret_t keep_ready(rcl_wait_set_impl_t& impl, bool& any_timer) {
-  for (size_t i = 0; i < impl.subscription_count; ++i) {
-    if (impl.rmw_subscriptions[i] == nullptr) {
-      impl.subscriptions[i] = nullptr;
-    }
-  }
-  for (size_t i = 0; i < impl.guard_condition_count; ++i) {
-    if (impl.rmw_guard_conditions[i] == nullptr) {
-      impl.guard_conditions[i] = nullptr;
-    }
-  }
+  keep_ready(impl.subscriptions, impl.subscription_count, impl.rmw_subscriptions);
+  keep_ready(impl.guard_conditions, impl.guard_condition_count, impl.rmw_guard_conditions);
+  keep_ready(impl.clients, impl.client_count, impl.rmw_clients);
+  keep_ready(impl.services, impl.service_count, impl.rmw_services);
   any_timer = false;
   for (size_t i = 0; i < impl.timer_count; ++i) {
     bool is_ready = false;
@@ -131,7 +149,8 @@ rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscript
     return RCL_RET_NOT_INIT;
   }
   rmw_wait_set_t* handle = rmw_create_wait_set(rcl_context_get_rmw_context(context),
-                                               number_of_subscriptions + number_of_guard_conditions + number_of_timers);
+                                               number_of_subscriptions + number_of_guard_conditions + number_of_timers +
+                                                   number_of_clients + number_of_services);
   if (handle == nullptr) {
     return RCL_RET_ERROR;
   }
@@ -169,7 +188,10 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   std::fill(impl.subscriptions.begin(), impl.subscriptions.end(), nullptr);
   std::fill(impl.guard_conditions.begin(), impl.guard_conditions.end(), nullptr);
   std::fill(impl.timers.begin(), impl.timers.end(), nullptr);
+  std::fill(impl.clients.begin(), impl.clients.end(), nullptr);
+  std::fill(impl.services.begin(), impl.services.end(), nullptr);
   impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
+  impl.client_count = impl.service_count = 0;
   return RCL_RET_OK;
 }
 
@@ -178,8 +200,8 @@ rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_siz
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
   }
-  if (clients_size != 0 || services_size != 0 || events_size != 0) {
-    RCL_SET_ERROR_MSG("a wait set cannot wait for clients, services or events");
+  if (events_size != 0) {
+    RCL_SET_ERROR_MSG("a wait set cannot wait for events");
     return RCL_RET_UNSUPPORTED;
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
@@ -192,6 +214,12 @@ rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_siz
   wait_set->size_of_guard_conditions = guard_conditions_size;
   wait_set->timers = impl.timers.data();
   wait_set->size_of_timers = timers_size;
+  impl.clients.resize(clients_size);
+  wait_set->clients = impl.clients.data();
+  wait_set->size_of_clients = clients_size;
+  impl.services.resize(services_size);
+  wait_set->services = impl.services.data();
+  wait_set->size_of_services = services_size;
   return rcl_wait_set_clear(wait_set);
 }
 
@@ -211,12 +239,21 @@ rcl_ret_t rcl_wait_set_add_timer(rcl_wait_set_t* wait_set, const rcl_timer_t* ti
   return add(wait_set, &rcl_wait_set_impl_s::timers, &rcl_wait_set_impl_s::timer_count, timer, index);
 }
 
+rcl_ret_t rcl_wait_set_add_client(rcl_wait_set_t* wait_set, const rcl_client_t* client, size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::clients, &rcl_wait_set_impl_s::client_count, client, index);
+}
+
+rcl_ret_t rcl_wait_set_add_service(rcl_wait_set_t* wait_set, const rcl_service_t* service, size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::services, &rcl_wait_set_impl_s::service_count, service, index);
+}
+
 rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
-  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count == 0) {
+  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count + impl.client_count +
+          impl.service_count == 0) {
     RCL_SET_ERROR_MSG("there is nothing to wait for in the wait set");
     return RCL_RET_WAIT_SET_EMPTY;
   }
@@ -231,8 +268,10 @@ rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   collect_rmw_entities(impl);
   rmw_subscriptions_t subscriptions{impl.rmw_subscriptions.size(), impl.rmw_subscriptions.data()};
   rmw_guard_conditions_t guard_conditions{impl.rmw_guard_conditions.size(), impl.rmw_guard_conditions.data()};
-  const rmw_ret_t result =
-      rmw_wait(&subscriptions, &guard_conditions, impl.rmw_wait_set, wait_time == kForever ? nullptr : &rmw_timeout);
+  rmw_services_t services{impl.rmw_services.size(), impl.rmw_services.data()};
+  rmw_clients_t clients{impl.rmw_clients.size(), impl.rmw_clients.data()};
+  const rmw_ret_t result = rmw_wait(&subscriptions, &guard_conditions, &services, &clients, impl.rmw_wait_set,
+                                    wait_time == kForever ? nullptr : &rmw_timeout);
   if (result != RMW_RET_OK && result != RMW_RET_TIMEOUT) {
     return result;
   }

@@ -1,22 +1,15 @@
 #include "rclcpp/callback_group.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "rclcpp/client_base.hpp"
+#include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
 
 namespace rclcpp {
 
 namespace {
-
-// Adds and forgets the dead in the same go, so that the list stays as long as what lives.
-template <typename EntityT>
-void add(std::vector<std::weak_ptr<EntityT>>& entities, const std::shared_ptr<EntityT>& entity) {
-  entities.erase(std::remove_if(entities.begin(), entities.end(), [](const auto& weak) { return weak.expired(); }),
-                 entities.end());
-  entities.push_back(entity);
-}
 
 template <typename EntityT>
 void append_living(const std::vector<std::weak_ptr<EntityT>>& from, std::vector<std::shared_ptr<EntityT>>& to) {
@@ -32,34 +25,49 @@ void append_living(const std::vector<std::weak_ptr<EntityT>>& from, std::vector<
 CallbackGroup::CallbackGroup(CallbackGroupType group_type, bool automatically_add_to_executor_with_node)
     : type_(group_type), automatically_add_to_executor_with_node_(automatically_add_to_executor_with_node) {}
 
-void CallbackGroup::add_subscription(const std::shared_ptr<SubscriptionBase>& subscription) {
-  subscription->set_callback_group(weak_from_this());
+template <typename EntityT>
+void CallbackGroup::add(std::vector<std::weak_ptr<EntityT>> CallbackGroup::*list,
+                        const std::shared_ptr<EntityT>& entity) {
+  entity->set_callback_group(weak_from_this());
   {
     const std::lock_guard lock(mutex_);
-    add(subscriptions_, subscription);
+    auto& entities = this->*list;
+    // Forgets the dead in the same go, so that the list stays as long as what lives.
+    std::erase_if(entities, [](const auto& weak) { return weak.expired(); });
+    entities.push_back(entity);
   }
   notify();
 }
 
+void CallbackGroup::add_subscription(const std::shared_ptr<SubscriptionBase>& subscription) {
+  add(&CallbackGroup::subscriptions_, subscription);
+}
+
 void CallbackGroup::add_timer(const std::shared_ptr<TimerBase>& timer) {
-  timer->set_callback_group(weak_from_this());
-  {
-    const std::lock_guard lock(mutex_);
-    add(timers_, timer);
-  }
-  notify();
+  add(&CallbackGroup::timers_, timer);
+}
+
+void CallbackGroup::add_service(const std::shared_ptr<ServiceBase>& service) {
+  add(&CallbackGroup::services_, service);
+}
+
+void CallbackGroup::add_client(const std::shared_ptr<ClientBase>& client) {
+  add(&CallbackGroup::clients_, client);
 }
 
 void CallbackGroup::collect(Entities& entities) const {
   const std::lock_guard lock(mutex_);
   append_living(subscriptions_, entities.subscriptions);
   append_living(timers_, entities.timers);
+  append_living(services_, entities.services);
+  append_living(clients_, entities.clients);
 }
 
 size_t CallbackGroup::size() const {
   Entities entities;
   collect(entities);
-  return entities.subscriptions.size() + entities.timers.size();
+  return entities.subscriptions.size() + entities.timers.size() + entities.services.size() +
+         entities.clients.size();
 }
 
 void CallbackGroup::set_on_change(std::function<void()> on_change) {

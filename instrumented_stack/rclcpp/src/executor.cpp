@@ -30,6 +30,27 @@ class Membership {
   const Executor::NodePtr& node_;
 };
 
+// Puts an entity that a wait has found into `any_executable`. False if it has gone, or is no longer ready.
+bool choose(TimerBase::SharedPtr timer, AnyExecutable& any_executable) {
+  if (!timer || !timer->call()) {
+    return false;
+  }
+  any_executable.timer = std::move(timer);
+  return true;
+}
+bool choose(SubscriptionBase::SharedPtr subscription, AnyExecutable& any_executable) {
+  any_executable.subscription = std::move(subscription);
+  return any_executable.subscription != nullptr;
+}
+bool choose(ServiceBase::SharedPtr service, AnyExecutable& any_executable) {
+  any_executable.service = std::move(service);
+  return any_executable.service != nullptr;
+}
+bool choose(ClientBase::SharedPtr client, AnyExecutable& any_executable) {
+  any_executable.client = std::move(client);
+  return any_executable.client != nullptr;
+}
+
 }  // namespace
 
 std::string to_string(const FutureReturnCode& future_return_code) {
@@ -196,14 +217,7 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   }
   while (next_ready_ < ready_.size()) {
     const detail::ReadyEntity entity = std::move(ready_[next_ready_++]);
-    if (const auto* weak_timer = std::get_if<TimerBase::WeakPtr>(&entity)) {
-      TimerBase::SharedPtr timer = weak_timer->lock();
-      if (timer && timer->call()) {
-        any_executable.timer = std::move(timer);
-        return true;
-      }
-    } else if (SubscriptionBase::SharedPtr subscription = std::get<SubscriptionBase::WeakPtr>(entity).lock()) {
-      any_executable.subscription = std::move(subscription);
+    if (std::visit([&](const auto& weak) { return choose(weak.lock(), any_executable); }, entity)) {
       return true;
     }
   }
@@ -237,6 +251,13 @@ void Executor::execute_any_executable(AnyExecutable& any_executable) {
     TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
                           static_cast<const void*>(any_executable.subscription->get_subscription_handle().get()));
     any_executable.subscription->execute();
+  }
+  // These two have no rclcpp_executor_execute.
+  if (any_executable.service) {
+    any_executable.service->execute();
+  }
+  if (any_executable.client) {
+    any_executable.client->execute();
   }
 }
 

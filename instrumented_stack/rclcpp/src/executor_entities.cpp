@@ -19,6 +19,17 @@ void require_ok(rcl_ret_t ret, const char* what) {
   }
 }
 
+// The entities of which the wait has left the handle.
+template <typename WaitableT, typename HandleT>
+void append_ready(const std::vector<WaitableT>& waitables, const HandleT* const* handles,
+                  std::vector<detail::ReadyEntity>& ready) {
+  for (size_t i = 0; i < waitables.size(); ++i) {
+    if (handles[i]) {
+      ready.emplace_back(waitables[i].entity);
+    }
+  }
+}
+
 // Compares without owning, not even for a moment.
 template <typename T>
 bool refers_to(const std::weak_ptr<T>& weak, const std::shared_ptr<T>& shared) {
@@ -168,16 +179,10 @@ void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail
   const std::lock_guard lock(mutex_);
   waiting_ = false;
   if (!failure) {
-    for (size_t i = 0; i < waitables_.timers.size(); ++i) {
-      if (wait_set_.timers[i]) {
-        ready.emplace_back(waitables_.timers[i].entity);
-      }
-    }
-    for (size_t i = 0; i < waitables_.subscriptions.size(); ++i) {
-      if (wait_set_.subscriptions[i]) {
-        ready.emplace_back(waitables_.subscriptions[i].entity);
-      }
-    }
+    append_ready(waitables_.timers, wait_set_.timers, ready);
+    append_ready(waitables_.subscriptions, wait_set_.subscriptions, ready);
+    append_ready(waitables_.services, wait_set_.services, ready);
+    append_ready(waitables_.clients, wait_set_.clients, ready);
   }
   if (changed_) {
     mark_changed(owners);
@@ -197,6 +202,12 @@ void ExecutorEntities::fill_wait_set() {
   for (const auto& subscription : waitables_.subscriptions) {
     require_ok(rcl_wait_set_add_subscription(&wait_set_, subscription.handle.get(), nullptr),
                "couldn't add subscription to wait set");
+  }
+  for (const auto& service : waitables_.services) {
+    require_ok(rcl_wait_set_add_service(&wait_set_, service.handle.get(), nullptr), "couldn't add service to wait set");
+  }
+  for (const auto& client : waitables_.clients) {
+    require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
   }
 }
 
@@ -247,7 +258,14 @@ void ExecutorEntities::rebuild(Owners& owners) {
   for (const SubscriptionBase::SharedPtr& subscription : owners.entities.subscriptions) {
     waitables_.subscriptions.push_back({subscription->get_subscription_handle(), subscription});
   }
-  require_ok(rcl_wait_set_resize(&wait_set_, waitables_.subscriptions.size(), 1, waitables_.timers.size(), 0, 0, 0),
+  for (const ServiceBase::SharedPtr& service : owners.entities.services) {
+    waitables_.services.push_back({service->get_service_handle(), service});
+  }
+  for (const ClientBase::SharedPtr& client : owners.entities.clients) {
+    waitables_.clients.push_back({client->get_client_handle(), client});
+  }
+  require_ok(rcl_wait_set_resize(&wait_set_, waitables_.subscriptions.size(), 1, waitables_.timers.size(),
+                                 waitables_.clients.size(), waitables_.services.size(), 0),
              "couldn't resize the wait set");
   changed_ = false;
 }

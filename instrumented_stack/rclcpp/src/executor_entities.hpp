@@ -15,10 +15,12 @@
 #include <vector>
 
 #include "rclcpp/callback_group.hpp"
+#include "rclcpp/client_base.hpp"
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/ready_entity.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
 
@@ -62,6 +64,8 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   struct Waitables {
     std::vector<Waitable<rcl_timer_t, TimerBase>> timers;
     std::vector<Waitable<rcl_subscription_t, SubscriptionBase>> subscriptions;
+    std::vector<Waitable<rcl_service_t, ServiceBase>> services;
+    std::vector<Waitable<rcl_client_t, ClientBase>> clients;
   };
   // Owners that a locked section met on its way. They may be the last ones, and destructors report back here: the
   // caller lets go of them after the lock.

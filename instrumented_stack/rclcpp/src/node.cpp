@@ -9,7 +9,8 @@ Node::Node(const std::string& node_name, const NodeOptions& options) : Node(node
 Node::Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options)
     : Node(node_name, node_namespace, options, *options.make_rcl_node_options()) {}
 
-// The order is that of the trace: the rcl node with /rosout, then /parameter_events, then /clock.
+// The order is that of the trace: the rcl node with /rosout, the parameter services, /parameter_events,
+// get_type_description, /clock.
 Node::Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
            const rcl_node_options_t& rcl_options)
     : options_(options),
@@ -19,9 +20,13 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
       node_graph_(std::make_shared<node_interfaces::NodeGraphInterface>(node_base_)),
       node_timers_(std::make_shared<node_interfaces::NodeTimersInterface>(node_base_)),
       node_topics_(std::make_shared<node_interfaces::NodeTopicsInterface>(node_base_)),
+      node_services_(std::make_shared<node_interfaces::NodeServicesInterface>(node_base_)),
       clock_(std::make_shared<Clock>(options.clock_type())),
       node_parameters_(
-          std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, clock_, options_, rcl_options)),
+          std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, node_services_, clock_, options_,
+                                                                     rcl_options)),
+      node_type_descriptions_(std::make_shared<node_interfaces::NodeTypeDescriptionsInterface>(
+          node_base_, node_parameters_, node_services_)),
       time_source_(std::make_unique<node_interfaces::TimeSource>(*this)) {}
 
 Node::~Node() = default;

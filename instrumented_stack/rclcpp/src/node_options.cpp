@@ -36,6 +36,11 @@ NodeOptions& NodeOptions::rosout_qos(const QoS& rosout_qos) {
   return *this;
 }
 
+NodeOptions& NodeOptions::start_parameter_services(bool start_parameter_services) {
+  start_parameter_services_ = start_parameter_services;
+  return *this;
+}
+
 NodeOptions& NodeOptions::start_parameter_event_publisher(bool start_parameter_event_publisher) {
   start_parameter_event_publisher_ = start_parameter_event_publisher;
   return *this;

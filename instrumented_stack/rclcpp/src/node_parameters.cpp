@@ -91,12 +91,16 @@ class NodeParameters::ChangeScope {
   NodeParameters& parameters_;
 };
 
-NodeParameters::NodeParameters(NodeBaseInterface::SharedPtr node_base, Clock::SharedPtr clock,
+NodeParameters::NodeParameters(NodeBaseInterface::SharedPtr node_base,
+                               const NodeServicesInterface::SharedPtr& node_services, Clock::SharedPtr clock,
                                const NodeOptions& options, const rcl_node_options_t& rcl_options)
     : node_base_(std::move(node_base)),
       clock_(std::move(clock)),
       allow_undeclared_(options.allow_undeclared_parameters()),
       overrides_(collect_overrides(*node_base_, options, rcl_options)) {
+  if (options.start_parameter_services()) {
+    services_ = std::make_unique<ParameterService>(node_base_, node_services, this);
+  }
   if (options.start_parameter_event_publisher()) {
     events_publisher_ = std::make_shared<Publisher<ParameterEvent>>(node_base_.get(), "/parameter_events",
                                                                     options.parameter_event_qos());

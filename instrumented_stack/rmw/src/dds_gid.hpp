@@ -1,4 +1,4 @@
-// From the GUID of Fast DDS to ours.
+// Between the GUID of Fast DDS and ours.
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>
@@ -14,6 +14,14 @@ inline Gid to_gid(const eprosima::fastrtps::rtps::GUID_t& guid) {
   const auto end = std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value), gid.begin());
   std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), end);
   return gid;
+}
+
+inline eprosima::fastrtps::rtps::GUID_t to_guid(const Gid& gid) {
+  eprosima::fastrtps::rtps::GUID_t guid;
+  constexpr auto kPrefixSize = sizeof(guid.guidPrefix.value);
+  std::copy(gid.begin(), gid.begin() + kPrefixSize, std::begin(guid.guidPrefix.value));
+  std::copy(gid.begin() + kPrefixSize, gid.end(), std::begin(guid.entityId.value));
+  return guid;
 }
 
 }  // namespace rmw_fastrtps

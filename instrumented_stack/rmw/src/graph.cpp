@@ -3,8 +3,10 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "context_impl.hpp"
 #include "identifier.hpp"
@@ -25,11 +27,12 @@ char* duplicate(const std::string& text, const rcutils_allocator_t& allocator) {
   return copy;
 }
 
-rmw_ret_t count(const rmw_node_t* node, const char* topic_name, GraphCache::Kind kind, size_t* result) {
+rmw_ret_t count(const rmw_node_t* node, const char* name, std::string (*mangled)(std::string_view),
+                GraphCache::Kind kind, size_t* result) {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
-  RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_name, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(name, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(result, RMW_RET_INVALID_ARGUMENT);
-  *result = node->context->impl->graph.count(kind, rmw_fastrtps::mangled_topic(topic_name));
+  *result = node->context->impl->graph.count(kind, mangled(name));
   return RMW_RET_OK;
 }
 
@@ -48,16 +51,39 @@ void fill(rcutils_string_array_t* array, const std::vector<GraphCache::Node>& no
   }
 }
 
-std::map<std::string, std::set<std::string>> ros_names(const std::map<std::string, std::set<std::string>>& dds_names) {
-  std::map<std::string, std::set<std::string>> result;
+using NamesAndTypes = std::map<std::string, std::set<std::string>>;
+
+// The DDS topics that have a name in ROS, by that name.
+NamesAndTypes ros_names(const NamesAndTypes& dds_names, std::optional<std::string> (*demangled_name)(std::string_view),
+                        std::string (*demangled_type)(std::string_view)) {
+  NamesAndTypes result;
   for (const auto& [dds_topic, dds_types] : dds_names) {
-    if (const auto topic = rmw_fastrtps::demangled_topic(dds_topic)) {
+    if (const auto name = demangled_name(dds_topic)) {
       for (const std::string& type : dds_types) {
-        result[*topic].insert(rmw_fastrtps::demangled_type(type));
+        result[*name].insert(demangled_type(type));
       }
     }
   }
   return result;
+}
+
+rmw_ret_t hand_out(const NamesAndTypes& names, rcutils_allocator_t* allocator, rmw_names_and_types_t* result) {
+  if (rmw_names_and_types_init(result, names.size(), allocator) != RMW_RET_OK) {
+    return RMW_RET_ERROR;
+  }
+  std::size_t i = 0;
+  for (const auto& [name, types] : names) {
+    result->names.data[i] = duplicate(name, *allocator);
+    if (rcutils_string_array_init(&result->types[i], types.size(), allocator) != RCUTILS_RET_OK) {
+      return RMW_RET_BAD_ALLOC;
+    }
+    std::size_t k = 0;
+    for (const std::string& type : types) {
+      result->types[i].data[k++] = duplicate(type, *allocator);
+    }
+    ++i;
+  }
+  return RMW_RET_OK;
 }
 
 }  // namespace
@@ -85,38 +111,42 @@ rmw_ret_t rmw_get_node_names_with_enclaves(const rmw_node_t* node, rcutils_strin
 }
 
 rmw_ret_t rmw_count_publishers(const rmw_node_t* node, const char* topic_name, size_t* result) {
-  return count(node, topic_name, GraphCache::Kind::kWriter, result);
+  return count(node, topic_name, rmw_fastrtps::mangled_topic, GraphCache::Kind::kWriter, result);
 }
 
 rmw_ret_t rmw_count_subscribers(const rmw_node_t* node, const char* topic_name, size_t* result) {
-  return count(node, topic_name, GraphCache::Kind::kReader, result);
+  return count(node, topic_name, rmw_fastrtps::mangled_topic, GraphCache::Kind::kReader, result);
 }
 
 rmw_ret_t rmw_get_topic_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator, bool no_demangle,
                                         rmw_names_and_types_t* topic_names_and_types) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_names_and_types, RMW_RET_INVALID_ARGUMENT);
-  auto topics = node->context->impl->graph.topics();
-  if (!no_demangle) {
-    topics = ros_names(topics);
-  }
-  if (rmw_names_and_types_init(topic_names_and_types, topics.size(), allocator) != RMW_RET_OK) {
-    return RMW_RET_ERROR;
-  }
-  std::size_t i = 0;
-  for (const auto& [topic, types] : topics) {
-    topic_names_and_types->names.data[i] = duplicate(topic, *allocator);
-    if (rcutils_string_array_init(&topic_names_and_types->types[i], types.size(), allocator) != RCUTILS_RET_OK) {
-      return RMW_RET_BAD_ALLOC;
-    }
-    std::size_t k = 0;
-    for (const std::string& type : types) {
-      topic_names_and_types->types[i].data[k++] = duplicate(type, *allocator);
-    }
-    ++i;
-  }
-  return RMW_RET_OK;
+  const auto topics = node->context->impl->graph.topics();
+  return hand_out(no_demangle ? topics : ros_names(topics, rmw_fastrtps::demangled_topic, rmw_fastrtps::demangled_type),
+                  allocator, topic_names_and_types);
 } catch (const std::bad_alloc&) {
   RMW_SET_ERROR_MSG("out of memory for the names of topics");
   return RMW_RET_BAD_ALLOC;
+}
+
+rmw_ret_t rmw_get_service_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator,
+                                          rmw_names_and_types_t* service_names_and_types) try {
+  RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_names_and_types, RMW_RET_INVALID_ARGUMENT);
+  return hand_out(ros_names(node->context->impl->graph.topics(), rmw_fastrtps::demangled_service,
+                            rmw_fastrtps::demangled_service_type),
+                  allocator, service_names_and_types);
+} catch (const std::bad_alloc&) {
+  RMW_SET_ERROR_MSG("out of memory for the names of services");
+  return RMW_RET_BAD_ALLOC;
+}
+
+// Clients write to the topic that services read.
+rmw_ret_t rmw_count_services(const rmw_node_t* node, const char* service_name, size_t* result) {
+  return count(node, service_name, rmw_fastrtps::mangled_request_topic, GraphCache::Kind::kReader, result);
+}
+
+rmw_ret_t rmw_count_clients(const rmw_node_t* node, const char* service_name, size_t* result) {
+  return count(node, service_name, rmw_fastrtps::mangled_request_topic, GraphCache::Kind::kWriter, result);
 }

@@ -6,6 +6,7 @@
 #include "context_impl.hpp"
 #include "endpoint.hpp"
 #include "identifier.hpp"
+#include "node.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
 #include "rmw/validate_full_topic_name.h"
@@ -29,14 +30,6 @@ const Node& node_of(const rmw_node_t* node) {
   return *static_cast<const Node*>(node->data);
 }
 
-void check_topic_name(const char* topic_name) {
-  int result = RMW_TOPIC_VALID;
-  if (rmw_validate_full_topic_name(topic_name, &result, nullptr) == RMW_RET_OK && result != RMW_TOPIC_VALID) {
-    throw std::invalid_argument(std::string("invalid topic name '") + topic_name +
-                                "': " + rmw_full_topic_name_validation_result_string(result));
-  }
-}
-
 void check_node_name(const char* name, const char* namespace_) {
   int result = RMW_NODE_NAME_VALID;
   if (rmw_validate_node_name(name, &result, nullptr) == RMW_RET_OK && result != RMW_NODE_NAME_VALID) {
@@ -49,21 +42,6 @@ void check_node_name(const char* name, const char* namespace_) {
   }
 }
 
-// An endpoint enters the graph after its creation and leaves it before its destruction.
-void enter_graph(const rmw_node_t* node, const EndpointIdentity& identity) {
-  rmw_context_impl_t& context = *node->context->impl;
-  context.graph.add_endpoint(identity.gid, identity.names);
-  context.channel->announce(context.graph.add_node_endpoint(context.participant->gid(), node_of(node).namespace_,
-                                                            node_of(node).name, identity.names.kind, identity.gid));
-}
-
-void leave_graph(const rmw_node_t* node, const EndpointIdentity& identity) {
-  rmw_context_impl_t& context = *node->context->impl;
-  context.graph.remove_endpoint(identity.gid);
-  context.channel->announce(context.graph.remove_node_endpoint(context.participant->gid(), node_of(node).namespace_,
-                                                               node_of(node).name, identity.names.kind, identity.gid));
-}
-
 void close_participant(rmw_context_impl_t& context) {
   const rmw_fastrtps::Gid gid = context.participant->gid();
   context.channel.reset();
@@ -72,6 +50,40 @@ void close_participant(rmw_context_impl_t& context) {
 }
 
 }  // namespace
+
+namespace rmw_fastrtps {
+
+void check_topic_name(const char* topic_name) {
+  int result = RMW_TOPIC_VALID;
+  if (rmw_validate_full_topic_name(topic_name, &result, nullptr) == RMW_RET_OK && result != RMW_TOPIC_VALID) {
+    throw std::invalid_argument(std::string("invalid topic name '") + topic_name +
+                                "': " + rmw_full_topic_name_validation_result_string(result));
+  }
+}
+
+void enter_graph(const rmw_node_t* node, std::initializer_list<EndpointIdentity> endpoints) {
+  rmw_context_impl_t& context = *node->context->impl;
+  GraphCache::EntitiesInfo info;
+  for (const EndpointIdentity& endpoint : endpoints) {
+    context.graph.add_endpoint(endpoint.gid, endpoint.names);
+    info = context.graph.add_node_endpoint(context.participant->gid(), node_of(node).namespace_, node_of(node).name,
+                                           endpoint.names.kind, endpoint.gid);
+  }
+  context.channel->announce(info);
+}
+
+void leave_graph(const rmw_node_t* node, std::initializer_list<EndpointIdentity> endpoints) {
+  rmw_context_impl_t& context = *node->context->impl;
+  GraphCache::EntitiesInfo info;
+  for (const EndpointIdentity& endpoint : endpoints) {
+    context.graph.remove_endpoint(endpoint.gid);
+    info = context.graph.remove_node_endpoint(context.participant->gid(), node_of(node).namespace_, node_of(node).name,
+                                              endpoint.names.kind, endpoint.gid);
+  }
+  context.channel->announce(info);
+}
+
+}  // namespace rmw_fastrtps
 
 rmw_node_t* rmw_create_node(rmw_context_t* context, const char* name, const char* namespace_) try {
   RMW_CHECK_HANDLE(context, nullptr);
@@ -139,14 +151,14 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos_profile, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(publisher_options, nullptr);
   if (!qos_profile->avoid_ros_namespace_conventions) {
-    check_topic_name(topic_name);
+    rmw_fastrtps::check_topic_name(topic_name);
   }
   rmw_context_impl_t& impl = *node->context->impl;
   std::lock_guard lock(impl.mutex);
   rmw_publisher_t* publisher =
       rmw_fastrtps::create_publisher(*impl.participant, *type_support, topic_name, *qos_profile, *publisher_options);
   try {
-    enter_graph(node, rmw_fastrtps::identity_of(*publisher));
+    rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*publisher)});
   } catch (...) {
     impl.graph.remove_endpoint(rmw_fastrtps::identity_of(*publisher).gid);
     rmw_fastrtps::destroy_publisher(publisher);
@@ -164,7 +176,7 @@ rmw_ret_t rmw_destroy_publisher(rmw_node_t* node, rmw_publisher_t* publisher) tr
   std::lock_guard lock(node->context->impl->mutex);
   const EndpointIdentity identity = rmw_fastrtps::identity_of(*publisher);
   rmw_fastrtps::destroy_publisher(publisher);
-  leave_graph(node, identity);
+  rmw_fastrtps::leave_graph(node, {identity});
   return RMW_RET_OK;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());
@@ -180,14 +192,14 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos_policies, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(subscription_options, nullptr);
   if (!qos_policies->avoid_ros_namespace_conventions) {
-    check_topic_name(topic_name);
+    rmw_fastrtps::check_topic_name(topic_name);
   }
   rmw_context_impl_t& impl = *node->context->impl;
   std::lock_guard lock(impl.mutex);
   rmw_subscription_t* subscription = rmw_fastrtps::create_subscription(*impl.participant, *type_support, topic_name,
                                                                        *qos_policies, *subscription_options);
   try {
-    enter_graph(node, rmw_fastrtps::identity_of(*subscription));
+    rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*subscription)});
   } catch (...) {
     impl.graph.remove_endpoint(rmw_fastrtps::identity_of(*subscription).gid);
     rmw_fastrtps::destroy_subscription(subscription);
@@ -205,7 +217,7 @@ rmw_ret_t rmw_destroy_subscription(rmw_node_t* node, rmw_subscription_t* subscri
   std::lock_guard lock(node->context->impl->mutex);
   const EndpointIdentity identity = rmw_fastrtps::identity_of(*subscription);
   rmw_fastrtps::destroy_subscription(subscription);
-  leave_graph(node, identity);
+  rmw_fastrtps::leave_graph(node, {identity});
   return RMW_RET_OK;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());

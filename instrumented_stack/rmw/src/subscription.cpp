@@ -1,7 +1,6 @@
 // Subscriptions: a DDS DataReader each.
 #include <atomic>
 #include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
@@ -9,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "data_reader_waitable.hpp"
 #include "dds_gid.hpp"
 #include "endpoint.hpp"
 #include "identifier.hpp"
@@ -18,10 +18,10 @@
 #include "rmw/error_handling.h"
 #include "topic_name.hpp"
 #include "tracetools/tracetools.h"
-#include "waitable.hpp"
 
 namespace fdds = eprosima::fastdds::dds;
 
+using rmw_fastrtps::DataReaderWaitable;
 using rmw_fastrtps::EndpointIdentity;
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
@@ -30,46 +30,17 @@ using rmw_fastrtps::Waitable;
 
 namespace {
 
-struct Subscription final : fdds::DataReaderListener, Waitable {
-  void on_data_available(fdds::DataReader*) override {
-    may_have_data.store(true, std::memory_order_release);
-    notify();
-  }
-
+struct Subscription final : DataReaderWaitable {
   void on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& info) override {
     matched = static_cast<std::size_t>(info.current_count);
-  }
-
-  // Asks the reader only after something has arrived, so that waiting for many idle subscriptions is cheap.
-  bool is_ready() override {
-    if (!may_have_data.load(std::memory_order_acquire)) {
-      return false;
-    }
-    if (has_data()) {
-      return true;
-    }
-    may_have_data.store(false, std::memory_order_release);
-    // Data that came between the two lines above must not be forgotten.
-    if (has_data()) {
-      may_have_data.store(true, std::memory_order_release);
-      return true;
-    }
-    return false;
-  }
-
-  bool has_data() const {
-    fdds::SampleInfo info;
-    return reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK;
   }
 
   rmw_subscription_t handle{};
   std::string topic_name;  // of the handle
   Participant* participant = nullptr;
   fdds::Topic* topic = nullptr;
-  fdds::DataReader* reader = nullptr;
   EndpointIdentity identity{};
   std::atomic<std::size_t> matched{0};
-  std::atomic<bool> may_have_data{false};
 };
 
 // rmw_wait() takes `data` as a Waitable.

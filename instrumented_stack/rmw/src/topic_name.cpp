@@ -4,8 +4,23 @@ namespace rmw_fastrtps {
 namespace {
 
 constexpr std::string_view kTopicPrefix = "rt";
+constexpr std::string_view kRequestPrefix = "rq";
+constexpr std::string_view kRequestSuffix = "Request";
+constexpr std::string_view kResponsePrefix = "rr";
+constexpr std::string_view kResponseSuffix = "Reply";
 constexpr std::string_view kTypeInfix = "dds_::";
 constexpr std::string_view kScope = "::";
+
+// The ROS name between prefix and suffix.
+std::optional<std::string> between(std::string_view dds_topic, std::string_view prefix, std::string_view suffix) {
+  if (!dds_topic.starts_with(prefix) || !dds_topic.substr(prefix.size()).starts_with('/') ||
+      !dds_topic.ends_with(suffix)) {
+    return std::nullopt;
+  }
+  dds_topic.remove_prefix(prefix.size());
+  dds_topic.remove_suffix(suffix.size());
+  return std::string(dds_topic);
+}
 
 }  // namespace
 
@@ -14,10 +29,22 @@ std::string mangled_topic(std::string_view topic) {
 }
 
 std::optional<std::string> demangled_topic(std::string_view dds_topic) {
-  if (!dds_topic.starts_with(kTopicPrefix) || !dds_topic.substr(kTopicPrefix.size()).starts_with('/')) {
-    return std::nullopt;
+  return between(dds_topic, kTopicPrefix, "");
+}
+
+std::string mangled_request_topic(std::string_view service) {
+  return std::string(kRequestPrefix).append(service).append(kRequestSuffix);
+}
+
+std::string mangled_response_topic(std::string_view service) {
+  return std::string(kResponsePrefix).append(service).append(kResponseSuffix);
+}
+
+std::optional<std::string> demangled_service(std::string_view dds_topic) {
+  if (auto service = between(dds_topic, kRequestPrefix, kRequestSuffix)) {
+    return service;
   }
-  return std::string(dds_topic.substr(kTopicPrefix.size()));
+  return between(dds_topic, kResponsePrefix, kResponseSuffix);
 }
 
 std::string demangled_type(std::string_view dds_type) {
@@ -34,6 +61,17 @@ std::string demangled_type(std::string_view dds_type) {
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + kScope.size());
   }
   return result.append(name);
+}
+
+std::string demangled_service_type(std::string_view dds_type) {
+  std::string type = demangled_type(dds_type);
+  for (const std::string_view suffix : {"_Request", "_Response"}) {
+    if (type.ends_with(suffix)) {
+      type.resize(type.size() - suffix.size());
+      break;
+    }
+  }
+  return type;
 }
 
 }  // namespace rmw_fastrtps

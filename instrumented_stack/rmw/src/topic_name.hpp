@@ -13,6 +13,16 @@ std::string mangled_topic(std::string_view topic);
 // `rt/chatter` → `/chatter`; nothing for a DDS topic that is no ROS topic.
 std::optional<std::string> demangled_topic(std::string_view dds_topic);
 
+// `/add` → `rq/addRequest` and `rr/addReply`
+std::string mangled_request_topic(std::string_view service);
+std::string mangled_response_topic(std::string_view service);
+
+// `rq/addRequest` and `rr/addReply` → `/add`; nothing for a DDS topic of no service.
+std::optional<std::string> demangled_service(std::string_view dds_topic);
+
+// `example_interfaces::srv::dds_::AddTwoInts_Request_` → `example_interfaces/srv/AddTwoInts`, of a response likewise.
+std::string demangled_service_type(std::string_view dds_type);
+
 // `std_msgs::msg::dds_::String_` → `std_msgs/msg/String`; other names are left alone.
 std::string demangled_type(std::string_view dds_type);
 

@@ -1,8 +1,11 @@
 // Guard conditions, wait sets and rmw_wait().
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <new>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "identifier.hpp"
 #include "rmw/error_handling.h"
@@ -27,45 +30,54 @@ std::optional<Waiter::TimePoint> deadline_after(const rmw_time_t* timeout) {
          std::chrono::nanoseconds(timeout->nsec);
 }
 
+// The state behind rmw_wait_set_t.
+struct WaitSet {
+  Waiter waiter;
+  std::vector<Waitable*> waitables;  // room for the entities of a wait
+};
+
 // The entities of one call of rmw_wait(), null entries left out by each function.
 class Entities {
  public:
-  Entities(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions) {
+  Entities(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions, rmw_services_t* services,
+           rmw_clients_t* clients) {
     if (subscriptions != nullptr) {
-      subscriptions_ = {subscriptions->subscribers, subscriptions->subscriber_count};
+      readers_[0] = {subscriptions->subscribers, subscriptions->subscriber_count};
+    }
+    if (services != nullptr) {
+      readers_[1] = {services->services, services->service_count};
+    }
+    if (clients != nullptr) {
+      readers_[2] = {clients->clients, clients->client_count};
     }
     if (guard_conditions != nullptr) {
       guard_conditions_ = {guard_conditions->guard_conditions, guard_conditions->guard_condition_count};
     }
   }
 
-  void attach(Waiter& waiter) const {
-    for_each([&](Waitable& waitable) { waitable.attach(waiter); });
-  }
-
-  void detach(Waiter& waiter) const {
-    for_each([&](Waitable& waitable) { waitable.detach(waiter); });
-  }
-
-  bool any_ready() const {
-    for (const auto& list : {subscriptions_, guard_conditions_}) {
+  void collect(std::vector<Waitable*>& waitables) const {
+    waitables.clear();
+    const auto append = [&](std::span<void*> list) {
       for (void* entity : list) {
-        if (entity != nullptr && static_cast<Waitable*>(entity)->is_ready()) {
-          return true;
+        if (entity != nullptr) {
+          waitables.push_back(static_cast<Waitable*>(entity));
         }
       }
-    }
-    return false;
+    };
+    std::for_each(readers_.begin(), readers_.end(), append);
+    append(guard_conditions_);
   }
 
   // Nulls what is not ready and resets guard conditions. False if nothing is left.
   bool keep_ready() const {
     bool any = false;
-    for (void*& entity : subscriptions_) {
-      if (entity != nullptr && !static_cast<Waitable*>(entity)->is_ready()) {
-        entity = nullptr;
+    for (std::span<void*> list : readers_) {
+      for (void*& entity : list) {
+        if (entity != nullptr && !static_cast<Waitable*>(entity)->is_ready()) {
+          entity = nullptr;
+        }
+        any |= entity != nullptr;
       }
-      any |= entity != nullptr;
     }
     for (void*& entity : guard_conditions_) {
       if (entity != nullptr && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
@@ -77,20 +89,13 @@ class Entities {
   }
 
  private:
-  template <typename Function>
-  void for_each(Function function) const {
-    for (const auto& list : {subscriptions_, guard_conditions_}) {
-      for (void* entity : list) {
-        if (entity != nullptr) {
-          function(*static_cast<Waitable*>(entity));
-        }
-      }
-    }
-  }
-
-  std::span<void*> subscriptions_;
+  std::array<std::span<void*>, 3> readers_;  // of subscriptions, services and clients
   std::span<void*> guard_conditions_;
 };
+
+bool any_ready(const std::vector<Waitable*>& waitables) {
+  return std::any_of(waitables.begin(), waitables.end(), [](Waitable* waitable) { return waitable->is_ready(); });
+}
 
 }  // namespace
 
@@ -124,38 +129,39 @@ rmw_ret_t rmw_trigger_guard_condition(const rmw_guard_condition_t* guard_conditi
 rmw_wait_set_t* rmw_create_wait_set(rmw_context_t* context, size_t) {
   RMW_CHECK_HANDLE(context, nullptr);
   auto* wait_set = new (std::nothrow) rmw_wait_set_t{kIdentifier, nullptr, nullptr};
-  auto* waiter = new (std::nothrow) Waiter;
-  if (wait_set == nullptr || waiter == nullptr) {
+  auto* state = new (std::nothrow) WaitSet;
+  if (wait_set == nullptr || state == nullptr) {
     delete wait_set;
-    delete waiter;
+    delete state;
     RMW_SET_ERROR_MSG("out of memory for a wait set");
     return nullptr;
   }
-  wait_set->data = waiter;
+  wait_set->data = state;
   return wait_set;
 }
 
 rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
-  delete static_cast<Waiter*>(wait_set->data);
+  delete static_cast<WaitSet*>(wait_set->data);
   delete wait_set;
   return RMW_RET_OK;
 }
 
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
-                   rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout) {
+                   rmw_services_t* services, rmw_clients_t* clients, rmw_wait_set_t* wait_set,
+                   const rmw_time_t* wait_timeout) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
-  const Entities entities(subscriptions, guard_conditions);
+  const Entities entities(subscriptions, guard_conditions, services, clients);
   const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
   if (may_block) {
     const auto deadline = deadline_after(wait_timeout);
-    Waiter& waiter = *static_cast<Waiter*>(wait_set->data);
+    auto& [waiter, waitables] = *static_cast<WaitSet*>(wait_set->data);
+    entities.collect(waitables);
     waiter.reset();
-    entities.attach(waiter);
+    waiter.watch(waitables);
     // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-    while (!entities.any_ready() && waiter.wait_until(deadline)) {
+    while (!any_ready(waitables) && waiter.wait_until(deadline)) {
     }
-    entities.detach(waiter);
   }
   return entities.keep_ready() ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }

@@ -4,6 +4,38 @@
 #include <utility>
 
 namespace rmw_fastrtps {
+namespace {
+
+// Who watches whom, in the whole process, changes under this lock, so that either side can go first.
+std::mutex& attachments() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+Waiter::~Waiter() {
+  std::lock_guard lock(attachments());
+  for (Waitable* waitable : watched_) {
+    waitable->detach(*this);
+  }
+}
+
+void Waiter::watch(const std::vector<Waitable*>& waitables) {
+  if (waitables == wanted_ && !stale_.load(std::memory_order_acquire)) {
+    return;
+  }
+  std::lock_guard lock(attachments());
+  for (Waitable* waitable : watched_) {
+    waitable->detach(*this);
+  }
+  for (Waitable* waitable : waitables) {
+    waitable->attach(*this);
+  }
+  watched_ = waitables;
+  wanted_ = waitables;
+  stale_ = false;
+}
 
 void Waiter::reset() {
   std::lock_guard lock(mutex_);
@@ -29,6 +61,14 @@ bool Waiter::wait_until(std::optional<TimePoint> deadline) {
     condition_.wait(lock, [this] { return woken_; });
   }
   return std::exchange(woken_, false);
+}
+
+Waitable::~Waitable() {
+  std::lock_guard lock(attachments());
+  for (Waiter* waiter : waiters_) {
+    std::erase(waiter->watched_, this);
+    waiter->stale_.store(true, std::memory_order_release);
+  }
 }
 
 void Waitable::attach(Waiter& waiter) {

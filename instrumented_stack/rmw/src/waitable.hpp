@@ -1,7 +1,8 @@
 // What rmw_wait() sleeps on: a Waiter per wait set, known to every Waitable that the wait set waits for.
 //
-// A message costs one lock and one wake-up of the thread that waits for it, however many other entities that thread
-// waits for.
+// They stay known to each other between waits, so that a wait for the same entities as before locks none of them. A
+// message costs one lock and one wake-up of the thread that waits for it, however many other entities that thread waits
+// for.
 #pragma once
 
 #include <atomic>
@@ -13,10 +14,21 @@
 
 namespace rmw_fastrtps {
 
+class Waitable;
+
 // Where one thread sleeps.
 class Waiter {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
+
+  Waiter() = default;
+  ~Waiter();
+  Waiter(const Waiter&) = delete;
+  Waiter& operator=(const Waiter&) = delete;
+
+  // From now on these, and no others, wake the waiter. They may be destroyed at any time before the next call, but not
+  // while the waiter sleeps.
+  void watch(const std::vector<Waitable*>& waitables);
 
   // Forgets earlier calls of wake().
   void reset();
@@ -29,30 +41,39 @@ class Waiter {
   bool wait_until(std::optional<TimePoint> deadline);
 
  private:
+  friend class Waitable;
+
+  // The arguments of the last watch(), to be compared only. Of the waiting thread.
+  std::vector<Waitable*> wanted_;
+  std::atomic<bool> stale_{false};  // one of them was destroyed: its address may be another's now
+  std::vector<Waitable*> watched_;  // those of them that live; under the lock of attachments
+
   std::mutex mutex_;
   std::condition_variable condition_;
   bool woken_ = false;
 };
 
-// Something that becomes ready. `data` of subscriptions and guard conditions points at one.
+// Something that becomes ready. `data` of subscriptions, services, clients and guard conditions points at one.
 class Waitable {
  public:
   Waitable() = default;
   Waitable(const Waitable&) = delete;
   Waitable& operator=(const Waitable&) = delete;
-  virtual ~Waitable() = default;
+  virtual ~Waitable();
+
+  virtual bool is_ready() = 0;
+
+ protected:
+  // Wakes whoever waits. Any thread.
+  void notify();
+
+ private:
+  friend class Waiter;
 
   void attach(Waiter& waiter);
   // After this, `waiter` is not touched any more.
   void detach(Waiter& waiter);
 
-  virtual bool is_ready() = 0;
-
- protected:
-  // Wakes whoever is attached. Any thread.
-  void notify();
-
- private:
   std::mutex mutex_;
   std::vector<Waiter*> waiters_;
 };

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include "lifecycle_msgs/msg/transition.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 #include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
 #include "std_msgs/msg/string.hpp"
 #include "test_interfaces/srv/add_two_ints.hpp"
+#include "type_description_interfaces/msg/field_type.hpp"
+#include "type_description_interfaces/srv/get_type_description.hpp"
 
 namespace {
 
@@ -39,6 +42,18 @@ TEST(TypeSupport, ServiceLeadsToItsRequestAndResponse) {
   EXPECT_EQ(handle->request_typesupport, callbacks.request_members_);
   const auto& request = *static_cast<const message_type_support_callbacks_t*>(callbacks.request_members_->data);
   EXPECT_STREQ(request.message_name_, "AddTwoInts_Request");
+}
+
+TEST(TypeSupport, ConstantsOfShippedPackagesAreThoseOfRos2) {
+  using type_description_interfaces::msg::FieldType;
+  EXPECT_EQ(FieldType::FIELD_TYPE_BOUNDED_WSTRING, 22);
+  EXPECT_EQ(FieldType::FIELD_TYPE_NESTED_TYPE_ARRAY, 49);
+  EXPECT_EQ(FieldType::FIELD_TYPE_INT8_BOUNDED_SEQUENCE, 98);
+  EXPECT_EQ(FieldType::FIELD_TYPE_BOUNDED_WSTRING_UNBOUNDED_SEQUENCE, 166);
+  using lifecycle_msgs::msg::Transition;
+  EXPECT_EQ(Transition::TRANSITION_ON_DEACTIVATE_FAILURE, 41);
+  EXPECT_EQ(Transition::TRANSITION_ON_ERROR_ERROR, 62);
+  EXPECT_TRUE(type_description_interfaces::srv::GetTypeDescription::Request().include_type_sources);
 }
 
 }  // namespace

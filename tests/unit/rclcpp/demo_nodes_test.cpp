@@ -51,9 +51,27 @@ TEST(DemoNodes, ListenerHearsTalkerUnderOtherNames) {
   EXPECT_EQ(talker.wait().exit_code, 0);
 }
 
+TEST(DemoNodes, ServerAnswersClientUnderAnotherName) {
+  const test_support::Sandbox sandbox;
+  const std::vector<std::string> names = {"--ros-args", "-r", "add_two_ints:=sum", "-p", "count:=3"};
+  Command serve{{node("add_two_ints_server")}};
+  Command ask{{node("add_two_ints_client")}};
+  serve.argv.insert(serve.argv.end(), names.begin(), names.end());
+  ask.argv.insert(ask.argv.end(), names.begin(), names.end());
+  ask.argv.insert(ask.argv.end(), {"-p", "a:=40"});
+  RunningCommand server(serve);
+  RunningCommand client(ask);
+  const CommandResult client_result = client.wait();
+  EXPECT_EQ(client_result.exit_code, 0) << client_result.err;
+  EXPECT_THAT(client_result.err, HasSubstr("[add_two_ints_client]: 40 + 3 = 43\n"));
+  const CommandResult server_result = server.wait();
+  EXPECT_EQ(server_result.exit_code, 0) << server_result.err;
+  EXPECT_THAT(server_result.err, HasSubstr("[add_two_ints_server]: 40 + 3 = 43\n"));
+}
+
 TEST(DemoNodes, WrongArgumentsEndWithAMessageAndExitCode1) {
   const test_support::Sandbox sandbox;
-  for (const char* name : {"ping", "pong", "talker", "listener"}) {
+  for (const char* name : {"ping", "pong", "talker", "listener", "add_two_ints_server", "add_two_ints_client"}) {
     const CommandResult result = run_command({node(name), "--ros-args", "--what"});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.err, std::string(name) + ": found unknown ROS arguments: '--what'\n");

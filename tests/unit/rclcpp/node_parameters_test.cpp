@@ -201,7 +201,7 @@ TEST_F(NodeParametersTest, ListsDescribesAndFindsByPrefix) {
   node.declare_parameter("gain.deep.d", 3.0);
   EXPECT_THAT(node.list_parameters({"gain"}, 1).names, ElementsAre("gain.p"));
   EXPECT_THAT(node.list_parameters({"gain"}, 0).names, ElementsAre("gain.deep.d", "gain.p"));
-  EXPECT_THAT(node.list_parameters({}, 1).names, ElementsAre("use_sim_time"));
+  EXPECT_THAT(node.list_parameters({}, 1).names, ElementsAre("start_type_description_service", "use_sim_time"));
   EXPECT_THAT(node.list_parameters({"gain"}, 0).prefixes, ElementsAre("gain.deep", "gain"));
   EXPECT_EQ(node.describe_parameter("gain.p").description, "how much");
   EXPECT_THAT(node.get_parameter_types({"gain.p"}), ElementsAre(rclcpp::PARAMETER_DOUBLE));

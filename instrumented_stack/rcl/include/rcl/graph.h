@@ -1,6 +1,7 @@
-// The nodes, topics and endpoints that are known in the whole system.
+// The nodes, topics, services and endpoints that are known in the whole system.
 #pragma once
 
+#include "rcl/client.h"
 #include "rcl/node.h"
 #include "rcl/types.h"
 #include "rcutils/types/string_array.h"
@@ -25,6 +26,15 @@ rcl_ret_t rcl_get_node_names(const rcl_node_t* node, rcl_allocator_t allocator, 
                              rcutils_string_array_t* node_namespaces);
 rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator, bool no_demangle,
                                         rcl_names_and_types_t* topic_names_and_types);
+
+// Full service name; no remapping is applied.
+rcl_ret_t rcl_count_services(const rcl_node_t* node, const char* service_name, size_t* count);
+rcl_ret_t rcl_count_clients(const rcl_node_t* node, const char* service_name, size_t* count);
+rcl_ret_t rcl_get_service_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                          rcl_names_and_types_t* service_names_and_types);
+
+// Whether a request of the client would be answered. Changes trigger the graph guard condition.
+rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 //   init.h context.h init_options.h arguments.h       start of a process, --ros-args
 //   node.h node_options.h                              nodes
 //   publisher.h subscription.h                         topics
+//   service.h client.h                                 services
 //   timer.h time.h guard_condition.h wait.h            waiting
 //   graph.h                                            who else is there
 //   remap.h expand_topic_name.h validate_topic_name.h  names
@@ -14,6 +15,7 @@
 #pragma once
 
 #include "rcl/arguments.h"
+#include "rcl/client.h"
 #include "rcl/context.h"
 #include "rcl/discovery_options.h"
 #include "rcl/domain_id.h"
@@ -27,6 +29,7 @@
 #include "rcl/node.h"
 #include "rcl/publisher.h"
 #include "rcl/remap.h"
+#include "rcl/service.h"
 #include "rcl/subscription.h"
 #include "rcl/time.h"
 #include "rcl/timer.h"

@@ -3,6 +3,8 @@
 
 #include <memory>
 
+#include "rclcpp/client_base.hpp"
+#include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
 
@@ -11,6 +13,8 @@ namespace rclcpp {
 struct AnyExecutable {
   TimerBase::SharedPtr timer;
   SubscriptionBase::SharedPtr subscription;
+  ServiceBase::SharedPtr service;
+  ClientBase::SharedPtr client;
 };
 
 }  // namespace rclcpp

@@ -1,4 +1,4 @@
-// The entities (timers, subscriptions) whose callbacks belong together, and the unit that an executor serves.
+// The entities (timers, subscriptions, services, clients) whose callbacks belong together, and the unit that an executor serves.
 #pragma once
 
 #include <atomic>
@@ -12,6 +12,8 @@
 
 namespace rclcpp {
 
+class ClientBase;
+class ServiceBase;
 class SubscriptionBase;
 class TimerBase;
 
@@ -36,10 +38,14 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
 
   void add_subscription(const std::shared_ptr<SubscriptionBase>& subscription);
   void add_timer(const std::shared_ptr<TimerBase>& timer);
+  void add_service(const std::shared_ptr<ServiceBase>& service);
+  void add_client(const std::shared_ptr<ClientBase>& client);
 
   struct Entities {
     std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
     std::vector<std::shared_ptr<TimerBase>> timers;
+    std::vector<std::shared_ptr<ServiceBase>> services;
+    std::vector<std::shared_ptr<ClientBase>> clients;
   };
   // Appends the living entities. Release them outside of every lock: they may be the last owners.
   void collect(Entities& entities) const;
@@ -53,6 +59,9 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   void entity_removed() const { notify(); }
 
  private:
+  // Adds to one of the lists below.
+  template <typename EntityT>
+  void add(std::vector<std::weak_ptr<EntityT>> CallbackGroup::*list, const std::shared_ptr<EntityT>& entity);
   void notify() const;
 
   const CallbackGroupType type_;
@@ -62,6 +71,8 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   mutable std::mutex mutex_;
   std::vector<std::weak_ptr<SubscriptionBase>> subscriptions_;
   std::vector<std::weak_ptr<TimerBase>> timers_;
+  std::vector<std::weak_ptr<ServiceBase>> services_;
+  std::vector<std::weak_ptr<ClientBase>> clients_;
   std::function<void()> on_change_;
 };
 

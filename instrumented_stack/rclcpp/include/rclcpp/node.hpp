@@ -1,4 +1,4 @@
-// A node: a name in the graph, with publishers, subscriptions, timers and parameters. Derive from it or create it with
+// A node: a name in the graph, with publishers, subscriptions, services, timers and parameters. Derive from it or create it with
 // std::make_shared, then give it to an executor or to rclcpp::spin().
 #pragma once
 
@@ -11,7 +11,9 @@
 
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/clock.hpp"
+#include "rclcpp/create_client.hpp"
 #include "rclcpp/create_publisher.hpp"
+#include "rclcpp/create_service.hpp"
 #include "rclcpp/create_subscription.hpp"
 #include "rclcpp/create_timer.hpp"
 #include "rclcpp/logger.hpp"
@@ -19,8 +21,10 @@
 #include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/node_interfaces/node_graph.hpp"
 #include "rclcpp/node_interfaces/node_parameters.hpp"
+#include "rclcpp/node_interfaces/node_services.hpp"
 #include "rclcpp/node_interfaces/node_timers.hpp"
 #include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_interfaces/node_type_descriptions.hpp"
 #include "rclcpp/node_options.hpp"
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/publisher.hpp"
@@ -77,6 +81,21 @@ class Node : public std::enable_shared_from_this<Node> {
       const std::string& topic_name, const QoS& qos, CallbackT&& callback,
       const SubscriptionOptions& options = SubscriptionOptions()) {
     return rclcpp::create_subscription<MessageT>(*this, topic_name, qos, std::forward<CallbackT>(callback), options);
+  }
+
+  // Throw exceptions::InvalidServiceNameError or exceptions::RCLError. For the forms of the callback see
+  // any_service_callback.hpp.
+  template <typename ServiceT, typename CallbackT>
+  typename Service<ServiceT>::SharedPtr create_service(const std::string& service_name, CallbackT&& callback,
+                                                       const QoS& qos = ServicesQoS(),
+                                                       CallbackGroup::SharedPtr group = nullptr) {
+    return rclcpp::create_service<ServiceT>(node_base_, node_services_, service_name, std::forward<CallbackT>(callback),
+                                            qos, std::move(group));
+  }
+  template <typename ServiceT>
+  typename Client<ServiceT>::SharedPtr create_client(const std::string& service_name, const QoS& qos = ServicesQoS(),
+                                                     CallbackGroup::SharedPtr group = nullptr) {
+    return rclcpp::create_client<ServiceT>(node_base_, node_services_, service_name, qos, std::move(group));
   }
 
   // On the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative
@@ -176,12 +195,21 @@ class Node : public std::enable_shared_from_this<Node> {
   }
   size_t count_publishers(const std::string& topic_name) const { return node_graph_->count_publishers(topic_name); }
   size_t count_subscribers(const std::string& topic_name) const { return node_graph_->count_subscribers(topic_name); }
+  std::map<std::string, std::vector<std::string>> get_service_names_and_types() const {
+    return node_graph_->get_service_names_and_types();
+  }
+  size_t count_services(const std::string& service_name) const { return node_graph_->count_services(service_name); }
+  size_t count_clients(const std::string& service_name) const { return node_graph_->count_clients(service_name); }
 
   node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() { return node_base_; }
   node_interfaces::NodeGraphInterface::SharedPtr get_node_graph_interface() { return node_graph_; }
   node_interfaces::NodeTopicsInterface::SharedPtr get_node_topics_interface() { return node_topics_; }
   node_interfaces::NodeTimersInterface::SharedPtr get_node_timers_interface() { return node_timers_; }
+  node_interfaces::NodeServicesInterface::SharedPtr get_node_services_interface() { return node_services_; }
   node_interfaces::NodeParametersInterface::SharedPtr get_node_parameters_interface() { return node_parameters_; }
+  node_interfaces::NodeTypeDescriptionsInterface::SharedPtr get_node_type_descriptions_interface() {
+    return node_type_descriptions_;
+  }
 
  private:
   Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
@@ -193,8 +221,10 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeGraphInterface::SharedPtr node_graph_;
   node_interfaces::NodeTimersInterface::SharedPtr node_timers_;
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
+  node_interfaces::NodeServicesInterface::SharedPtr node_services_;
   Clock::SharedPtr clock_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
+  node_interfaces::NodeTypeDescriptionsInterface::SharedPtr node_type_descriptions_;
   std::unique_ptr<node_interfaces::TimeSource> time_source_;
 };
 

@@ -44,6 +44,10 @@ class NodeOptions {
   const QoS& rosout_qos() const { return rosout_qos_; }
   NodeOptions& rosout_qos(const QoS& rosout_qos);
 
+  // Whether others can read and change the parameters, through six services. Default true.
+  bool start_parameter_services() const { return start_parameter_services_; }
+  NodeOptions& start_parameter_services(bool start_parameter_services);
+
   // Whether changes of parameters go to /parameter_events. Default true.
   bool start_parameter_event_publisher() const { return start_parameter_event_publisher_; }
   NodeOptions& start_parameter_event_publisher(bool start_parameter_event_publisher);
@@ -75,6 +79,7 @@ class NodeOptions {
   bool use_global_arguments_ = true;
   bool enable_rosout_ = true;
   QoS rosout_qos_ = RosoutQoS();
+  bool start_parameter_services_ = true;
   bool start_parameter_event_publisher_ = true;
   QoS parameter_event_qos_ = ParameterEventsQoS();
   bool allow_undeclared_parameters_ = false;

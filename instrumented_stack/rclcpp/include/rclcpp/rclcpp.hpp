@@ -4,8 +4,11 @@
 //   node.hpp             Node                                  node_options.hpp, node_interfaces/
 //   publisher.hpp        Publisher                             qos.hpp, serialization.hpp, serialized_message.hpp
 //   subscription.hpp     Subscription                          any_subscription_callback.hpp, message_info.hpp
+//   service.hpp          Service                               any_service_callback.hpp
+//   client.hpp           Client
 //   timer.hpp            WallTimer, GenericTimer               create_timer.hpp
 //   parameter.hpp        Parameter                             parameter_value.hpp
+//   parameter_client.hpp SyncParametersClient                  AsyncParametersClient
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
 //   executors.hpp        spin, SingleThreadedExecutor          executor.hpp, callback_group.hpp, guard_condition.hpp
 //   logging.hpp          RCLCPP_INFO and its like              logger.hpp
@@ -20,6 +23,7 @@
 #include "rclcpp/logging.hpp"
 #include "rclcpp/node.hpp"
 #include "rclcpp/parameter.hpp"
+#include "rclcpp/parameter_client.hpp"
 #include "rclcpp/rate.hpp"
 #include "rclcpp/serialization.hpp"
 #include "rclcpp/time.hpp"

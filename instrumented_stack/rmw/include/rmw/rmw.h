@@ -1,4 +1,4 @@
-// The middleware interface: publishers, subscriptions, waiting and the graph, on Fast DDS.
+// The middleware interface: publishers, subscriptions, services, clients, waiting and the graph, on Fast DDS.
 //
 // A context (rmw/init.h) holds one DDS participant. Creation functions return null, the others a code other than
 // RMW_RET_OK, after leaving a message for rmw_get_error_string(). A handle must be destroyed before its node, a node
@@ -16,6 +16,7 @@
 #include "rmw/qos_profiles.h"
 #include "rmw/types.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -78,6 +79,38 @@ rmw_ret_t rmw_take_serialized_message_with_info(const rmw_subscription_t* subscr
                                                 rmw_message_info_t* message_info,
                                                 rmw_subscription_allocation_t* allocation);
 
+// ---- services
+rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_type_support_t* type_support,
+                                  const char* service_name, const rmw_qos_profile_t* qos_policies);
+rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service);
+
+// Takes the next request without waiting; `taken` is false when there is none. The response must carry
+// `request_header->request_id`.
+rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* request_header, void* ros_request,
+                           bool* taken);
+// Waits a moment for the client's reader to be known, then RMW_RET_TIMEOUT. RMW_RET_OK, and nothing is sent, if the
+// client is gone.
+rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* request_header, void* ros_response);
+rmw_ret_t rmw_service_request_subscription_get_actual_qos(const rmw_service_t* service, rmw_qos_profile_t* qos);
+rmw_ret_t rmw_service_response_publisher_get_actual_qos(const rmw_service_t* service, rmw_qos_profile_t* qos);
+
+// ---- clients
+rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_type_support_t* type_support,
+                                const char* service_name, const rmw_qos_profile_t* qos_policies);
+rmw_ret_t rmw_destroy_client(rmw_node_t* node, rmw_client_t* client);
+
+// `sequence_id` gets the number that the response will carry.
+rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, int64_t* sequence_id);
+// Takes the next response without waiting; `taken` is false when there is none, and also when the next one was for
+// another client.
+rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* request_header, void* ros_response,
+                            bool* taken);
+rmw_ret_t rmw_client_request_publisher_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos);
+rmw_ret_t rmw_client_response_subscription_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos);
+
+// Whether a request would reach a service and the response come back. Changes trigger the graph guard condition.
+rmw_ret_t rmw_service_server_is_available(const rmw_node_t* node, const rmw_client_t* client, bool* is_available);
+
 // ---- serialization without a middleware entity
 rmw_ret_t rmw_serialize(const void* ros_message, const rosidl_message_type_support_t* type_support,
                         rmw_serialized_message_t* serialized_message);
@@ -96,7 +129,8 @@ rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set);
 // Blocks until an entity is ready or the time is over (null: forever; zero: not at all). Entries that are not ready
 // become null; triggered guard conditions are reset. RMW_RET_TIMEOUT when nothing became ready.
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
-                   rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout);
+                   rmw_services_t* services, rmw_clients_t* clients, rmw_wait_set_t* wait_set,
+                   const rmw_time_t* wait_timeout);
 
 // ---- graph
 rmw_ret_t rmw_get_node_names(const rmw_node_t* node, rcutils_string_array_t* node_names,
@@ -111,6 +145,12 @@ rmw_ret_t rmw_count_subscribers(const rmw_node_t* node, const char* topic_name, 
 // Topics with their types, as ROS 2 names (`/chatter`, `std_msgs/msg/String`) or, with `no_demangle`, as DDS has them.
 rmw_ret_t rmw_get_topic_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator, bool no_demangle,
                                         rmw_names_and_types_t* topic_names_and_types);
+
+// The same for services, of which at least one end exists: `/add`, `example_interfaces/srv/AddTwoInts`.
+rmw_ret_t rmw_get_service_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator,
+                                          rmw_names_and_types_t* service_names_and_types);
+rmw_ret_t rmw_count_services(const rmw_node_t* node, const char* service_name, size_t* count);
+rmw_ret_t rmw_count_clients(const rmw_node_t* node, const char* service_name, size_t* count);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 // Handles, options and quality of service of the middleware layer.
 //
-// The addresses of rmw_publisher_t and rmw_subscription_t are what the tracepoints of this layer report.
+// The addresses of rmw_publisher_t, rmw_subscription_t, rmw_service_t and rmw_client_t are what the tracepoints of this
+// layer report.
 #pragma once
 
 #include <stdbool.h>
@@ -64,6 +65,18 @@ typedef struct rmw_subscription_s {
   bool is_cft_enabled;
 } rmw_subscription_t;
 
+typedef struct rmw_service_s {
+  const char* implementation_identifier;
+  void* data;
+  const char* service_name;
+} rmw_service_t;
+
+typedef struct rmw_client_s {
+  const char* implementation_identifier;
+  void* data;
+  const char* service_name;
+} rmw_client_t;
+
 typedef struct rmw_guard_condition_s {
   const char* implementation_identifier;
   void* data;
@@ -87,6 +100,16 @@ typedef struct rmw_subscriptions_s {
   size_t subscriber_count;
   void** subscribers;
 } rmw_subscriptions_t;
+
+typedef struct rmw_services_s {
+  size_t service_count;
+  void** services;
+} rmw_services_t;
+
+typedef struct rmw_clients_s {
+  size_t client_count;
+  void** clients;
+} rmw_clients_t;
 
 typedef struct rmw_guard_conditions_s {
   size_t guard_condition_count;
@@ -165,6 +188,18 @@ typedef struct rmw_message_info_s {
 } rmw_message_info_t;
 
 rmw_message_info_t rmw_get_zero_initialized_message_info(void);
+
+// Which request of which client: what a response must be sent with.
+typedef struct rmw_request_id_s {
+  int8_t writer_guid[RMW_GID_STORAGE_SIZE];  // the GUID of the client's response reader
+  int64_t sequence_number;                   // counts the requests of that client
+} rmw_request_id_t;
+
+typedef struct rmw_service_info_s {
+  rmw_time_point_value_t source_timestamp;    // ns since 1970 of the sender's system clock
+  rmw_time_point_value_t received_timestamp;  // ns since 1970 of this host's system clock
+  rmw_request_id_t request_id;
+} rmw_service_info_t;
 
 enum { RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT = 0 };
 

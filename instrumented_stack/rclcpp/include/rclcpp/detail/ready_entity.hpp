@@ -3,11 +3,14 @@
 
 #include <variant>
 
+#include "rclcpp/client_base.hpp"
+#include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
 
 namespace rclcpp::detail {
 
-using ReadyEntity = std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr>;
+using ReadyEntity =
+    std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr>;
 
 }  // namespace rclcpp::detail

@@ -44,6 +44,12 @@ class InvalidTopicNameError : public NameValidationError {
       : NameValidationError("topic name", topic, error, index) {}
 };
 
+class InvalidServiceNameError : public NameValidationError {
+ public:
+  InvalidServiceNameError(const char* service, const char* error, size_t index)
+      : NameValidationError("service name", service, error, index) {}
+};
+
 class InvalidNodeError : public std::runtime_error {
  public:
   InvalidNodeError() : std::runtime_error("node is invalid") {}

@@ -27,6 +27,12 @@ class NodeGraph {
   size_t count_publishers(const std::string& topic_name) const;
   size_t count_subscribers(const std::string& topic_name) const;
 
+  // Service name to type names.
+  std::map<std::string, std::vector<std::string>> get_service_names_and_types() const;
+  // The service name is expanded and remapped as for a client of this node.
+  size_t count_services(const std::string& service_name) const;
+  size_t count_clients(const std::string& service_name) const;
+
  private:
   NodeBaseInterface::SharedPtr node_base_;
 };

@@ -1,4 +1,5 @@
-// The parameters of a node: declared ones with their values and descriptions, and who wants to know of changes.
+// The parameters of a node: declared ones with their values and descriptions, the services for them, and who wants to
+// know of changes.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,10 @@
 #include "rclcpp/clock.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_services.hpp"
 #include "rclcpp/node_options.hpp"
 #include "rclcpp/parameter.hpp"
+#include "rclcpp/parameter_service.hpp"
 #include "rclcpp/publisher.hpp"
 
 namespace rclcpp::node_interfaces {
@@ -42,9 +45,9 @@ class NodeParameters {
   using Descriptor = rcl_interfaces::msg::ParameterDescriptor;
   using Result = rcl_interfaces::msg::SetParametersResult;
 
-  // Throws what parsing the node's arguments and creating /parameter_events throw.
-  NodeParameters(NodeBaseInterface::SharedPtr node_base, Clock::SharedPtr clock, const NodeOptions& options,
-                 const rcl_node_options_t& rcl_options);
+  // Throws what parsing the node's arguments and creating the services and /parameter_events throw.
+  NodeParameters(NodeBaseInterface::SharedPtr node_base, const NodeServicesInterface::SharedPtr& node_services,
+                 Clock::SharedPtr clock, const NodeOptions& options, const rcl_node_options_t& rcl_options);
   ~NodeParameters();
 
   // See Node for what these throw.
@@ -101,6 +104,7 @@ class NodeParameters {
   Clock::SharedPtr clock_;
   bool allow_undeclared_;
   std::map<std::string, ParameterValue> overrides_;
+  std::unique_ptr<ParameterService> services_;
   Publisher<rcl_interfaces::msg::ParameterEvent>::SharedPtr events_publisher_;
 
   mutable std::recursive_mutex mutex_;  // recursive: callbacks may read parameters

@@ -1,0 +1,52 @@
+// The end of a service that sends requests and takes responses.
+#pragma once
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "rcl/node.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rcl_client_impl_s rcl_client_impl_t;
+
+typedef struct rcl_client_s {
+  rcl_client_impl_t* impl;
+} rcl_client_t;
+
+typedef struct rcl_client_options_s {
+  rmw_qos_profile_t qos;
+  rcl_allocator_t allocator;
+} rcl_client_options_t;
+
+rcl_client_t rcl_get_zero_initialized_client(void);
+rcl_client_options_t rcl_client_get_default_options(void);
+
+// Creates the client of the expanded and remapped service. Fires rcl_client_init with that name.
+// RCL_RET_SERVICE_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+rcl_ret_t rcl_client_init(rcl_client_t* client, const rcl_node_t* node,
+                          const rosidl_service_type_support_t* type_support, const char* service_name,
+                          const rcl_client_options_t* options);
+rcl_ret_t rcl_client_fini(rcl_client_t* client, rcl_node_t* node);
+
+// `sequence_number` gets the number that the response will carry.
+rcl_ret_t rcl_send_request(const rcl_client_t* client, const void* ros_request, int64_t* sequence_number);
+
+// Takes the next response, RCL_RET_CLIENT_TAKE_FAILED when there is none or it was for another client.
+rcl_ret_t rcl_take_response_with_info(const rcl_client_t* client, rmw_service_info_t* request_header,
+                                      void* ros_response);
+rcl_ret_t rcl_take_response(const rcl_client_t* client, rmw_request_id_t* request_header, void* ros_response);
+
+const char* rcl_client_get_service_name(const rcl_client_t* client);
+const rcl_client_options_t* rcl_client_get_options(const rcl_client_t* client);
+rmw_client_t* rcl_client_get_rmw_handle(const rcl_client_t* client);
+const rmw_qos_profile_t* rcl_client_request_publisher_get_actual_qos(const rcl_client_t* client);
+const rmw_qos_profile_t* rcl_client_response_subscription_get_actual_qos(const rcl_client_t* client);
+bool rcl_client_is_valid(const rcl_client_t* client);
+
+#ifdef __cplusplus
+}
+#endif

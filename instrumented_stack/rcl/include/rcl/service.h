@@ -1,0 +1,52 @@
+// The end of a service that takes requests and sends responses.
+#pragma once
+
+#include <stdbool.h>
+
+#include "rcl/node.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rcl_service_impl_s rcl_service_impl_t;
+
+typedef struct rcl_service_s {
+  rcl_service_impl_t* impl;
+} rcl_service_t;
+
+typedef struct rcl_service_options_s {
+  rmw_qos_profile_t qos;
+  rcl_allocator_t allocator;
+} rcl_service_options_t;
+
+rcl_service_t rcl_get_zero_initialized_service(void);
+rcl_service_options_t rcl_service_get_default_options(void);
+
+// Creates the service under the expanded and remapped name. Fires rcl_service_init with that name.
+// RCL_RET_SERVICE_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+rcl_ret_t rcl_service_init(rcl_service_t* service, const rcl_node_t* node,
+                           const rosidl_service_type_support_t* type_support, const char* service_name,
+                           const rcl_service_options_t* options);
+rcl_ret_t rcl_service_fini(rcl_service_t* service, rcl_node_t* node);
+
+// Takes the next request, RCL_RET_SERVICE_TAKE_FAILED when there is none.
+rcl_ret_t rcl_take_request_with_info(const rcl_service_t* service, rmw_service_info_t* request_header,
+                                     void* ros_request);
+rcl_ret_t rcl_take_request(const rcl_service_t* service, rmw_request_id_t* request_header, void* ros_request);
+
+// `response_header` as it came with the request. RCL_RET_TIMEOUT if the client cannot receive it yet; no error if it is
+// gone.
+rcl_ret_t rcl_send_response(const rcl_service_t* service, rmw_request_id_t* response_header, void* ros_response);
+
+const char* rcl_service_get_service_name(const rcl_service_t* service);
+const rcl_service_options_t* rcl_service_get_options(const rcl_service_t* service);
+rmw_service_t* rcl_service_get_rmw_handle(const rcl_service_t* service);
+const rmw_qos_profile_t* rcl_service_request_subscription_get_actual_qos(const rcl_service_t* service);
+const rmw_qos_profile_t* rcl_service_response_publisher_get_actual_qos(const rcl_service_t* service);
+bool rcl_service_is_valid(const rcl_service_t* service);
+
+#ifdef __cplusplus
+}
+#endif

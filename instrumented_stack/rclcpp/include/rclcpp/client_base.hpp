@@ -1,0 +1,71 @@
+// What all clients have in common, and what an executor needs to know of one.
+#pragma once
+
+#include <rcl/client.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/qos.hpp"
+
+namespace rclcpp {
+
+class ClientBase {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(ClientBase)
+
+  // Throws exceptions::InvalidServiceNameError or exceptions::RCLError.
+  ClientBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
+             const std::string& service_name, const QoS& qos);
+  virtual ~ClientBase();
+  RCLCPP_DISABLE_COPY(ClientBase)
+
+  // The full name, after remapping.
+  const char* get_service_name() const;
+  QoS get_request_publisher_actual_qos() const;
+  QoS get_response_subscription_actual_qos() const;
+
+  // Whether a request would be answered.
+  bool service_is_ready() const;
+  // Waits until that is so; false after `timeout`, or when the context ends. Negative waits for ever.
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  bool wait_for_service(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return wait_for_service_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  }
+
+  // The next response into `response_out`, which points to a response of this client's type. False if there is none, or
+  // it was for another client.
+  bool take_type_erased_response(void* response_out, rmw_request_id_t& request_header_out);
+
+  // What an executor does with a client that is ready: one response, from the middleware to whoever waits for it.
+  void execute();
+
+  std::shared_ptr<rcl_client_t> get_client_handle() { return client_handle_; }
+  std::shared_ptr<const rcl_client_t> get_client_handle() const { return client_handle_; }
+
+  // The group that serves this client, set by the group.
+  void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
+
+ protected:
+  virtual std::shared_ptr<void> create_response() = 0;
+  virtual void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) = 0;
+
+  // The sequence number of the request. Throws exceptions::RCLError.
+  int64_t send_type_erased_request(const void* request);
+
+ private:
+  bool wait_for_service_nanoseconds(std::chrono::nanoseconds timeout);
+
+  std::shared_ptr<rcl_node_t> node_handle_;
+  std::shared_ptr<Context> context_;
+  std::shared_ptr<rcl_client_t> client_handle_;
+  CallbackGroup::WeakPtr callback_group_;
+};
+
+}  // namespace rclcpp

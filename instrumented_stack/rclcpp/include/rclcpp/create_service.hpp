@@ -1,0 +1,24 @@
+// Services for anything that has node interfaces.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/service.hpp"
+
+namespace rclcpp {
+
+template <typename ServiceT, typename CallbackT>
+typename Service<ServiceT>::SharedPtr create_service(
+    std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
+    std::shared_ptr<node_interfaces::NodeServicesInterface> node_services, const std::string& service_name,
+    CallbackT&& callback, const QoS& qos, CallbackGroup::SharedPtr group) {
+  auto service = std::make_shared<Service<ServiceT>>(
+      node_base.get(), service_name, AnyServiceCallback<ServiceT>(std::forward<CallbackT>(callback)), qos);
+  node_services->add_service(service, group);
+  return service;
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,27 @@
+// The service `~/get_type_description` of a node.
+#pragma once
+
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_parameters.hpp"
+#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/service_base.hpp"
+
+namespace rclcpp::node_interfaces {
+
+// It exists unless the parameter start_type_description_service, which is declared here, is false. Messages carry no
+// descriptions in this stack, so that every request gets an unsuccessful response with this reason.
+class NodeTypeDescriptions {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeTypeDescriptions)
+
+  NodeTypeDescriptions(const NodeBaseInterface::SharedPtr& node_base, const NodeParametersInterface::SharedPtr& parameters,
+                       const NodeServicesInterface::SharedPtr& services);
+
+ private:
+  ServiceBase::SharedPtr service_;
+};
+
+using NodeTypeDescriptionsInterface = NodeTypeDescriptions;
+
+}  // namespace rclcpp::node_interfaces

@@ -1,0 +1,230 @@
+// Reads and changes the parameters of another node through its services.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <rcl_interfaces/msg/list_parameters_result.hpp>
+#include <rcl_interfaces/msg/parameter_descriptor.hpp>
+#include <rcl_interfaces/msg/parameter_event.hpp>
+#include <rcl_interfaces/msg/set_parameters_result.hpp>
+#include <rcl_interfaces/srv/describe_parameters.hpp>
+#include <rcl_interfaces/srv/get_parameter_types.hpp>
+#include <rcl_interfaces/srv/get_parameters.hpp>
+#include <rcl_interfaces/srv/list_parameters.hpp>
+#include <rcl_interfaces/srv/set_parameters.hpp>
+#include <rcl_interfaces/srv/set_parameters_atomically.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rclcpp/client.hpp"
+#include "rclcpp/create_subscription.hpp"
+#include "rclcpp/executors.hpp"
+#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/parameter.hpp"
+
+namespace rclcpp {
+
+// Returns futures, and calls a callback if there is one, when the answer has come: an executor must spin the node. An
+// answer about parameters that the remote node has not declared is empty, or says so in its result.
+class AsyncParametersClient {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(AsyncParametersClient)
+
+  template <typename ResultT>
+  using Callback = std::function<void(std::shared_future<ResultT>)>;
+  using SetResult = rcl_interfaces::msg::SetParametersResult;
+  using Descriptor = rcl_interfaces::msg::ParameterDescriptor;
+  using ListResult = rcl_interfaces::msg::ListParametersResult;
+
+  // An empty remote name: the node itself.
+  AsyncParametersClient(node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                        node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                        node_interfaces::NodeServicesInterface::SharedPtr node_services,
+                        const std::string& remote_node_name = "", const QoS& qos = ParametersQoS(),
+                        CallbackGroup::SharedPtr group = nullptr);
+  template <typename NodeT>
+  explicit AsyncParametersClient(const std::shared_ptr<NodeT>& node, const std::string& remote_node_name = "",
+                                 const QoS& qos = ParametersQoS(), CallbackGroup::SharedPtr group = nullptr)
+      : AsyncParametersClient(node.get(), remote_node_name, qos, std::move(group)) {}
+  template <typename NodeT>
+  explicit AsyncParametersClient(NodeT* node, const std::string& remote_node_name = "",
+                                 const QoS& qos = ParametersQoS(), CallbackGroup::SharedPtr group = nullptr)
+      : AsyncParametersClient(node->get_node_base_interface(), node->get_node_topics_interface(),
+                              node->get_node_services_interface(), remote_node_name, qos, std::move(group)) {}
+  RCLCPP_DISABLE_COPY(AsyncParametersClient)
+
+  std::shared_future<std::vector<Parameter>> get_parameters(const std::vector<std::string>& names,
+                                                            Callback<std::vector<Parameter>> callback = nullptr);
+  std::shared_future<std::vector<Descriptor>> describe_parameters(const std::vector<std::string>& names,
+                                                                  Callback<std::vector<Descriptor>> callback = nullptr);
+  std::shared_future<std::vector<ParameterType>> get_parameter_types(
+      const std::vector<std::string>& names, Callback<std::vector<ParameterType>> callback = nullptr);
+  std::shared_future<std::vector<SetResult>> set_parameters(const std::vector<Parameter>& parameters,
+                                                            Callback<std::vector<SetResult>> callback = nullptr);
+  // All or none.
+  std::shared_future<SetResult> set_parameters_atomically(const std::vector<Parameter>& parameters,
+                                                          Callback<SetResult> callback = nullptr);
+  std::shared_future<std::vector<SetResult>> delete_parameters(const std::vector<std::string>& names);
+  std::shared_future<ListResult> list_parameters(const std::vector<std::string>& prefixes, uint64_t depth,
+                                                 Callback<ListResult> callback = nullptr);
+
+  // Hears of the changes of all nodes' parameters.
+  template <typename CallbackT>
+  Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr on_parameter_event(
+      CallbackT&& callback, const QoS& qos = ParameterEventsQoS()) {
+    auto subscription = std::make_shared<Subscription<rcl_interfaces::msg::ParameterEvent>>(
+        node_base_.get(), "/parameter_events", qos,
+        AnySubscriptionCallback<rcl_interfaces::msg::ParameterEvent>(std::forward<CallbackT>(callback)),
+        SubscriptionOptions());
+    node_topics_->add_subscription(subscription, nullptr);
+    return subscription;
+  }
+
+  // Whether all six services are there.
+  bool service_is_ready() const;
+  // False after `timeout` (negative: never) or when the context ends.
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  bool wait_for_service(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return wait_for_service_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  }
+
+  node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() const { return node_base_; }
+
+ private:
+  bool wait_for_service_nanoseconds(std::chrono::nanoseconds timeout);
+  std::vector<ClientBase::SharedPtr> clients() const;
+
+  node_interfaces::NodeBaseInterface::SharedPtr node_base_;
+  node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
+  Client<rcl_interfaces::srv::GetParameters>::SharedPtr get_;
+  Client<rcl_interfaces::srv::GetParameterTypes>::SharedPtr get_types_;
+  Client<rcl_interfaces::srv::SetParameters>::SharedPtr set_;
+  Client<rcl_interfaces::srv::SetParametersAtomically>::SharedPtr set_atomically_;
+  Client<rcl_interfaces::srv::DescribeParameters>::SharedPtr describe_;
+  Client<rcl_interfaces::srv::ListParameters>::SharedPtr list_;
+};
+
+// Spins the node until the answer has come. The node must be in no executor, except the one given here. An answer that
+// does not come in time (negative: no limit) is empty.
+class SyncParametersClient {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(SyncParametersClient)
+
+  using SetResult = AsyncParametersClient::SetResult;
+  using Descriptor = AsyncParametersClient::Descriptor;
+  using ListResult = AsyncParametersClient::ListResult;
+
+  template <typename NodeT>
+  explicit SyncParametersClient(const std::shared_ptr<NodeT>& node, const std::string& remote_node_name = "",
+                                const QoS& qos = ParametersQoS())
+      : SyncParametersClient(own_executor(*node), node, remote_node_name, qos) {}
+  template <typename NodeT>
+  SyncParametersClient(Executor::SharedPtr executor, const std::shared_ptr<NodeT>& node,
+                       const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
+      : executor_(std::move(executor)), client_(node, remote_node_name, qos) {}
+
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  std::vector<Parameter> get_parameters(
+      const std::vector<std::string>& names,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return result_of(client_.get_parameters(names), timeout);
+  }
+  bool has_parameter(const std::string& name);
+  template <typename T>
+  T get_parameter(const std::string& name, const T& default_value) {
+    const std::vector<Parameter> found = get_parameters({name});
+    return found.empty() || found.front().get_type() == PARAMETER_NOT_SET ? default_value
+                                                                          : found.front().get_value<T>();
+  }
+  // Throws std::runtime_error if the parameter is not set.
+  template <typename T>
+  T get_parameter(const std::string& name) {
+    const std::vector<Parameter> found = get_parameters({name});
+    if (found.empty() || found.front().get_type() == PARAMETER_NOT_SET) {
+      throw std::runtime_error("Parameter '" + name + "' is not set");
+    }
+    return found.front().get_value<T>();
+  }
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  std::vector<Descriptor> describe_parameters(
+      const std::vector<std::string>& names,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return result_of(client_.describe_parameters(names), timeout);
+  }
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  std::vector<ParameterType> get_parameter_types(
+      const std::vector<std::string>& names,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return result_of(client_.get_parameter_types(names), timeout);
+  }
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  std::vector<SetResult> set_parameters(
+      const std::vector<Parameter>& parameters,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return result_of(client_.set_parameters(parameters), timeout);
+  }
+  // Throws std::runtime_error when there is no answer.
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  SetResult set_parameters_atomically(
+      const std::vector<Parameter>& parameters,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    const auto future = client_.set_parameters_atomically(parameters);
+    if (!spin_until_complete(future, timeout)) {
+      throw std::runtime_error("Unable to get result of set parameters service call.");
+    }
+    return future.get();
+  }
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  std::vector<SetResult> delete_parameters(
+      const std::vector<std::string>& names,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return result_of(client_.delete_parameters(names), timeout);
+  }
+  // Throws std::runtime_error when there is no answer.
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  ListResult list_parameters(const std::vector<std::string>& prefixes, uint64_t depth,
+                             std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    const auto future = client_.list_parameters(prefixes, depth);
+    if (!spin_until_complete(future, timeout)) {
+      throw std::runtime_error("Unable to get result of list parameters service call.");
+    }
+    return future.get();
+  }
+
+  template <typename CallbackT>
+  auto on_parameter_event(CallbackT&& callback) {
+    return client_.on_parameter_event(std::forward<CallbackT>(callback));
+  }
+  bool service_is_ready() const { return client_.service_is_ready(); }
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  bool wait_for_service(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return client_.wait_for_service(timeout);
+  }
+
+ private:
+  template <typename NodeT>
+  static Executor::SharedPtr own_executor(NodeT& node) {
+    ExecutorOptions options;
+    options.context = node.get_node_base_interface()->get_context();
+    return std::make_shared<executors::SingleThreadedExecutor>(options);
+  }
+
+  template <typename FutureT, typename DurationT>
+  bool spin_until_complete(const FutureT& future, DurationT timeout) {
+    return executors::spin_node_until_future_complete(*executor_, client_.get_node_base_interface(), future, timeout) ==
+           FutureReturnCode::SUCCESS;
+  }
+  template <typename ResultT, typename DurationT>
+  ResultT result_of(const std::shared_future<ResultT>& future, DurationT timeout) {
+    return spin_until_complete(future, timeout) ? future.get() : ResultT();
+  }
+
+  Executor::SharedPtr executor_;
+  AsyncParametersClient client_;
+};
+
+}  // namespace rclcpp

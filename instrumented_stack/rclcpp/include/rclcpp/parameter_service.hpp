@@ -1,0 +1,31 @@
+// The six services through which others read and change the parameters of a node.
+#pragma once
+
+#include <vector>
+
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/qos.hpp"
+#include "rclcpp/service_base.hpp"
+
+namespace rclcpp {
+
+namespace node_interfaces {
+class NodeParameters;
+}
+
+// `<node>/get_parameters`, get_parameter_types, set_parameters, set_parameters_atomically, describe_parameters and
+// list_parameters, of rcl_interfaces. A request about parameters that were not declared gets an empty response, or a
+// result with the reason.
+class ParameterService {
+ public:
+  // `node_parameters` must outlive the services, and whoever executes them.
+  ParameterService(const node_interfaces::NodeBaseInterface::SharedPtr& node_base,
+                   const node_interfaces::NodeServicesInterface::SharedPtr& node_services,
+                   node_interfaces::NodeParameters* node_parameters, const QoS& qos = ParametersQoS());
+
+ private:
+  std::vector<ServiceBase::SharedPtr> services_;
+};
+
+}  // namespace rclcpp

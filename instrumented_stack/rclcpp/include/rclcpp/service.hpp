@@ -1,0 +1,52 @@
+// Answers requests of one type under one name. Created by Node::create_service().
+#pragma once
+
+#include <memory>
+#include <rosidl_typesupport_cpp/service_type_support.hpp>
+#include <string>
+#include <utility>
+
+#include "rclcpp/service_base.hpp"
+
+namespace rclcpp {
+
+template <typename ServiceT>
+class Service : public ServiceBase, public std::enable_shared_from_this<Service<ServiceT>> {
+ public:
+  using Request = typename ServiceT::Request;
+  using Response = typename ServiceT::Response;
+  RCLCPP_SMART_PTR_DEFINITIONS(Service<ServiceT>)
+
+  Service(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
+          AnyServiceCallback<ServiceT> any_callback, const QoS& qos)
+      : ServiceBase(node_base, *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>(), service_name, qos),
+        any_callback_(std::move(any_callback)) {
+    trace_creation(any_callback_);
+  }
+
+  // The next request, without the callback. False if there is none.
+  bool take_request(Request& request_out, rmw_request_id_t& request_id_out) {
+    return take_type_erased_request(&request_out, request_id_out);
+  }
+
+  // For callbacks that defer the response: any thread, once per request.
+  void send_response(rmw_request_id_t& request_id, Response& response) {
+    send_type_erased_response(request_id, &response);
+  }
+
+ protected:
+  std::shared_ptr<void> create_request() override { return std::make_shared<Request>(); }
+
+  void handle_request(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> request) override {
+    const std::shared_ptr<Response> response = any_callback_.dispatch(
+        this->shared_from_this(), request_header, std::static_pointer_cast<Request>(std::move(request)));
+    if (response) {
+      send_response(*request_header, *response);
+    }
+  }
+
+ private:
+  AnyServiceCallback<ServiceT> any_callback_;
+};
+
+}  // namespace rclcpp

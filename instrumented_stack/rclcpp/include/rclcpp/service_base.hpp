@@ -1,0 +1,60 @@
+// What all services have in common, and what an executor needs to know of one.
+#pragma once
+
+#include <rcl/service.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rclcpp/any_service_callback.hpp"
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/qos.hpp"
+
+namespace rclcpp {
+
+class ServiceBase {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(ServiceBase)
+
+  // Throws exceptions::InvalidServiceNameError or exceptions::RCLError.
+  ServiceBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
+              const std::string& service_name, const QoS& qos);
+  virtual ~ServiceBase();
+  RCLCPP_DISABLE_COPY(ServiceBase)
+
+  // The full name, after remapping.
+  const char* get_service_name() const;
+  QoS get_request_subscription_actual_qos() const;
+  QoS get_response_publisher_actual_qos() const;
+
+  // The next request into `request_out`, which points to a request of this service's type. False if there is none.
+  bool take_type_erased_request(void* request_out, rmw_request_id_t& request_id_out);
+
+  // What an executor does with a service that is ready: one request, from the middleware to the callback.
+  void execute();
+
+  std::shared_ptr<rcl_service_t> get_service_handle() { return service_handle_; }
+  std::shared_ptr<const rcl_service_t> get_service_handle() const { return service_handle_; }
+
+  // The group that serves this service, set by the group.
+  void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
+
+ protected:
+  virtual std::shared_ptr<void> create_request() = 0;
+  virtual void handle_request(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> request) = 0;
+
+  // Only warns if the client cannot receive it yet. Throws exceptions::RCLError on other failures.
+  void send_type_erased_response(rmw_request_id_t& request_id, void* response);
+
+  // To be called by the most derived constructor, when the callback is where it will stay.
+  void trace_creation(const AnyServiceCallbackBase& callback);
+
+ private:
+  std::shared_ptr<rcl_service_t> service_handle_;
+  CallbackGroup::WeakPtr callback_group_;
+};
+
+}  // namespace rclcpp

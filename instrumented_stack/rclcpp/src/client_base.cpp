@@ -1,0 +1,178 @@
+#include "rclcpp/client_base.hpp"
+
+#include <rcl/graph.h>
+#include <rcl/wait.h>
+
+#include <algorithm>
+
+#include "rclcpp/detail/topic_name.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+// The graph guard condition wakes one of those who wait for it, and none at shutdown: look again after this time.
+constexpr nanoseconds kGraphPatience = std::chrono::milliseconds(100);
+
+QoS to_qos(const rmw_qos_profile_t* profile) {
+  if (!profile) {
+    exceptions::throw_from_rcl_error(RCL_RET_CLIENT_INVALID, "failed to get qos settings");
+  }
+  return QoS(QoSInitialization::from_rmw(*profile), *profile);
+}
+
+// Waits for changes of the graph.
+class GraphWait {
+ public:
+  explicit GraphWait(const rcl_node_t& node)
+      : changed_(rcl_node_get_graph_guard_condition(&node)), wait_set_(rcl_get_zero_initialized_wait_set()) {
+    require_ok(rcl_wait_set_init(&wait_set_, 0, 1, 0, 0, 0, 0, node.context, rcl_get_default_allocator()));
+  }
+  ~GraphWait() { (void)rcl_wait_set_fini(&wait_set_); }
+  RCLCPP_DISABLE_COPY(GraphWait)
+
+  void wait(nanoseconds timeout) {
+    require_ok(rcl_wait_set_clear(&wait_set_));
+    require_ok(rcl_wait_set_add_guard_condition(&wait_set_, changed_, nullptr));
+    const rcl_ret_t ret = rcl_wait(&wait_set_, timeout.count());
+    if (ret != RCL_RET_TIMEOUT) {
+      require_ok(ret);
+    }
+  }
+
+ private:
+  static void require_ok(rcl_ret_t ret) {
+    if (ret != RCL_RET_OK) {
+      exceptions::throw_from_rcl_error(ret, "failed to wait for the graph");
+    }
+  }
+
+  const rcl_guard_condition_t* changed_;
+  rcl_wait_set_t wait_set_;
+};
+
+}  // namespace
+
+ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
+                       const std::string& service_name, const QoS& qos)
+    : node_handle_(node_base->get_shared_rcl_node_handle()), context_(node_base->get_context()) {
+  rcl_client_options_t options = rcl_client_get_default_options();
+  options.qos = qos.get_rmw_qos_profile();
+
+  auto client = std::make_unique<rcl_client_t>(rcl_get_zero_initialized_client());
+  const rcl_ret_t ret =
+      rcl_client_init(client.get(), node_handle_.get(), &type_support, service_name.c_str(), &options);
+  if (ret == RCL_RET_SERVICE_NAME_INVALID) {
+    detail::throw_invalid_service_name(service_name);
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "could not create client of service '" + service_name + "'");
+  }
+  client_handle_.reset(client.release(), [node_handle = node_handle_](rcl_client_t* handle) {
+    if (rcl_client_fini(handle, node_handle.get()) != RCL_RET_OK) {
+      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a client: %s", rcl_get_error_string().str);
+      rcl_reset_error();
+    }
+    delete handle;
+  });
+}
+
+ClientBase::~ClientBase() {
+  if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
+    group->entity_removed();
+  }
+}
+
+const char* ClientBase::get_service_name() const {
+  return rcl_client_get_service_name(client_handle_.get());
+}
+
+QoS ClientBase::get_request_publisher_actual_qos() const {
+  return to_qos(rcl_client_request_publisher_get_actual_qos(client_handle_.get()));
+}
+
+QoS ClientBase::get_response_subscription_actual_qos() const {
+  return to_qos(rcl_client_response_subscription_get_actual_qos(client_handle_.get()));
+}
+
+bool ClientBase::service_is_ready() const {
+  bool is_ready = false;
+  const rcl_ret_t ret = rcl_service_server_is_available(node_handle_.get(), client_handle_.get(), &is_ready);
+  if (ret == RCL_RET_NODE_INVALID && !context_->is_valid()) {
+    rcl_reset_error();
+    return false;
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "rcl_service_server_is_available failed");
+  }
+  return is_ready;
+}
+
+bool ClientBase::wait_for_service_nanoseconds(nanoseconds timeout) {
+  if (service_is_ready()) {
+    return true;
+  }
+  if (timeout == nanoseconds::zero() || !context_->is_valid()) {
+    return false;
+  }
+  GraphWait graph(*node_handle_);
+  const auto start = steady_clock::now();
+  nanoseconds left = timeout;
+  while (context_->is_valid()) {
+    if (service_is_ready()) {
+      return true;
+    }
+    graph.wait(timeout < nanoseconds::zero() ? kGraphPatience : std::min(left, kGraphPatience));
+    if (timeout >= nanoseconds::zero()) {
+      left = timeout - (steady_clock::now() - start);
+      if (left <= nanoseconds::zero()) {
+        return service_is_ready();
+      }
+    }
+  }
+  return false;
+}
+
+bool ClientBase::take_type_erased_response(void* response_out, rmw_request_id_t& request_header_out) {
+  const rcl_ret_t ret = rcl_take_response(client_handle_.get(), &request_header_out, response_out);
+  if (ret == RCL_RET_CLIENT_TAKE_FAILED) {
+    rcl_reset_error();
+    return false;
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to take a response");
+  }
+  return true;
+}
+
+void ClientBase::execute() {
+  rmw_request_id_t header{};
+  std::shared_ptr<void> response = create_response();
+  // A response that cannot be read costs that response, not the program.
+  bool taken = false;
+  try {
+    taken = take_type_erased_response(response.get(), header);
+  } catch (const exceptions::RCLError& error) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a response of service '%s': %s", get_service_name(),
+                 error.what());
+  }
+  if (taken) {
+    handle_response(header, std::move(response));
+  }
+}
+
+int64_t ClientBase::send_type_erased_request(const void* request) {
+  int64_t sequence_number = 0;
+  const rcl_ret_t ret = rcl_send_request(client_handle_.get(), request, &sequence_number);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to send request");
+  }
+  return sequence_number;
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,112 @@
+#include "rclcpp/service_base.hpp"
+
+#include <tracetools/tracetools.h>
+
+#include "rclcpp/detail/topic_name.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+QoS to_qos(const rmw_qos_profile_t* profile) {
+  if (!profile) {
+    exceptions::throw_from_rcl_error(RCL_RET_SERVICE_INVALID, "failed to get qos settings");
+  }
+  return QoS(QoSInitialization::from_rmw(*profile), *profile);
+}
+
+}  // namespace
+
+ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
+                         const rosidl_service_type_support_t& type_support, const std::string& service_name,
+                         const QoS& qos) {
+  const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
+  rcl_service_options_t options = rcl_service_get_default_options();
+  options.qos = qos.get_rmw_qos_profile();
+
+  auto service = std::make_unique<rcl_service_t>(rcl_get_zero_initialized_service());
+  const rcl_ret_t ret =
+      rcl_service_init(service.get(), node_handle.get(), &type_support, service_name.c_str(), &options);
+  if (ret == RCL_RET_SERVICE_NAME_INVALID) {
+    detail::throw_invalid_service_name(service_name);
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "could not create service '" + service_name + "'");
+  }
+  service_handle_.reset(service.release(), [node_handle](rcl_service_t* handle) {
+    if (rcl_service_fini(handle, node_handle.get()) != RCL_RET_OK) {
+      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a service: %s", rcl_get_error_string().str);
+      rcl_reset_error();
+    }
+    delete handle;
+  });
+}
+
+ServiceBase::~ServiceBase() {
+  if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
+    group->entity_removed();
+  }
+}
+
+const char* ServiceBase::get_service_name() const {
+  return rcl_service_get_service_name(service_handle_.get());
+}
+
+QoS ServiceBase::get_request_subscription_actual_qos() const {
+  return to_qos(rcl_service_request_subscription_get_actual_qos(service_handle_.get()));
+}
+
+QoS ServiceBase::get_response_publisher_actual_qos() const {
+  return to_qos(rcl_service_response_publisher_get_actual_qos(service_handle_.get()));
+}
+
+bool ServiceBase::take_type_erased_request(void* request_out, rmw_request_id_t& request_id_out) {
+  const rcl_ret_t ret = rcl_take_request(service_handle_.get(), &request_id_out, request_out);
+  if (ret == RCL_RET_SERVICE_TAKE_FAILED) {
+    rcl_reset_error();
+    return false;
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to take a request");
+  }
+  return true;
+}
+
+void ServiceBase::execute() {
+  auto header = std::make_shared<rmw_request_id_t>();
+  std::shared_ptr<void> request = create_request();
+  // A request that cannot be read costs that request, not the program.
+  bool taken = false;
+  try {
+    taken = take_type_erased_request(request.get(), *header);
+  } catch (const exceptions::RCLError& error) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a request of service '%s': %s", get_service_name(),
+                 error.what());
+  }
+  if (taken) {
+    handle_request(std::move(header), std::move(request));
+  }
+}
+
+void ServiceBase::send_type_erased_response(rmw_request_id_t& request_id, void* response) {
+  const rcl_ret_t ret = rcl_send_response(service_handle_.get(), &request_id, response);
+  if (ret == RCL_RET_TIMEOUT) {
+    RCLCPP_WARN(get_logger("rclcpp"), "failed to send response to %s (timeout): %s", get_service_name(),
+                rcl_get_error_string().str);
+    rcl_reset_error();
+    return;
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to send response");
+  }
+}
+
+void ServiceBase::trace_creation(const AnyServiceCallbackBase& callback) {
+  TRACETOOLS_TRACEPOINT(rclcpp_service_callback_added, static_cast<const void*>(service_handle_.get()),
+                        static_cast<const void*>(&callback));
+  callback.trace_registration();
+}
+
+}  // namespace rclcpp

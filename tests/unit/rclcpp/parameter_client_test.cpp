@@ -1,0 +1,84 @@
+// Parameters of one node, read and changed from another.
+#include <thread>
+#include <type_description_interfaces/srv/get_type_description.hpp>
+
+#include "ros_test.hpp"
+
+namespace {
+
+// The owner of the parameters in an executor of its own, and somebody who asks.
+class ParameterClient : public RosTest {
+ protected:
+  ParameterClient() {
+    owner_->declare_parameter("speed", 1.5);
+    owner_->declare_parameter("wheels.count", 4);
+    executor_.add_node(owner_);
+    thread_ = std::thread([this] { executor_.spin(); });
+  }
+  ~ParameterClient() override {
+    rclcpp::shutdown();
+    thread_.join();
+  }
+
+  rclcpp::Node::SharedPtr owner_ = std::make_shared<rclcpp::Node>("owner", "ns");
+  rclcpp::Node::SharedPtr asker_ = std::make_shared<rclcpp::Node>("asker");
+  rclcpp::executors::SingleThreadedExecutor executor_;
+  std::thread thread_;
+};
+
+TEST_F(ParameterClient, ReadsAndChangesParametersOfAnotherNode) {
+  rclcpp::SyncParametersClient client(asker_, "/ns/owner");
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  EXPECT_EQ(client.get_parameter<double>("speed"), 1.5);
+  EXPECT_EQ(client.get_parameters({"wheels.count"}, kPatience).at(0).as_int(), 4);
+  EXPECT_EQ(client.get_parameter_types({"speed", "wheels.count"}),
+            (std::vector<rclcpp::ParameterType>{rclcpp::PARAMETER_DOUBLE, rclcpp::PARAMETER_INTEGER}));
+  EXPECT_TRUE(client.has_parameter("speed"));
+  EXPECT_FALSE(client.has_parameter("height"));
+  EXPECT_EQ(client.list_parameters({"wheels"}, 0).names, std::vector<std::string>{"wheels.count"});
+  EXPECT_EQ(client.describe_parameters({"speed"}).at(0).name, "speed");
+
+  EXPECT_TRUE(client.set_parameters({rclcpp::Parameter("speed", 2.5)}).at(0).successful);
+  EXPECT_EQ(owner_->get_parameter("speed").as_double(), 2.5);
+  EXPECT_TRUE(client.set_parameters_atomically({rclcpp::Parameter("speed", 3.0)}).successful);
+  EXPECT_EQ(owner_->get_parameter("speed").as_double(), 3.0);
+}
+
+TEST_F(ParameterClient, RefusalsSayWhy) {
+  rclcpp::SyncParametersClient client(asker_, "/ns/owner");
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  EXPECT_TRUE(client.get_parameters({"height"}).empty());
+  EXPECT_THROW(client.get_parameter<int64_t>("height"), std::runtime_error);
+  EXPECT_EQ(client.get_parameter<int64_t>("height", 3), 3);
+  EXPECT_EQ(client.set_parameters({rclcpp::Parameter("height", 1)}).at(0).reason,
+            "parameter 'height' cannot be set because it was not declared");
+  EXPECT_FALSE(client.set_parameters_atomically({rclcpp::Parameter("speed", "fast")}).successful);
+  EXPECT_EQ(owner_->get_parameter("speed").as_double(), 1.5);
+}
+
+TEST_F(ParameterClient, TypeDescriptionServiceSaysThatThereIsNone) {
+  using type_description_interfaces::srv::GetTypeDescription;
+  const auto client = asker_->create_client<GetTypeDescription>("/ns/owner/get_type_description");
+  ASSERT_TRUE(client->wait_for_service(kPatience));
+  auto request = std::make_shared<GetTypeDescription::Request>();
+  request->type_name = "std_msgs/msg/String";
+  auto future = client->async_send_request(request);
+  ASSERT_EQ(rclcpp::spin_until_future_complete(asker_, future, kPatience), rclcpp::FutureReturnCode::SUCCESS);
+  const auto response = future.get();
+  EXPECT_FALSE(response->successful);
+  EXPECT_EQ(response->failure_reason, "this node has no description of type 'std_msgs/msg/String'");
+}
+
+TEST_F(RosTest, NodeHasNoParameterServicesWhenItIsToldSo) {
+  const rclcpp::Node with("with");
+  const rclcpp::Node without("without", rclcpp::NodeOptions()
+                                            .start_parameter_services(false)
+                                            .append_parameter_override("start_type_description_service", false));
+  for (const char* name : {"get_parameters", "get_parameter_types", "set_parameters", "set_parameters_atomically",
+                           "describe_parameters", "list_parameters", "get_type_description"}) {
+    EXPECT_EQ(with.count_services(std::string("with/") + name), 1u) << name;
+    EXPECT_EQ(with.count_services(std::string("without/") + name), 0u) << name;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,300 @@
+// Requests and responses between contexts, which are different participants.
+#include <algorithm>
+#include <future>
+#include <memory>
+
+#include "example_interfaces/srv/add_two_ints.hpp"
+#include "rmw_test.hpp"
+#include "rosidl_typesupport_cpp/service_type_support.hpp"
+#include "service_clients.hpp"
+#include "std_srvs/srv/trigger.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using example_interfaces::srv::AddTwoInts;
+using rmw_test::Context;
+using rmw_test::kPatience;
+using rmw_test::Node;
+using rmw_test::take_error;
+
+constexpr rmw_time_t kNoWait{0, 0};
+
+template <typename ServiceT>
+const rosidl_service_type_support_t* type_support() {
+  return rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>();
+}
+
+class Service {
+ public:
+  Service(Node& node, const char* name)
+      : node_(node),
+        handle(rmw_create_service(node.handle, type_support<AddTwoInts>(), name, &rmw_qos_profile_services_default)) {
+    EXPECT_NE(handle, nullptr) << take_error();
+    wait_set_ = rmw_create_wait_set(&node.context_.handle, 1);
+  }
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+  ~Service() {
+    EXPECT_EQ(rmw_destroy_wait_set(wait_set_), RMW_RET_OK);
+    EXPECT_EQ(rmw_destroy_service(node_.handle, handle), RMW_RET_OK) << take_error();
+  }
+
+  rmw_ret_t wait(const rmw_time_t& timeout) {
+    void* entity = handle->data;
+    rmw_services_t services{1, &entity};
+    return rmw_wait(nullptr, nullptr, &services, nullptr, wait_set_, &timeout);
+  }
+  bool take(rmw_service_info_t& info, AddTwoInts::Request& request) {
+    bool taken = false;
+    EXPECT_EQ(rmw_take_request(handle, &info, &request, &taken), RMW_RET_OK);
+    return taken;
+  }
+  rmw_ret_t respond(rmw_service_info_t& info, int64_t sum) {
+    AddTwoInts::Response response;
+    response.sum = sum;
+    return rmw_send_response(handle, &info.request_id, &response);
+  }
+  // Waits for a request and answers it.
+  void serve() {
+    rmw_service_info_t info{};
+    AddTwoInts::Request request;
+    ASSERT_EQ(wait(kPatience), RMW_RET_OK);
+    ASSERT_TRUE(take(info, request));
+    ASSERT_EQ(respond(info, request.a + request.b), RMW_RET_OK) << take_error();
+  }
+
+  Node& node_;
+  rmw_service_t* handle;
+
+ private:
+  rmw_wait_set_t* wait_set_ = nullptr;
+};
+
+class Client {
+ public:
+  Client(Node& node, const char* name)
+      : node_(node),
+        handle(rmw_create_client(node.handle, type_support<AddTwoInts>(), name, &rmw_qos_profile_services_default)) {
+    EXPECT_NE(handle, nullptr) << take_error();
+    wait_set_ = rmw_create_wait_set(&node.context_.handle, 1);
+  }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+  ~Client() {
+    EXPECT_EQ(rmw_destroy_wait_set(wait_set_), RMW_RET_OK);
+    EXPECT_EQ(rmw_destroy_client(node_.handle, handle), RMW_RET_OK) << take_error();
+  }
+
+  bool is_available() const {
+    bool available = false;
+    EXPECT_EQ(rmw_service_server_is_available(node_.handle, handle, &available), RMW_RET_OK);
+    return available;
+  }
+  void wait_for_service() {
+    node_.wait_for_graph([this] { return is_available(); });
+  }
+  int64_t send(int64_t a, int64_t b) {
+    AddTwoInts::Request request;
+    request.a = a;
+    request.b = b;
+    int64_t sequence = 0;
+    EXPECT_EQ(rmw_send_request(handle, &request, &sequence), RMW_RET_OK) << take_error();
+    return sequence;
+  }
+  rmw_ret_t wait(const rmw_time_t& timeout) {
+    void* entity = handle->data;
+    rmw_clients_t clients{1, &entity};
+    return rmw_wait(nullptr, nullptr, nullptr, &clients, wait_set_, &timeout);
+  }
+  bool take(rmw_service_info_t& info, AddTwoInts::Response& response) {
+    bool taken = false;
+    EXPECT_EQ(rmw_take_response(handle, &info, &response, &taken), RMW_RET_OK);
+    return taken;
+  }
+
+  Node& node_;
+  rmw_client_t* handle;
+
+ private:
+  rmw_wait_set_t* wait_set_ = nullptr;
+};
+
+class ServiceTest : public testing::Test {
+ protected:
+  test_support::Sandbox sandbox_;
+  Context serving_context_;
+  Context asking_context_;
+  Node server_{serving_context_, "server"};
+  Node asker_{asking_context_, "asker"};
+};
+
+TEST_F(ServiceTest, AnswersEachRequestWithItsSequenceNumber) {
+  Service service(server_, "/add");
+  Client client(asker_, "/add");
+  client.wait_for_service();
+  rmw_time_point_value_t before = 0;
+  ASSERT_EQ(rcutils_system_time_now(&before), RCUTILS_RET_OK);
+  for (int64_t i = 1; i <= 3; ++i) {
+    EXPECT_EQ(client.send(i, 10), i);
+    rmw_service_info_t request_info{};
+    AddTwoInts::Request request;
+    ASSERT_EQ(service.wait(kPatience), RMW_RET_OK);
+    ASSERT_TRUE(service.take(request_info, request));
+    EXPECT_EQ(request.a, i);
+    EXPECT_EQ(request.b, 10);
+    EXPECT_EQ(request_info.request_id.sequence_number, i);
+    EXPECT_GE(request_info.source_timestamp, before);
+    EXPECT_GE(request_info.received_timestamp, request_info.source_timestamp);
+    ASSERT_EQ(service.respond(request_info, request.a + request.b), RMW_RET_OK) << take_error();
+
+    rmw_service_info_t info{};
+    AddTwoInts::Response response;
+    ASSERT_EQ(client.wait(kPatience), RMW_RET_OK);
+    ASSERT_TRUE(client.take(info, response));
+    EXPECT_EQ(response.sum, i + 10);
+    EXPECT_EQ(info.request_id.sequence_number, i);
+    EXPECT_TRUE(std::equal(std::begin(info.request_id.writer_guid), std::end(info.request_id.writer_guid),
+                           std::begin(request_info.request_id.writer_guid)));
+    EXPECT_GE(info.source_timestamp, request_info.source_timestamp);
+  }
+}
+
+TEST_F(ServiceTest, ResponseForAnotherClientIsNotTaken) {
+  Service service(server_, "/add");
+  Client asking(asker_, "/add");
+  Client other(asker_, "/add");
+  asking.wait_for_service();
+  other.wait_for_service();
+  asking.send(1, 2);
+  service.serve();
+  rmw_service_info_t info{};
+  AddTwoInts::Response response;
+  ASSERT_EQ(other.wait(kPatience), RMW_RET_OK);
+  EXPECT_FALSE(other.take(info, response));
+  EXPECT_EQ(other.wait(kNoWait), RMW_RET_TIMEOUT);
+  ASSERT_EQ(asking.wait(kPatience), RMW_RET_OK);
+  EXPECT_TRUE(asking.take(info, response));
+  EXPECT_EQ(response.sum, 3);
+}
+
+TEST_F(ServiceTest, IsAvailableWhileItExists) {
+  Client client(asker_, "/add");
+  EXPECT_FALSE(client.is_available());
+  auto service = std::make_unique<Service>(server_, "/add");
+  client.wait_for_service();
+  EXPECT_TRUE(client.is_available());
+  service.reset();
+  asker_.wait_for_graph([&] { return !client.is_available(); });
+}
+
+TEST_F(ServiceTest, ResponseToAClientThatIsGoneIsDroppedSilently) {
+  Service service(server_, "/add");
+  auto client = std::make_unique<Client>(asker_, "/add");
+  client->wait_for_service();
+  client->send(1, 2);
+  rmw_service_info_t info{};
+  AddTwoInts::Request request;
+  ASSERT_EQ(service.wait(kPatience), RMW_RET_OK);
+  ASSERT_TRUE(service.take(info, request));
+  client.reset();
+  size_t clients = 1;
+  server_.wait_for_graph([&] {
+    EXPECT_EQ(rmw_count_clients(server_.handle, "/add", &clients), RMW_RET_OK);
+    return clients == 0;
+  });
+  EXPECT_EQ(service.respond(info, 3), RMW_RET_OK) << take_error();
+}
+
+TEST_F(ServiceTest, GraphKnowsServicesByNameAndType) {
+  Service service(server_, "/math/add");
+  Client client(server_, "/math/add");
+  asker_.wait_for_graph([&] {
+    size_t services = 0;
+    size_t clients = 0;
+    EXPECT_EQ(rmw_count_services(asker_.handle, "/math/add", &services), RMW_RET_OK);
+    EXPECT_EQ(rmw_count_clients(asker_.handle, "/math/add", &clients), RMW_RET_OK);
+    return services == 1 && clients == 1;
+  });
+  rmw_names_and_types_t found = rmw_get_zero_initialized_names_and_types();
+  rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  ASSERT_EQ(rmw_get_service_names_and_types(asker_.handle, &allocator, &found), RMW_RET_OK);
+  ASSERT_EQ(found.names.size, 1u);
+  EXPECT_STREQ(found.names.data[0], "/math/add");
+  ASSERT_EQ(found.types[0].size, 1u);
+  EXPECT_STREQ(found.types[0].data[0], "example_interfaces/srv/AddTwoInts");
+  EXPECT_EQ(rmw_names_and_types_fini(&found), RMW_RET_OK);
+}
+
+TEST_F(ServiceTest, HasTheQosThatItWasMadeWith) {
+  Service service(server_, "/add");
+  Client client(asker_, "/add");
+  rmw_qos_profile_t qos;
+  ASSERT_EQ(rmw_service_request_subscription_get_actual_qos(service.handle, &qos), RMW_RET_OK);
+  EXPECT_EQ(qos.reliability, RMW_QOS_POLICY_RELIABILITY_RELIABLE);
+  EXPECT_EQ(qos.depth, 10u);
+  ASSERT_EQ(rmw_client_request_publisher_get_actual_qos(client.handle, &qos), RMW_RET_OK);
+  EXPECT_EQ(qos.durability, RMW_QOS_POLICY_DURABILITY_VOLATILE);
+}
+
+TEST_F(ServiceTest, NameAndTypeMustFit) {
+  EXPECT_EQ(rmw_create_service(server_.handle, type_support<AddTwoInts>(), "add", &rmw_qos_profile_services_default),
+            nullptr);
+  EXPECT_EQ(take_error(), "invalid topic name 'add': topic name must begin with a '/'");
+  Service service(server_, "/add");
+  EXPECT_EQ(rmw_create_client(server_.handle, type_support<std_srvs::srv::Trigger>(), "/add",
+                              &rmw_qos_profile_services_default),
+            nullptr);
+  EXPECT_EQ(take_error(),
+            "topic 'rr/addReply' is in use with type 'example_interfaces::srv::dds_::AddTwoInts_Response_' and cannot "
+            "have type 'std_srvs::srv::dds_::Trigger_Response_' as well");
+}
+
+TEST_F(ServiceTest, WaitSetOutlivesAndIsOutlivedByWhatItWaitedFor) {
+  rmw_wait_set_t* wait_set = rmw_create_wait_set(&serving_context_.handle, 2);
+  for (int i = 0; i < 3; ++i) {
+    // A new service may be where the old one was: it must be waited for all the same.
+    Service service(server_, "/add");
+    Client client(asker_, "/add");
+    client.wait_for_service();
+    void* entity = service.handle->data;
+    rmw_services_t services{1, &entity};
+    constexpr rmw_time_t kAMillisecond{0, 1000000};
+    EXPECT_EQ(rmw_wait(nullptr, nullptr, &services, nullptr, wait_set, &kAMillisecond), RMW_RET_TIMEOUT);
+    client.send(1, i);
+    entity = service.handle->data;
+    EXPECT_EQ(rmw_wait(nullptr, nullptr, &services, nullptr, wait_set, &kPatience), RMW_RET_OK);
+  }
+  EXPECT_EQ(rmw_destroy_wait_set(wait_set), RMW_RET_OK);
+}
+
+using rmw_fastrtps::Gid;
+using rmw_fastrtps::ServiceClients;
+using std::chrono::milliseconds;
+
+TEST(ServiceClients, ResponseWaitsForTheReaderOfTheClient) {
+  ServiceClients clients;
+  const Gid reader{1};
+  clients.request_taken(reader, Gid{2});
+  EXPECT_EQ(clients.wait_for_reader(reader, milliseconds(1)), ServiceClients::Presence::kUnmatched);
+  auto presence = std::async(std::launch::async, [&] { return clients.wait_for_reader(reader, milliseconds(10000)); });
+  clients.reader_matched(reader);
+  EXPECT_EQ(presence.get(), ServiceClients::Presence::kMatched);
+}
+
+TEST(ServiceClients, ClientIsGoneWithEitherOfItsEndpoints) {
+  ServiceClients clients;
+  for (const bool writer_goes : {true, false}) {
+    const Gid reader{1};
+    clients.request_taken(reader, Gid{2});
+    clients.reader_matched(reader);
+    if (writer_goes) {
+      clients.writer_unmatched(Gid{2});
+    } else {
+      clients.reader_unmatched(reader);
+    }
+    EXPECT_EQ(clients.wait_for_reader(reader, milliseconds(0)), ServiceClients::Presence::kGone);
+  }
+}
+
+}  // namespace
