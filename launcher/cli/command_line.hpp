@@ -16,6 +16,7 @@ struct CommandLine {
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value, in order
   bool debug = false;
   bool timing = false;
+  bool strict_arguments = false;
   bool show_all_output = false;
   std::string launch_prefix;
   std::string launch_prefix_filter;

@@ -31,6 +31,7 @@ class Walk {
   }
 
   std::vector<std::shared_ptr<const LaunchDescription>> take_loaded() { return std::move(loaded_); }
+  bool complete() const { return complete_; }
 
  private:
   void actions(const std::vector<ActionPtr>& actions_to_walk, const std::set<std::string>& given, bool conditional, int depth) {
@@ -57,6 +58,7 @@ class Walk {
         given.insert(name.perform(scope_));
       }
     } catch (const LaunchError&) {
+      complete_ = false;
       return;  // not to be known before it is visited, where the error is reported
     }
     loaded_.push_back(included);
@@ -68,6 +70,7 @@ class Walk {
   bool follow_dirname_;
   Seen seen_;
   std::vector<std::shared_ptr<const LaunchDescription>> loaded_;
+  bool complete_ = true;
 };
 
 std::string quoted_list(const std::vector<std::string>& names) {
@@ -91,6 +94,7 @@ ArgumentList find_arguments(const LaunchDescription& description, const Registry
             });
   walk.description(description, {}, false, 0);
   list.loaded = walk.take_loaded();
+  list.complete = walk.complete();
   return list;
 }
 

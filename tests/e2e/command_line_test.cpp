@@ -79,6 +79,27 @@ TEST_F(CommandLine, ShowArgsIsEqualForBothFormats) {
   EXPECT_EQ(xml.out, yaml.out);
 }
 
+TEST_F(CommandLine, UnknownAndRepeatedArgumentsAreReported) {
+  const auto file = sandbox_.directory() / "args.launch.xml";
+  write_file(file, "<launch><arg name=\"rate\" default=\"1\"/><log message=\"$(var read '')\"/></launch>\n");
+  const std::string warning =
+      "warning: launch argument 'rat' is unknown to the launch file\n"
+      "      = help: did you mean 'rate'?\n"
+      "warning: launch argument 'rate' is given more than once\n"
+      "      = help: the last one counts\n"
+      "[launch.user]: \n";
+  const CommandResult tolerant = launch({"--dry-run", file.string(), "rat:=2", "rate:=3", "rate:=4"});
+  EXPECT_EQ(tolerant.exit_code, 0);
+  EXPECT_EQ(tolerant.err, warning);
+  const CommandResult strict = launch({"--dry-run", "--strict-args", file.string(), "rat:=2"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_EQ(strict.err,
+            "error: launch argument 'rat' is unknown to the launch file\n"
+            "      = help: did you mean 'rate'?\n");
+  EXPECT_EQ(launch({"--dry-run", "--strict-args", file.string(), "rate:=2", "emulate_tty:=true", "read:=x"}).err,
+            "[launch.user]: x\n");
+}
+
 TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
   const auto file = sandbox_.directory() / "system.launch.xml";
   write_file(file, R"xml(<launch>
