@@ -37,7 +37,8 @@ TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
 TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
   const CommandResult result = launch({"reference"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md")) << "./dev launch reference > docs/launch_reference.md";
+  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md"))
+      << "./dev launch reference > docs/launch_reference.md";
 }
 
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {

@@ -116,7 +116,7 @@ void Executor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
   const auto time_left = [&] {
     return max_duration == nanoseconds::zero() || steady_clock::now() - start < max_duration;
   };
-  ready_.clear();
+  forget_ready();
   wait_for_work(nanoseconds::zero());
   bool executed_since_wait = false;
   while (context_->is_valid() && spinning_ && time_left()) {
@@ -192,11 +192,10 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
   if (entities_->removals() != removals_before_wait_) {
     // Nothing is lost: messages and timer calls are taken only below, and the next wait finds them again.
-    ready_.clear();
+    forget_ready();
   }
-  while (!ready_.empty()) {
-    const auto entity = std::move(ready_.front());
-    ready_.pop_front();
+  while (next_ready_ < ready_.size()) {
+    const detail::ReadyEntity entity = std::move(ready_[next_ready_++]);
     if (const auto* weak_timer = std::get_if<TimerBase::WeakPtr>(&entity)) {
       TimerBase::SharedPtr timer = weak_timer->lock();
       if (timer && timer->call()) {
@@ -214,13 +213,15 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
 void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
   removals_before_wait_ = entities_->removals();
-  ExecutorEntities::Ready ready = entities_->wait(timeout);
-  for (TimerBase::WeakPtr& timer : ready.timers) {
-    ready_.emplace_back(std::move(timer));
+  if (next_ready_ == ready_.size()) {
+    forget_ready();
   }
-  for (SubscriptionBase::WeakPtr& subscription : ready.subscriptions) {
-    ready_.emplace_back(std::move(subscription));
-  }
+  entities_->wait(timeout, ready_);
+}
+
+void Executor::forget_ready() {
+  ready_.clear();
+  next_ready_ = 0;
 }
 
 void Executor::execute_any_executable(AnyExecutable& any_executable) {

@@ -141,7 +141,7 @@ std::vector<CallbackGroup::WeakPtr> ExecutorEntities::groups() {
   return groups;
 }
 
-ExecutorEntities::Ready ExecutorEntities::wait(std::chrono::nanoseconds timeout) {
+void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
   {
     Owners owners;
     const std::lock_guard lock(mutex_);
@@ -164,19 +164,18 @@ ExecutorEntities::Ready ExecutorEntities::wait(std::chrono::nanoseconds timeout)
     failure = std::current_exception();
   }
 
-  Ready ready;
   Owners owners;
   const std::lock_guard lock(mutex_);
   waiting_ = false;
   if (!failure) {
     for (size_t i = 0; i < waitables_.timers.size(); ++i) {
       if (wait_set_.timers[i]) {
-        ready.timers.push_back(waitables_.timers[i].entity);
+        ready.emplace_back(waitables_.timers[i].entity);
       }
     }
     for (size_t i = 0; i < waitables_.subscriptions.size(); ++i) {
       if (wait_set_.subscriptions[i]) {
-        ready.subscriptions.push_back(waitables_.subscriptions[i].entity);
+        ready.emplace_back(waitables_.subscriptions[i].entity);
       }
     }
   }
@@ -186,7 +185,6 @@ ExecutorEntities::Ready ExecutorEntities::wait(std::chrono::nanoseconds timeout)
   if (failure) {
     std::rethrow_exception(failure);
   }
-  return ready;
 }
 
 void ExecutorEntities::fill_wait_set() {

@@ -88,15 +88,16 @@ TEST_F(InitTest, ANodeNeedsInit) {
 }
 
 TEST_F(InitTest, ShutdownRunsCallbacksInOrder) {
-  std::vector<std::string> calls;
+  // The default context keeps its callbacks for later shutdowns, of later tests.
+  const auto calls = std::make_shared<std::vector<std::string>>();
   auto context = rclcpp::contexts::get_global_default_context();
-  const auto pre = context->add_pre_shutdown_callback([&] { calls.push_back(rclcpp::ok() ? "pre" : "pre, late"); });
-  rclcpp::on_shutdown([&] { calls.push_back(rclcpp::ok() ? "on, early" : "on"); });
-  const auto removed = context->add_on_shutdown_callback([&] { calls.push_back("removed"); });
+  const auto pre = context->add_pre_shutdown_callback([calls] { calls->push_back(rclcpp::ok() ? "pre" : "pre, late"); });
+  rclcpp::on_shutdown([calls] { calls->push_back(rclcpp::ok() ? "on, early" : "on"); });
+  const auto removed = context->add_on_shutdown_callback([calls] { calls->push_back("removed"); });
   EXPECT_TRUE(context->remove_on_shutdown_callback(removed));
   EXPECT_FALSE(context->remove_on_shutdown_callback(removed));
   rclcpp::shutdown();
-  EXPECT_THAT(calls, ElementsAre("pre", "on"));
+  EXPECT_THAT(*calls, ElementsAre("pre", "on"));
 }
 
 TEST_F(InitTest, SleepEndsWithTheContext) {

@@ -1,0 +1,13 @@
+// What an executor's wait can find ready. Weak, so that a user's reset() destroys it at once.
+#pragma once
+
+#include <variant>
+
+#include "rclcpp/subscription_base.hpp"
+#include "rclcpp/timer.hpp"
+
+namespace rclcpp::detail {
+
+using ReadyEntity = std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr>;
+
+}  // namespace rclcpp::detail
