@@ -17,6 +17,7 @@ struct CommandLine {
   bool debug = false;
   bool timing = false;
   bool trace = false;  // record the launch also when its file has no <trace>
+  bool strict_arguments = false;
   bool show_all_output = false;
   std::string launch_prefix;
   std::string launch_prefix_filter;
