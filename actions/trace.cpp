@@ -19,6 +19,7 @@ class Trace : public Action {
         append_timestamp_(fields.boolean("append-timestamp", false)),
         base_path_(fields.optional_text("base-path")),
         append_trace_(fields.boolean("append-trace", false)),
+        fail_on_loss_(fields.boolean("fail-on-loss", false)),
         events_ust_(fields.optional_words("events-ust")),
         events_kernel_(fields.optional_words("events-kernel")),
         syscalls_(fields.optional_words("syscalls")),
@@ -51,6 +52,7 @@ class Trace : public Action {
     }
     config.base_path = tracing::trace_base_path(base_path_ ? base_path_->perform(scope) : std::string(), scope.environment);
     config.append_trace = append_trace_.perform(scope);
+    config.fail_on_loss = fail_on_loss_.perform(scope);
     config.snapshot_mode = snapshot_mode_.perform(scope);
     config.dual_session = dual_session_.perform(scope);
     if (config.dual_session) {
@@ -78,7 +80,7 @@ class Trace : public Action {
       config.subbuffer_size_kernel = static_cast<std::uint64_t>(subbuffer_size_kernel_->perform(scope));
     }
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
-        std::move(config), tracing::make_lttng_tracer(), context.own_prefix() + "/lib/launch/launch-report", where()));
+        std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));
   }
 
  private:
@@ -86,6 +88,7 @@ class Trace : public Action {
   BooleanField append_timestamp_;
   std::optional<Template> base_path_;
   BooleanField append_trace_;
+  BooleanField fail_on_loss_;
   Words events_ust_;
   Words events_kernel_;
   Words syscalls_;
@@ -108,6 +111,7 @@ ActionType trace_action() {
            {"base-path", AttributeType::kText, false, "$ROS_TRACE_DIR, $ROS_HOME/tracing or ~/.ros/tracing",
             "directory that will hold the trace's directory"},
            {"append-trace", AttributeType::kBoolean, false, "false", "allow a trace directory that exists"},
+           {"fail-on-loss", AttributeType::kBoolean, false, "false", "exit with 1 when events were lost"},
            {"events-ust", AttributeType::kCommandLine, false, "all events of provider ros2", "userspace events; * matches any text"},
            {"events-kernel", AttributeType::kCommandLine, false, "none", "kernel tracepoints"},
            {"syscalls", AttributeType::kCommandLine, false, "none", "system calls"},

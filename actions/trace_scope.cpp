@@ -7,6 +7,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/unique_fd.hpp"
+#include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
@@ -59,11 +60,11 @@ std::string output_of(const std::string& program, const std::vector<std::string>
 
 }  // namespace
 
-TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string report_command,
+TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
                        SourceRange origin)
     : config_(std::move(config)),
       tracer_(std::move(tracer)),
-      report_command_(std::move(report_command)),
+      prefix_(std::move(prefix)),
       origin_(std::move(origin)) {
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
@@ -126,13 +127,18 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
                                         error.what()),
                             origin_, error.remedy());
         }
-        if (!report_command_.empty() && !config_.snapshot_mode && !config_.dual_session && !hurry_) {
-          summary_ = output_of(report_command_, {"--summary", config_.trace_directory()});
+        if (!config_.snapshot_mode && !config_.dual_session && !hurry_) {
+          summary_ = output_of(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
         }
       },
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
         if (!error) {
           tell_result(tell);
+          if (config_.fail_on_loss && !losses_.complete()) {
+            error = std::make_exception_ptr(LaunchError(
+                fmt::format("the trace of session '{}' is incomplete", config_.lttng_session_name()), origin_,
+                "use larger sub-buffers, record fewer events, or leave out fail-on-loss"));
+          }
         }
         done(error);
       });
@@ -140,16 +146,17 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
 
 void TraceScope::tell_result(const Tell& tell) const {
   tell(false, fmt::format("trace written to: {}{}", config_.trace_directory(), summary_.empty() ? "" : " (" + summary_ + ")"));
-  for (const tracing::ChannelLoss& loss : losses_.channels) {
-    if (loss.discarded_events != 0) {
-      tell(true, fmt::format("{} events were lost in channel {} ({}): its buffers were full; use larger ones "
-                             "(subbuffer-size-ust, subbuffer-size-kernel)",
-                             loss.discarded_events, loss.channel, loss.domain));
-    }
-    if (loss.lost_packets != 0) {
-      tell(true, fmt::format("{} packets were overwritten in channel {} ({})", loss.lost_packets, loss.channel, loss.domain));
-    }
+  if (!config_.records_snapshots()) {
+    tell(!losses_.complete(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
+                                          tracing::describe_losses(losses_)));
   }
+  if (!losses_.unwritten_verdict.empty()) {
+    tell(true, losses_.unwritten_verdict);
+  }
+}
+
+std::vector<std::string> TraceScope::clean_up_command() const {
+  return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
 }
 
 void TraceScope::prepare(ProcessSpec& spec) const {
@@ -164,6 +171,7 @@ std::vector<ScopeSetting> TraceScope::describe() const {
   return {{"session-name", config_.session_name},
           {"trace-directory", config_.trace_directory()},
           {"append-trace", config_.append_trace},
+          {"fail-on-loss", config_.fail_on_loss},
           {"events-ust", config_.events_ust},
           {"events-kernel", config_.events_kernel},
           {"syscalls", config_.syscalls},

@@ -14,14 +14,16 @@ namespace launch {
 
 class TraceScope : public RunScope {
  public:
-  // `report_command` is the program that describes a finished trace in one line; empty: the trace is not described.
-  TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string report_command,
+  // Below `prefix` stand bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report, which
+  // describes a finished trace in one line.
+  TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
              SourceRange origin);
   ~TraceScope() override;
 
   void begin(EventLoop& loop, Tell tell, Completion done) override;
   void end(EventLoop& loop, Tell tell, Completion done) override;
   void hurry() override { hurry_ = true; }
+  std::vector<std::string> clean_up_command() const override;
   void prepare(ProcessSpec& spec) const override;
   std::string kind() const override { return "trace"; }
   std::vector<ScopeSetting> describe() const override;
@@ -35,7 +37,7 @@ class TraceScope : public RunScope {
 
   tracing::TraceConfig config_;
   std::unique_ptr<tracing::Tracer> tracer_;
-  std::string report_command_;
+  std::string prefix_;
   SourceRange origin_;
   std::vector<std::string> preload_;
   tracing::SetupReport setup_;

@@ -81,6 +81,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   set_arguments(command, context.scope());
 
   LaunchService service(context, *loop, supervisor, print_error);
+  service.guard_scopes(guardian);
   const int exit_code = service.run(*description);
   if (command.timing) {
     std::vector<TimedStep> steps = {std::move(load)};

@@ -94,6 +94,7 @@ void LaunchService::begin_next() {
   while (!waiting_.empty()) {
     if (next_scope_ < waiting_.front().scopes.size()) {
       scope_is_beginning_ = true;
+      guard(*waiting_.front().scopes[next_scope_]);
       waiting_.front().scopes[next_scope_]->begin(loop_, teller(),
                                                   [this](std::exception_ptr error) { on_begun(std::move(error)); });
       return;
@@ -110,6 +111,7 @@ void LaunchService::on_begun(std::exception_ptr error) {
   scope_is_beginning_ = false;
   std::unique_ptr<RunScope> scope = std::move(waiting_.front().scopes[next_scope_++]);
   if (error) {
+    unguard(*scope);
     try {
       std::rethrow_exception(error);
     } catch (const LaunchError& failure) {
@@ -196,9 +198,25 @@ void LaunchService::end_next_scope() {
         errors_(LaunchError(failure.what(), active_scopes_.back()->origin()));
       }
     }
+    unguard(*active_scopes_.back());
     active_scopes_.pop_back();
     end_next_scope();
   });
+}
+
+// From before begin(), so that there is no moment at which a killed launcher leaves the scope's work behind.
+void LaunchService::guard(const RunScope& scope) {
+  const std::vector<std::string> command = scope.clean_up_command();
+  if (guardian_ != nullptr && !command.empty()) {
+    clean_ups_.emplace(&scope, guardian_->add_clean_up(command));
+  }
+}
+
+void LaunchService::unguard(const RunScope& scope) {
+  if (const auto found = clean_ups_.find(&scope); found != clean_ups_.end()) {
+    guardian_->remove_clean_up(found->second);
+    clean_ups_.erase(found);
+  }
 }
 
 RunScope::Tell LaunchService::teller() {

@@ -9,12 +9,14 @@
 #include <deque>
 #include <functional>
 #include <list>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/core/launch_context.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
 
 namespace launch {
@@ -25,6 +27,9 @@ class LaunchService {
 
   // All references must outlive the service. `errors` receives what goes wrong while the launch runs.
   LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors);
+
+  // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
+  void guard_scopes(Guardian& guardian) { guardian_ = &guardian; }
 
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
   // the launch itself, a process that could not be started included. How processes ended doesn't count.
@@ -52,12 +57,16 @@ class LaunchService {
   void shutdown();
   void check_finished();
   void end_next_scope();
+  void guard(const RunScope& scope);
+  void unguard(const RunScope& scope);
   RunScope::Tell teller();
 
   LaunchContext& context_;
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
+  Guardian* guardian_ = nullptr;
+  std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
   std::deque<Requests> waiting_;                   // the first one may be beginning its scopes
   std::size_t next_scope_ = 0;                     // of waiting_.front()

@@ -1,8 +1,12 @@
 // The whole line of the product: launch file, session, two nodes over DDS, and a trace that reads as ROS 2's does.
 #include <gmock/gmock.h>
 
+#include <signal.h>
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "tests/e2e/recorded_trace.hpp"
@@ -302,6 +306,42 @@ TEST_P(PingPong, CtrlCEndsTheNodesAndLeavesAWholeTraceAndNoSession) {
   EXPECT_FALSE(published(Process(trace, "pong"), "/pong").empty());
   const CommandResult sessions = run_command({"lttng", "list"});
   EXPECT_THAT(sessions.out + sessions.err, HasSubstr("Currently no available recording session"));
+}
+
+// The pid of a child with this name, or -1.
+pid_t child_named(pid_t parent, const std::string& name) {
+  const std::string folder = "/proc/" + std::to_string(parent);
+  std::istringstream children(read_file(folder + "/task/" + std::to_string(parent) + "/children"));
+  for (pid_t child; children >> child;) {
+    if (read_file("/proc/" + std::to_string(child) + "/comm") == name + "\n") {
+      return child;
+    }
+  }
+  ADD_FAILURE() << "process " << parent << " has no child " << name;
+  return -1;
+}
+
+TEST_P(PingPong, KillOfTheLauncherLeavesNoProcessNoSessionAndAWholeTrace) {
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file(), "count:=0", "period_ms:=20"}});
+  ASSERT_TRUE(run.wait_for_output("[pong-1] ")) << run.out() << run.err();
+  std::vector<pid_t> left;
+  for (const char* const name : {"ping", "pong", "launch-guardian"}) {
+    left.push_back(child_named(run.pid(), name));
+  }
+  run.send_signal(SIGKILL);
+  EXPECT_EQ(run.wait().signal, SIGKILL);
+  for (const pid_t pid : left) {  // they have become ours, and all go by themselves
+    EXPECT_EQ(::waitpid(pid, nullptr, 0), pid);
+  }
+  const CommandResult sessions = run_command({"lttng", "list"});
+  EXPECT_THAT(sessions.out + sessions.err, HasSubstr("Currently no available recording session"));
+  EXPECT_THAT(sandbox_.end_processes(), IsEmpty());
+
+  const CommandResult read = run_command({"babeltrace2", only_trace(sandbox_).string()});
+  EXPECT_EQ(read.exit_code, 0);
+  EXPECT_EQ(read.err, "");
+  EXPECT_THAT(read.out, HasSubstr("ros2:callback_end"));
+  EXPECT_THAT(read_file(only_trace(sandbox_) / "verdict.json"), HasSubstr("\"complete\": true"));
 }
 
 TEST(PingPongPlan, DryRunStartsNothingAndShowsBothNodes) {

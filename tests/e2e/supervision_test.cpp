@@ -22,6 +22,14 @@ class Supervision : public testing::Test {
     return path.string();
   }
 
+  // What the launcher leaves becomes ours: its processes and the guardian that ends them. All of it goes by itself; what
+  // doesn't is waited for until the test's time is over.
+  static void wait_until_all_have_gone() {
+    while (::waitpid(-1, nullptr, 0) > 0) {
+    }
+    EXPECT_EQ(errno, ECHILD);
+  }
+
   Sandbox sandbox_;
 };
 
@@ -105,7 +113,7 @@ TEST_F(Supervision, DescendantsDontSurvive) {
   ASSERT_TRUE(run.wait_for_output("[parent-1] ready"));
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait().exit_code, 0);
-  EXPECT_THAT(sandbox_.end_processes(), testing::IsEmpty());
+  wait_until_all_have_gone();
 }
 
 TEST_F(Supervision, NothingSurvivesWhenTheLauncherIsKilled) {
@@ -115,10 +123,23 @@ TEST_F(Supervision, NothingSurvivesWhenTheLauncherIsKilled) {
   ASSERT_TRUE(run.wait_for_output("[parent-1] ready")) << run.out();
   run.send_signal(SIGKILL);
   EXPECT_EQ(run.wait().signal, SIGKILL);
-  // What the launcher leaves becomes ours: its processes and the guardian that ends them. All of it goes by itself.
-  while (::waitpid(-1, nullptr, 0) > 0) {
-  }
-  EXPECT_EQ(errno, ECHILD);
+  wait_until_all_have_gone();
+}
+
+TEST_F(Supervision, LostEventsFailTheRunWhereTheFileSaysSo) {
+  // The smallest buffers, and more events at once than they hold: every malloc of a shell script that copies text.
+  const std::string traced = R"xml(<trace session-name="$(var name)" events-ust="lttng_ust_libc:*" subbuffer-size-ust="4096"
+ fail-on-loss="$(var fail)"/>
+<executable cmd="python3 -c 'for i in range(300000): str(i).encode()*600'"/>)xml";
+  const std::string file = write(R"xml(<arg name="name"/><arg name="fail"/>)xml" + traced);
+  const CommandResult tolerant = run_command({LAUNCH_PROGRAM, file, "name:=a", "fail:=false"});
+  EXPECT_EQ(tolerant.exit_code, 0) << tolerant.err;
+  EXPECT_THAT(tolerant.out, HasSubstr("[WARNING] [launch.trace]: trace is incomplete: "));
+  EXPECT_THAT(tolerant.out, HasSubstr(" events lost in ust channel ros2 with 2 sub-buffers of 4096 bytes"));
+  const CommandResult strict = run_command({LAUNCH_PROGRAM, file, "name:=b", "fail:=true"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_THAT(strict.err, HasSubstr("error: the trace of session 'b' is incomplete"));
+  EXPECT_THAT(read_file(sandbox_.trace_directory() / "b" / "verdict.json"), HasSubstr("\"complete\": false"));
 }
 
 TEST_F(Supervision, AnErrorOfTracingStartsNothing) {

@@ -74,7 +74,10 @@ void HandleDeleter::operator()(lttng_handle* handle) const {
 }
 
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_type type) {
-  lttng_domain domain = make_domain(type);
+  return domain_handle(lttng_session_name, make_domain(type));
+}
+
+DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain domain) {
   DomainHandle handle(lttng_create_handle(lttng_session_name.c_str(), &domain));
   if (!handle) throw lttng_error(LTTNG_ERR_NOMEM, "reach a tracing domain");
   return handle;

@@ -21,6 +21,8 @@ using DomainHandle = std::unique_ptr<lttng_handle, HandleDeleter>;
 
 // Names a session and one of its domains to liblttng-ctl. Userspace buffers are shared per user id.
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_type domain);
+// The same for a domain as the daemon lists it, whose buffers may be of another kind.
+DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain domain);
 
 // "ust" or "kernel".
 std::string domain_name(lttng_domain_type domain);

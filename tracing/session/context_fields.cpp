@@ -104,6 +104,14 @@ std::string suggestion(std::string_view name, lttng_domain_type domain) {
 
 }  // namespace
 
+std::vector<std::string> context_field_names(lttng_domain_type domain) {
+  std::vector<std::string> names;
+  for (const KnownField& field : kKnownFields) {
+    if (exists_in(field.available, domain)) names.emplace_back(field.name);
+  }
+  return names;
+}
+
 ContextField::ContextField(const std::string& name, lttng_domain_type domain) {
   if (name.starts_with("perf:")) {
     set_perf_counter(name, domain);

@@ -5,8 +5,12 @@
 #include <lttng/event.h>
 
 #include <string>
+#include <vector>
 
 namespace tracing {
+
+// The names that exist in a domain, without perf counters and application contexts.
+std::vector<std::string> context_field_names(lttng_domain_type domain);
 
 // One context field, ready for lttng_add_context(). Owns the strings that the C structure points to.
 class ContextField {

@@ -9,6 +9,7 @@
 
 #include "tracing/session/channels.hpp"
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/verdict.hpp"
 
 namespace tracing {
 namespace {
@@ -21,13 +22,15 @@ struct Free {
 constexpr std::uint64_t kCountBits = ~(std::uint64_t{1} << 63);
 
 void read_domain(const std::string& session, const lttng_domain& domain, LossAccount& account) {
-  const DomainHandle handle = domain_handle(session, domain.type);
+  const DomainHandle handle = domain_handle(session, domain);
   const std::string doing = fmt::format("read the lost events of session '{}'", session);
   lttng_channel* listed = nullptr;
   const int count = check_lttng(lttng_list_channels(handle.get(), &listed), doing);
   const std::unique_ptr<lttng_channel, Free> channels(listed);
   for (int i = 0; i < count; ++i) {
     ChannelLoss loss{.domain = domain_name(domain.type), .channel = listed[i].name};
+    loss.subbuffer_size = listed[i].attr.subbuf_size;
+    loss.subbuffer_count = listed[i].attr.num_subbuf;
     check_lttng(lttng_channel_get_discarded_event_count(&listed[i], &loss.discarded_events), doing);
     check_lttng(lttng_channel_get_lost_packet_count(&listed[i], &loss.lost_packets), doing);
     loss.discarded_events &= kCountBits;
@@ -64,11 +67,18 @@ std::string describe_losses(const LossAccount& losses) {
     if (count == 0) return;
     text += fmt::format("{}{} {}{} lost in {} channel {}", text.empty() ? "" : "\n", count, what, count == 1 ? "" : "s",
                         loss.domain, loss.channel);
+    if (loss.subbuffer_count != 0) {
+      text += fmt::format(" with {} sub-buffers of {} bytes", loss.subbuffer_count, loss.subbuffer_size);
+    }
+    if (loss.advised_subbuffer_size != 0) {
+      text += fmt::format("; {} of {} would have held them", kAdvisedSubbuffers, loss.advised_subbuffer_size);
+    }
   };
   for (const ChannelLoss& loss : losses.channels) {
     add(loss.discarded_events, "event", loss);
     add(loss.lost_packets, "packet", loss);
   }
+  if (losses.cut_short) text += fmt::format("{}the last events were not waited for", text.empty() ? "" : "\n");
   return text.empty() ? "no events lost" : text;
 }
 

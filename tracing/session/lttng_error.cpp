@@ -18,7 +18,7 @@ std::string remedy_for(int code) {
     case LTTNG_ERR_SESS_NOT_FOUND:
     case LTTNG_ERR_SESSION_NOT_EXIST:
     case LTTNG_ERR_NO_SESSION:
-      return "`lttng list` shows the sessions that exist";
+      return "`launch trace list` shows the sessions that exist";
     case LTTNG_ERR_EPERM:
       return "run as the user who owns the session, or as a member of the group `tracing` to use root's session daemon";
     case LTTNG_ERR_NOT_SNAPSHOT_SESSION:

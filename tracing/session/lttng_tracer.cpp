@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -11,8 +12,10 @@
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/session_listing.hpp"
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
+#include "tracing/session/verdict.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
@@ -49,13 +52,11 @@ class StepTimer {
   steady_clock::time_point begin_ = steady_clock::now();
 };
 
-bool session_exists(const std::string& name) {
-  lttng_session* sessions = nullptr;
-  const int count = check_lttng(lttng_list_sessions(&sessions), "list the trace sessions");
-  const bool found =
-      std::any_of(sessions, sessions + count, [&](const lttng_session& session) { return session.name == name; });
-  std::free(sessions);
-  return found;
+std::optional<SessionSummary> find_session(const std::string& name) {
+  for (SessionSummary& session : list_sessions()) {
+    if (session.name == name) return std::move(session);
+  }
+  return std::nullopt;
 }
 
 // Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the
@@ -111,13 +112,26 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
   try {
     stop(name);
     const std::string doing = fmt::format("write the data of trace session '{}'", name);
-    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0; data.pause()) {
-      if (give_up && give_up()) break;
+    bool cut_short = false;
+    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0 && !cut_short; data.pause()) {
+      cut_short = give_up && give_up();
     }
-    return read_losses(name);
+    LossAccount losses = read_losses(name);
+    losses.cut_short = cut_short;
+    return losses;
   } catch (const TraceError&) {
     lttng_destroy_session_no_wait(name.c_str());
     throw;
+  }
+}
+
+// A verdict that can't be written, as on a full disk, is no reason to lose the account.
+void judge(LossAccount& losses, const std::string& name, const std::string& directory) {
+  explain_losses(losses, directory);
+  try {
+    write_verdict(losses, name, directory);
+  } catch (const TraceError& error) {
+    losses.unwritten_verdict = error.what();
   }
 }
 
@@ -128,6 +142,9 @@ class LttngTracer : public Tracer {
   void pause(const std::string& lttng_session_name) override;
   void resume(const std::string& lttng_session_name) override;
   void record_snapshot(const std::string& lttng_session_name) override;
+  std::vector<SessionSummary> sessions() override { return list_sessions(); }
+  SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
+  TraceableEvents traceable_events() override { return list_traceable_events(); }
 };
 
 SetupReport LttngTracer::start(const TraceConfig& config) {
@@ -168,11 +185,13 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
-  const LossAccount losses = stop_and_account(name, give_up);
+  const std::optional<SessionSummary> session = find_session(name);
+  LossAccount losses = stop_and_account(name, give_up);
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
-  for (Polling gone; session_exists(name); gone.pause()) {
+  for (Polling gone; find_session(name).has_value(); gone.pause()) {
     if (give_up && give_up()) break;
   }
+  if (session && !session->snapshot && !session->path.empty()) judge(losses, name, session->path);
   return losses;
 }
 

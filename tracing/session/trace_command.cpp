@@ -8,6 +8,7 @@
 #include "tracing/session/enter_or_signal.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/session_listing.hpp"
 #include "tracing/session/trace_options.hpp"
 
 namespace tracing {
@@ -70,7 +71,13 @@ void start(const TraceOptions& options, Tracer& tracer) {
 
 void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {
   print_line("stopping & destroying tracing session");
-  print_line(describe_losses(tracer.finish(config, give_up)));
+  const LossAccount losses = tracer.finish(config, give_up);
+  print_line(describe_losses(losses));
+  if (!losses.unwritten_verdict.empty()) fmt::print(stderr, "warning: {}\n", losses.unwritten_verdict);
+  if (config.fail_on_loss && !losses.complete()) {
+    throw TraceError(fmt::format("the trace of session '{}' is incomplete", config.lttng_session_name()),
+                     "use larger buffers, record fewer events, or leave out --fail-on-loss");
+  }
 }
 
 EnterOrSignal::Answer ask(const std::string& prompt, EnterOrSignal& input) {
@@ -99,6 +106,16 @@ void run_interactively(const TraceOptions& options, Tracer& tracer) {
   finish(options.config, tracer, [&input] { return input.take_signal(); });
 }
 
+void print_status(const std::string& session_name, Tracer& tracer) {
+  if (!session_name.empty()) {
+    fmt::print("{}", session_as_text(tracer.status(session_name)));
+    return;
+  }
+  const std::vector<SessionSummary> sessions = tracer.sessions();
+  if (sessions.empty()) fmt::print("{}", sessions_as_text(sessions));
+  for (const SessionSummary& session : sessions) fmt::print("{}", session_as_text(tracer.status(session.name)));
+}
+
 void run_verb(const TraceOptions& options, Tracer& tracer) {
   const std::string session_name = options.config.lttng_session_name();
   switch (options.verb) {
@@ -118,6 +135,14 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       EnterOrSignal signals;
       return finish(options.config, tracer, [&signals] { return signals.take_signal(); });
     }
+    case TraceVerb::kList:
+      fmt::print("{}", sessions_as_text(tracer.sessions()));
+      return;
+    case TraceVerb::kStatus:
+      return print_status(options.config.session_name, tracer);
+    case TraceVerb::kEvents:
+      fmt::print("{}", events_as_text(tracer.traceable_events()));
+      return;
     case TraceVerb::kRecordSnapshot:
       print_line("recording snapshot of tracing session");
       return tracer.record_snapshot(session_name);

@@ -18,6 +18,7 @@ struct TraceConfig {
   std::string session_name;  // final: any time stamp already appended
   std::string base_path;     // absolute directory that will hold the trace directory
   bool append_trace = false;
+  bool fail_on_loss = false;  // lost events are a failure of the run
   std::vector<std::string> events_ust = default_ros_events();
   std::vector<std::string> events_kernel;
   std::vector<std::string> syscalls;

@@ -66,6 +66,10 @@ void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOp
       ->option_text("BYTES");
 }
 
+void add_fail_on_loss(CLI::App& command, TraceOptions& options) {
+  command.add_flag("--fail-on-loss", options.config.fail_on_loss, "exit with 1 when events were lost");
+}
+
 void add_dual_session(CLI::App& command, SessionArguments& arguments) {
   command.add_flag("-d,--dual-session", arguments.dual_session, "act on a dual session, whose snapshot half exists");
 }
@@ -77,9 +81,16 @@ CLI::App* add_verb(CLI::App& command, const std::string& name, const std::string
   return verb;
 }
 
+CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
+  CLI::App* verb = command.add_subcommand("status", "print channels, event rules and losses of sessions");
+  verb->add_option("session_name", arguments.session_name, "name of the session (default: all)")->option_text("NAME");
+  return verb;
+}
+
 void complete(TraceOptions& options, const SessionArguments& arguments) {
   TraceConfig& config = options.config;
-  config.session_name = arguments.session_name.empty() ? "session" + session_timestamp() : arguments.session_name;
+  const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
+  config.session_name = arguments.session_name.empty() && !all_sessions ? "session" + session_timestamp() : arguments.session_name;
   config.base_path = trace_base_path(arguments.path, environment());
   config.context_fields_ust = arguments.context_fields;
   config.context_fields_kernel = arguments.context_fields;
@@ -101,16 +112,24 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       ->option_text("NAME");
   add_session_options(command, session, options);
   add_dual_session(command, session);
+  add_fail_on_loss(command, options);
 
   CLI::App* start = add_verb(command, "start", "configure and start a session, return at once", session);
   add_session_options(*start, session, options);
+  CLI::App* stop = add_verb(command, "stop", "stop recording and end the session", session);
+  add_fail_on_loss(*stop, options);
   const std::map<CLI::App*, TraceVerb> verbs = {
       {start, TraceVerb::kStart},
       {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},
       {add_verb(command, "resume", "record again after a pause", session), TraceVerb::kResume},
-      {add_verb(command, "stop", "stop recording and end the session", session), TraceVerb::kStop},
+      {stop, TraceVerb::kStop},
       {add_verb(command, "record_snapshot", "write what a snapshot session holds", session),
        TraceVerb::kRecordSnapshot},
+      {command.add_subcommand("list", "print the sessions that exist"), TraceVerb::kList},
+      {add_status(command, session), TraceVerb::kStatus},
+      {command.add_subcommand("events", "print what can be recorded now: events of running programs and of the kernel, "
+                                        "context fields"),
+       TraceVerb::kEvents},
   };
 
   try {

@@ -9,11 +9,11 @@
 
 namespace tracing {
 
-enum class TraceVerb { kInteractive, kStart, kPause, kResume, kStop, kRecordSnapshot };
+enum class TraceVerb { kInteractive, kStart, kPause, kResume, kStop, kRecordSnapshot, kList, kStatus, kEvents };
 
 struct TraceOptions {
   TraceVerb verb = TraceVerb::kInteractive;
-  TraceConfig config;         // of the verbs without session options only the name is filled in
+  TraceConfig config;         // of the verbs without session options only the name is filled in; status: empty for all
   bool list_names = false;    // -l
   bool dual_session = false;  // -d
 };

@@ -25,17 +25,35 @@ class TraceError : public std::runtime_error {
 };
 
 // Events that the tracer could not keep, as its counters say just before the session is destroyed.
+// An unbroken run of losses of one processor. Times are nanoseconds after the trace's first packet began.
+struct LossRange {
+  std::string cpu;
+  std::uint64_t begin_ns = 0;
+  std::uint64_t end_ns = 0;
+  std::uint64_t events = 0;
+};
+
 struct ChannelLoss {
   std::string domain;  // "ust" or "kernel"
   std::string channel;
   std::uint64_t discarded_events = 0;  // event-loss mode: newest events dropped while buffers were full
   std::uint64_t lost_packets = 0;      // overwrite mode: oldest packets overwritten
+
+  std::uint64_t subbuffer_size = 0;  // bytes
+  std::uint64_t subbuffer_count = 0;
+  std::uint64_t bytes = 0;                   // recorded
+  std::vector<LossRange> ranges = {};        // where the discarded events are missing
+  std::uint64_t advised_subbuffer_size = 0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
 };
 
 struct LossAccount {
-  std::vector<ChannelLoss> channels;
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
+  bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short; }
+
+  std::vector<ChannelLoss> channels;
+  bool cut_short = false;              // the wait for the last data was given up
+  std::string unwritten_verdict = {};  // why verdict.json could not be written
 };
 
 // How long each step of the set-up took, for --timing.
@@ -51,6 +69,46 @@ struct SetupReport {
   std::vector<std::string> warnings;
 };
 
+// One of the sessions that exist.
+struct SessionSummary {
+  std::string name;
+  std::string path;  // of the trace; empty for a snapshot session
+  bool active = false;
+  bool snapshot = false;
+};
+
+struct ChannelDetails {
+  std::string domain;  // "ust" or "kernel"
+  std::string name;
+  std::uint64_t subbuffer_size = 0;   // bytes
+  std::uint64_t subbuffer_count = 0;  // for each processor
+  bool overwrite = false;
+  std::vector<std::string> events;  // rules, sorted
+};
+
+struct SessionDetails {
+  SessionSummary summary;
+  std::vector<ChannelDetails> channels;
+  LossAccount losses;
+};
+
+struct TraceableEvent {
+  std::string name;
+  std::vector<std::string> processes;  // "NAME PID" of those that can fire it
+};
+
+// What can be recorded now. Userspace events are known of running programs only.
+struct TraceableEvents {
+  bool started_daemon = false;
+  std::vector<TraceableEvent> userspace;
+  std::vector<std::string> kernel;
+  std::size_t syscalls = 0;
+  std::string why_no_kernel;  // empty when kernel events can be recorded
+  std::string kernel_remedy;
+  std::vector<std::string> context_fields_ust;
+  std::vector<std::string> context_fields_kernel;
+};
+
 // All calls block, some for hundreds of milliseconds: call them from a thread of your own, one at a time.
 class Tracer {
  public:
@@ -61,13 +119,17 @@ class Tracer {
 
   // Stops recording, waits until the consumer has written everything, reads the losses, destroys the session.
   // `give_up` is asked from time to time while waiting; when it says true, the session is destroyed at once, with what
-  // is written by then. Throws TraceError when the session can't be reached any more.
+  // is written by then. Leaves the verdict in the recording's directory (verdict.hpp), but for snapshot sessions, which
+  // lose all but the newest events by design. Throws TraceError when the session can't be reached any more.
   virtual LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) = 0;
 
   // The verbs of `launch trace`. Each throws TraceError and leaves the session as it is on error.
   virtual void pause(const std::string& lttng_session_name) = 0;
   virtual void resume(const std::string& lttng_session_name) = 0;
   virtual void record_snapshot(const std::string& lttng_session_name) = 0;
+  virtual std::vector<SessionSummary> sessions() = 0;
+  virtual SessionDetails status(const std::string& lttng_session_name) = 0;
+  virtual TraceableEvents traceable_events() = 0;
 };
 
 // The real one, on liblttng-ctl.

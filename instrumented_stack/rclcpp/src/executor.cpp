@@ -137,7 +137,7 @@ void Executor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
   const auto time_left = [&] {
     return max_duration == nanoseconds::zero() || steady_clock::now() - start < max_duration;
   };
-  ready_.clear();
+  forget_ready();
   wait_for_work(nanoseconds::zero());
   bool executed_since_wait = false;
   while (context_->is_valid() && spinning_ && time_left()) {
@@ -213,11 +213,10 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
   if (entities_->removals() != removals_before_wait_) {
     // Nothing is lost: messages and timer calls are taken only below, and the next wait finds them again.
-    ready_.clear();
+    forget_ready();
   }
-  while (!ready_.empty()) {
-    const auto entity = std::move(ready_.front());
-    ready_.pop_front();
+  while (next_ready_ < ready_.size()) {
+    const detail::ReadyEntity entity = std::move(ready_[next_ready_++]);
     if (std::visit([&](const auto& weak) { return choose(weak.lock(), any_executable); }, entity)) {
       return true;
     }
@@ -228,16 +227,15 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
 void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
   removals_before_wait_ = entities_->removals();
-  ExecutorEntities::Ready ready = entities_->wait(timeout);
-  const auto append = [this](auto& entities) {
-    for (auto& entity : entities) {
-      ready_.emplace_back(std::move(entity));
-    }
-  };
-  append(ready.timers);
-  append(ready.subscriptions);
-  append(ready.services);
-  append(ready.clients);
+  if (next_ready_ == ready_.size()) {
+    forget_ready();
+  }
+  entities_->wait(timeout, ready_);
+}
+
+void Executor::forget_ready() {
+  ready_.clear();
+  next_ready_ = 0;
 }
 
 void Executor::execute_any_executable(AnyExecutable& any_executable) {

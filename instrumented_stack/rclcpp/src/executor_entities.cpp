@@ -20,12 +20,12 @@ void require_ok(rcl_ret_t ret, const char* what) {
 }
 
 // The entities of which the wait has left the handle.
-template <typename WaitableT, typename HandleT, typename EntityT>
+template <typename WaitableT, typename HandleT>
 void append_ready(const std::vector<WaitableT>& waitables, const HandleT* const* handles,
-                  std::vector<std::weak_ptr<EntityT>>& ready) {
+                  std::vector<detail::ReadyEntity>& ready) {
   for (size_t i = 0; i < waitables.size(); ++i) {
     if (handles[i]) {
-      ready.push_back(waitables[i].entity);
+      ready.emplace_back(waitables[i].entity);
     }
   }
 }
@@ -152,7 +152,7 @@ std::vector<CallbackGroup::WeakPtr> ExecutorEntities::groups() {
   return groups;
 }
 
-ExecutorEntities::Ready ExecutorEntities::wait(std::chrono::nanoseconds timeout) {
+void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
   {
     Owners owners;
     const std::lock_guard lock(mutex_);
@@ -175,15 +175,14 @@ ExecutorEntities::Ready ExecutorEntities::wait(std::chrono::nanoseconds timeout)
     failure = std::current_exception();
   }
 
-  Ready ready;
   Owners owners;
   const std::lock_guard lock(mutex_);
   waiting_ = false;
   if (!failure) {
-    append_ready(waitables_.timers, wait_set_.timers, ready.timers);
-    append_ready(waitables_.subscriptions, wait_set_.subscriptions, ready.subscriptions);
-    append_ready(waitables_.services, wait_set_.services, ready.services);
-    append_ready(waitables_.clients, wait_set_.clients, ready.clients);
+    append_ready(waitables_.timers, wait_set_.timers, ready);
+    append_ready(waitables_.subscriptions, wait_set_.subscriptions, ready);
+    append_ready(waitables_.services, wait_set_.services, ready);
+    append_ready(waitables_.clients, wait_set_.clients, ready);
   }
   if (changed_) {
     mark_changed(owners);
@@ -191,7 +190,6 @@ ExecutorEntities::Ready ExecutorEntities::wait(std::chrono::nanoseconds timeout)
   if (failure) {
     std::rethrow_exception(failure);
   }
-  return ready;
 }
 
 void ExecutorEntities::fill_wait_set() {

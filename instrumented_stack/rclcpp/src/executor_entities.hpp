@@ -17,6 +17,7 @@
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/client_base.hpp"
 #include "rclcpp/context.hpp"
+#include "rclcpp/detail/ready_entity.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/service_base.hpp"
@@ -40,14 +41,9 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   void remove_all();
   std::vector<CallbackGroup::WeakPtr> groups();
 
-  struct Ready {
-    std::vector<TimerBase::WeakPtr> timers;
-    std::vector<SubscriptionBase::WeakPtr> subscriptions;
-    std::vector<ServiceBase::WeakPtr> services;
-    std::vector<ClientBase::WeakPtr> clients;
-  };
-  // Waits until something is ready, interrupt() is called, or the time is over (negative: never). One thread at a time.
-  Ready wait(std::chrono::nanoseconds timeout);
+  // Waits until something is ready, interrupt() is called, or the time is over (negative: never). Appends what is ready.
+  // One thread at a time.
+  void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
 
   // How often nodes and groups were removed. What an earlier wait found may be theirs.
   size_t removals() const { return removals_; }

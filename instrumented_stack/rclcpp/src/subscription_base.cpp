@@ -93,18 +93,13 @@ bool SubscriptionBase::check_taken(rcl_ret_t ret) const {
 void SubscriptionBase::execute() {
   AnySubscriptionCallbackBase& any_callback = callback();
   MessageInfo message_info;
-  std::shared_ptr<void> message;
+  std::shared_ptr<void> message = borrow_message();
   bool taken = false;
   // A message that cannot be read costs that message, not the program.
   try {
-    if (any_callback.is_serialized_message_callback()) {
-      auto serialized = std::make_shared<SerializedMessage>();
-      taken = take_serialized(*serialized, message_info);
-      message = std::move(serialized);
-    } else {
-      message = create_message();
-      taken = take_type_erased(message.get(), message_info);
-    }
+    taken = any_callback.is_serialized_message_callback()
+                ? take_serialized(*static_cast<SerializedMessage*>(message.get()), message_info)
+                : take_type_erased(message.get(), message_info);
   } catch (const exceptions::RCLError& error) {
     RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a message from topic '%s': %s", get_topic_name(),
                  error.what());
@@ -112,6 +107,24 @@ void SubscriptionBase::execute() {
   }
   if (taken) {
     any_callback.dispatch(message, message_info);
+  }
+  return_message(std::move(message));
+}
+
+std::shared_ptr<void> SubscriptionBase::borrow_message() {
+  if (callback().takes_reference()) {
+    const std::lock_guard lock(spare_mutex_);
+    if (spare_message_) {
+      return std::exchange(spare_message_, nullptr);
+    }
+  }
+  return callback().is_serialized_message_callback() ? std::make_shared<SerializedMessage>() : create_message();
+}
+
+void SubscriptionBase::return_message(std::shared_ptr<void> message) {
+  if (callback().takes_reference()) {
+    const std::lock_guard lock(spare_mutex_);
+    spare_message_ = std::move(message);
   }
 }
 

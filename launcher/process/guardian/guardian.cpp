@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,10 +19,14 @@
 namespace launch {
 namespace {
 
-void send_record(int socket, GuardianRecord::Kind kind, pid_t group) {
-  const GuardianRecord record{kind, group};
+void send_record(int socket, GuardianRecord::Kind kind, std::int32_t id, const std::string& rest = {}) {
+  GuardianRecord record{kind, id};
+  const std::array<iovec, 2> parts{iovec{&record, sizeof record}, iovec{const_cast<char*>(rest.data()), rest.size()}};
+  msghdr message{};
+  message.msg_iov = const_cast<iovec*>(parts.data());
+  message.msg_iovlen = parts.size();
   // Not waiting: a helper that hangs must not stop the launcher.
-  static_cast<void>(::send(socket, &record, sizeof record, MSG_NOSIGNAL | MSG_DONTWAIT));
+  static_cast<void>(::sendmsg(socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
 }  // namespace
@@ -69,6 +74,23 @@ void Guardian::attach(pid_t group) {
 
 void Guardian::detach(pid_t group) {
   send_record(socket_.get(), GuardianRecord::Kind::kDetach, group);
+}
+
+std::int32_t Guardian::add_clean_up(const std::vector<std::string>& command) {
+  std::string words;
+  for (const std::string& word : command) {
+    words += word;
+    words += '\0';
+  }
+  if (words.size() > kLongestCleanUp) {
+    throw std::system_error(E2BIG, std::system_category(), fmt::format("cannot guard '{}'", command.front()));
+  }
+  send_record(socket_.get(), GuardianRecord::Kind::kAddCleanUp, ++clean_ups_, words);
+  return clean_ups_;
+}
+
+void Guardian::remove_clean_up(std::int32_t number) {
+  send_record(socket_.get(), GuardianRecord::Kind::kRemoveCleanUp, number);
 }
 
 std::string Guardian::default_program() {

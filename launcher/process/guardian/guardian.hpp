@@ -3,7 +3,9 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/process_runner.hpp"
@@ -11,7 +13,8 @@
 namespace launch {
 
 // Owns the helper process launch-guardian, which has a session of its own, so that Ctrl-C does not reach it. Groups
-// that are attached when this object, or the whole launcher, goes get SIGTERM, and SIGKILL after the grace period.
+// that are attached when this object, or the whole launcher, goes get SIGTERM, and SIGKILL after the grace period; then
+// the clean-up commands run.
 class Guardian {
  public:
   static constexpr Duration kGrace = std::chrono::seconds(5);
@@ -26,6 +29,11 @@ class Guardian {
   void attach(pid_t group);
   void detach(pid_t group);
 
+  // A command, with the path of its program, to run when the launcher has gone and the attached groups have ended. The
+  // number that it returns takes the command back. Commands run in the opposite order, each for ten seconds at most.
+  std::int32_t add_clean_up(const std::vector<std::string>& command);
+  void remove_clean_up(std::int32_t number);
+
   // Of the helper.
   pid_t pid() const { return pid_; }
 
@@ -35,6 +43,7 @@ class Guardian {
  private:
   UniqueFd socket_;
   pid_t pid_ = -1;
+  std::int32_t clean_ups_ = 0;  // numbers given so far
 };
 
 // A runner whose processes are attached to a guardian from their start until they are reaped.

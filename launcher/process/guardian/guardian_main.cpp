@@ -2,18 +2,26 @@
 //
 // Standard input is a socket to the launcher, which tells of each process group that it starts and of each that it has
 // ended. When the launcher disappears, also by kill -9, the socket closes. Groups still known then get SIGTERM, and
-// SIGKILL when their leader has ended or the grace period is over.
+// SIGKILL when their leader has ended or the grace period is over. After that the clean-up commands run that the launcher
+// named and did not take back, the last one first.
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "launcher/base/unique_fd.hpp"
@@ -25,25 +33,52 @@ using Clock = std::chrono::steady_clock;
 using launch::GuardianRecord;
 using launch::UniqueFd;
 
-// Returns the groups that are left when the launcher has gone.
-std::set<pid_t> follow_launcher(int socket) {
+// A command that hangs must not keep this program, and who waits for it, for ever.
+constexpr std::chrono::milliseconds kCleanUpLimit = std::chrono::seconds(10);
+
+// What the launcher has left when it has gone.
+struct Remains {
   std::set<pid_t> groups;
+  std::map<std::int32_t, std::vector<std::string>> clean_ups;
+};
+
+std::vector<std::string> split_words(std::string_view bytes) {
+  std::vector<std::string> words;
+  for (std::size_t end; (end = bytes.find('\0')) != std::string_view::npos; bytes.remove_prefix(end + 1)) {
+    words.emplace_back(bytes.substr(0, end));
+  }
+  return words;
+}
+
+Remains follow_launcher(int socket) {
+  Remains remains;
+  std::array<char, sizeof(GuardianRecord) + launch::kLongestCleanUp> message{};
   while (true) {
-    GuardianRecord record{};
-    const ssize_t size = ::recv(socket, &record, sizeof record, 0);
+    const ssize_t size = ::recv(socket, message.data(), message.size(), 0);
     if (size < 0 && errno == EINTR) {
       continue;
     }
-    if (size != sizeof record) {
-      return groups;
+    if (size < static_cast<ssize_t>(sizeof(GuardianRecord))) {
+      return remains;
     }
-    if (record.group <= 1) {
-      continue;  // kill(2) would take it for everybody
-    }
-    if (record.kind == GuardianRecord::Kind::kAttach) {
-      groups.insert(record.group);
-    } else {
-      groups.erase(record.group);
+    GuardianRecord record{};
+    std::memcpy(&record, message.data(), sizeof record);
+    switch (record.kind) {
+      case GuardianRecord::Kind::kAttach:
+        if (record.id > 1) {  // kill(2) would take it for everybody
+          remains.groups.insert(record.id);
+        }
+        break;
+      case GuardianRecord::Kind::kDetach:
+        remains.groups.erase(record.id);
+        break;
+      case GuardianRecord::Kind::kAddCleanUp:
+        remains.clean_ups[record.id] = split_words(
+            {message.data() + sizeof record, static_cast<std::size_t>(size) - sizeof record});
+        break;
+      case GuardianRecord::Kind::kRemoveCleanUp:
+        remains.clean_ups.erase(record.id);
+        break;
     }
   }
 }
@@ -84,6 +119,44 @@ void end_groups(std::set<pid_t> groups, std::chrono::milliseconds grace) {
   }
 }
 
+// With the signals as a program expects them: those that are ignored here would be ignored there, too.
+pid_t spawn(const std::vector<std::string>& command) {
+  std::vector<char*> argv;
+  for (const std::string& word : command) {
+    argv.push_back(const_cast<char*>(word.c_str()));
+  }
+  argv.push_back(nullptr);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t all;
+  sigfillset(&all);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  pid_t pid = -1;
+  const int error = ::posix_spawn(&pid, argv[0], nullptr, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (error != 0) {
+    fmt::print(stderr, "launch-guardian: cannot run {}: {}\n", command.front(), std::strerror(error));
+    return -1;
+  }
+  return pid;
+}
+
+void clean_up(const std::vector<std::string>& command) {
+  const pid_t pid = command.empty() ? -1 : spawn(command);
+  if (pid < 0) {
+    return;
+  }
+  const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+  pollfd ended{pidfd.get(), POLLIN, 0};
+  if (::poll(&ended, 1, static_cast<int>(kCleanUpLimit.count())) == 0) {
+    fmt::print(stderr, "launch-guardian: '{}' takes too long: killing it\n", fmt::join(command, " "));
+    ::kill(pid, SIGKILL);
+  }
+  while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -94,11 +167,14 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) {
     ::signal(signal, SIG_IGN);
   }
-  const std::set<pid_t> groups = follow_launcher(STDIN_FILENO);
-  if (!groups.empty()) {
-    fmt::print(stderr, "launch-guardian: the launcher has gone and left {} process group{}: ending {}\n", groups.size(),
-               groups.size() == 1 ? "" : "s", groups.size() == 1 ? "it" : "them");
-    end_groups(groups, std::chrono::milliseconds(std::atol(argv[1])));
+  const Remains remains = follow_launcher(STDIN_FILENO);
+  if (const std::size_t count = remains.groups.size(); count != 0) {
+    fmt::print(stderr, "launch-guardian: the launcher has gone and left {} process group{}: ending {}\n", count,
+               count == 1 ? "" : "s", count == 1 ? "it" : "them");
+    end_groups(remains.groups, std::chrono::milliseconds(std::atol(argv[1])));
+  }
+  for (auto command = remains.clean_ups.rbegin(); command != remains.clean_ups.rend(); ++command) {
+    clean_up(command->second);
   }
   return EXIT_SUCCESS;
 }

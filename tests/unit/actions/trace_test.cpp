@@ -33,6 +33,7 @@ TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
   EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-ust").value), 32768);
   EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-kernel").value), 131072);
   EXPECT_FALSE(std::get<bool>(settings.at("append-trace").value));
+  EXPECT_FALSE(std::get<bool>(settings.at("fail-on-loss").value));
   EXPECT_FALSE(std::get<bool>(settings.at("snapshot-mode").value));
   EXPECT_FALSE(std::get<bool>(settings.at("dual-session").value));
 }

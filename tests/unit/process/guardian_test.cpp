@@ -8,6 +8,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -138,6 +140,38 @@ TEST_F(GuardianTest, EndsWhatIsStillAttachedWhenItIsDestroyed) {
   }
   ASSERT_TRUE(wait_for(sleeper.pidfd));
   EXPECT_EQ(runner->reap(sleeper).code, -SIGTERM);
+}
+
+TEST_F(GuardianTest, CleansUpAfterTheGroupsHaveEndedTheLastCommandFirst) {
+  const TemporaryDirectory directory;
+  const std::string done = directory.path() + "/done";
+  const Process sleeper = runner->spawn(command({"sleep", "1000"}));
+  {
+    Guardian guardian(LAUNCH_GUARDIAN);
+    guardian.attach(sleeper.pid);
+    guardian.add_clean_up({"/bin/sh", "-c", "echo 'first one' >> " + done});
+    // Not reaped yet, the sleeper is a zombie then.
+    guardian.add_clean_up({"/bin/sh", "-c",
+                           "grep -q State:.Z /proc/" + std::to_string(sleeper.pid) + "/status && echo ended >> " + done});
+  }
+  std::ifstream file(done);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text, "ended\nfirst one\n");
+  ASSERT_TRUE(wait_for(sleeper.pidfd));
+  runner->reap(sleeper);
+}
+
+TEST_F(GuardianTest, DoesNotRunACleanUpThatWasTakenBack) {
+  const TemporaryDirectory directory;
+  const std::string done = directory.path() + "/done";
+  {
+    Guardian guardian(LAUNCH_GUARDIAN);
+    guardian.remove_clean_up(guardian.add_clean_up({"/bin/sh", "-c", "echo no >> " + done}));
+    guardian.add_clean_up({"/bin/sh", "-c", "echo yes >> " + done});
+  }
+  std::ifstream file(done);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text, "yes\n");
 }
 
 TEST_F(GuardianTest, GuardsFromTheStartOfAProcessUntilItIsReaped) {

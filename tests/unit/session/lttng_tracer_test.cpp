@@ -87,6 +87,8 @@ TEST_F(LttngTracer, RecordsEveryEventOfTwoApplications) {
   EXPECT_EQ(trace.complaints, "");
   EXPECT_EQ(losses.discarded_events(), 0u);
   EXPECT_EQ(trace.events, (std::map<std::string, int>{{"ros2:rcl_init", 2}, {"ros2:rclcpp_callback_register", 120}}));
+  EXPECT_THAT(read_file(config.trace_directory() + "/verdict.json"), testing::HasSubstr("\"complete\": true"));
+  EXPECT_GT(losses.channels.at(0).bytes, 120 * 100u) << "the packets were found";
   EXPECT_THAT(trace.lines.at(0), testing::HasSubstr("procname = \"traced_app\""));
   EXPECT_THAT(trace.lines.at(0), testing::ContainsRegex("vpid = [0-9]+, vtid = [0-9]+"));
   EXPECT_EQ(listed_sessions(), "");
@@ -278,6 +280,13 @@ TEST_F(LttngTracer, LossesEqualWhatTheTraceSays) {
   EXPECT_GT(losses.discarded_events(), 0u);
   EXPECT_EQ(losses.discarded_events(), trace.discarded);
   EXPECT_EQ(losses.discarded_events() + trace.lines.size(), static_cast<std::uint64_t>(kEvents) + 1);
+
+  const std::string verdict = read_file(config.trace_directory() + "/verdict.json");
+  EXPECT_THAT(verdict, testing::HasSubstr("\"complete\": false"));
+  EXPECT_THAT(verdict, testing::HasSubstr("\"discarded_events\": " + std::to_string(trace.discarded)));
+  std::uint64_t in_ranges = 0;
+  for (const tracing::LossRange& range : losses.channels.at(0).ranges) in_ranges += range.events;
+  EXPECT_EQ(in_ranges, trace.discarded);
 }
 
 TEST_F(LttngTracer, GivingUpDestroysTheSessionAtOnce) {

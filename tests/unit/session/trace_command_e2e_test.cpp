@@ -104,13 +104,34 @@ TEST_F(TraceCommandE2e, SnapshotIsRecordedByItsVerb) {
   EXPECT_EQ(read_trace(trace).events["ros2:rclcpp_callback_register"], 10);
 }
 
+TEST_F(TraceCommandE2e, ListStatusAndEventsTellWhatTheDaemonKnows) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "list"}).out, "no trace sessions\n");
+  EXPECT_EQ(run_command({"lttng", "list"}).exit_code, 1) << "a session daemon was started";
+  ASSERT_EQ(run_command({TRACE_COMMAND, "start", "run", "-u", "ros2:*"}).exit_code, 0);
+  TracedApp app(10, 10);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "list"}).out, "run (recording) " + trace + "\n");
+  EXPECT_THAT(run_command({TRACE_COMMAND, "status", "run"}).out,
+              testing::MatchesRegex("run \\(recording\\) .*\n  ust channel ros2: .*\n    1 event rule: ros2:\\*\n"
+                                    "  no events lost\n"));
+  EXPECT_THAT(run_command({TRACE_COMMAND, "events"}).out,
+              testing::ContainsRegex("\n  ros2:rcl_init \\(traced_app [0-9]+\\)\n"));
+  app.end();
+  ASSERT_EQ(run_command({TRACE_COMMAND, "pause", "run"}).exit_code, 0);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "list"}).out, "run (paused) " + trace + "\n");
+  const CommandResult unknown = run_command({TRACE_COMMAND, "status", "walk"});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_EQ(unknown.err,
+            "error: there is no trace session 'walk'\nhint: `launch trace list` shows the sessions that exist\n");
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+}
+
 TEST_F(TraceCommandE2e, VerbOnASessionThatDoesNotExistIsAnError) {
   ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
   const CommandResult result = run_command({TRACE_COMMAND, "pause", "run"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err,
             "error: cannot pause trace session 'run': Session name not found\n"
-            "hint: `lttng list` shows the sessions that exist\n");
+            "hint: `launch trace list` shows the sessions that exist\n");
 }
 
 TEST_F(TraceCommandE2e, WithoutLttngTheExitCodeIsTwo) {

@@ -98,6 +98,18 @@ TEST(TraceCommand, SaysWhatWasLost) {
             "1 packet lost in kernel channel kchan\n");
 }
 
+TEST(TraceCommand, FailsOnLossWhenAskedTo) {
+  FakeTracer tracer;
+  EXPECT_EQ(run({"stop", "run", "--fail-on-loss"}, tracer).exit_code, 0);
+  tracer.losses.channels = {{.domain = "ust", .channel = "ros2", .discarded_events = 1, .lost_packets = 0}};
+  EXPECT_EQ(run({"stop", "run"}, tracer).exit_code, 0);
+  const Outcome result = run({"stop", "run", "--fail-on-loss"}, tracer);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err,
+            "error: the trace of session 'run' is incomplete\n"
+            "hint: use larger buffers, record fewer events, or leave out --fail-on-loss\n");
+}
+
 TEST(TraceCommand, PrintsWarningsOfTheSetUp) {
   FakeTracer tracer;
   tracer.setup_report.warnings = {"rounded up"};
@@ -135,6 +147,58 @@ TEST(TraceCommand, DualSessionRecordsTheSnapshotBeforeTheRuntimeHalfRuns) {
   }
   EXPECT_THAT(tracer.calls(), ElementsAre("record_snapshot run-snapshot", "start run-runtime", "pause run-runtime",
                                           "record_snapshot run-snapshot", "resume run-runtime", "finish run-runtime"));
+}
+
+TEST(TraceCommand, ListPrintsTheSessions) {
+  FakeTracer tracer;
+  EXPECT_EQ(run({"list"}, tracer).out, "no trace sessions\n");
+  tracer.session_list = {{.name = "a", .path = "/traces/a", .active = true},
+                         {.name = "b", .path = "", .active = false, .snapshot = true}};
+  EXPECT_EQ(run({"list"}, tracer).out,
+            "a (recording) /traces/a\n"
+            "b (paused, snapshot)\n");
+}
+
+TEST(TraceCommand, StatusPrintsOneSessionOrAll) {
+  const std::string channel =
+      "  ust channel ros2: 2 sub-buffers of 32768 bytes per processor, drops the newest events when full\n"
+      "    2 event rules: ros2:a, ros2:b\n"
+      "  no events lost\n";
+  FakeTracer tracer;
+  EXPECT_EQ(run({"status"}, tracer).out, "no trace sessions\n");
+  EXPECT_EQ(run({"status", "a"}, tracer).out, "a (recording) /traces/a\n" + channel);
+  tracer.session_list = {{.name = "a"}, {.name = "b"}};
+  EXPECT_EQ(run({"status"}, tracer).out,
+            "a (recording) /traces/a\n" + channel + "b (recording) /traces/b\n" + channel);
+  tracer.verb_error = TraceError("there is no trace session 'c'");
+  EXPECT_EQ(run({"status", "c"}, tracer).exit_code, 1);
+}
+
+TEST(TraceCommand, EventsPrintsWhatCanBeRecorded) {
+  FakeTracer tracer;
+  tracer.events.userspace = {{.name = "ros2:rcl_init", .processes = {"ping 7", "pong 8"}}};
+  tracer.events.why_no_kernel = "kernel events cannot be recorded: no modules";
+  tracer.events.kernel_remedy = "install them";
+  tracer.events.context_fields_ust = {"vpid", "vtid"};
+  tracer.events.context_fields_kernel = {"pid"};
+  const std::string fields =
+      "context fields of userspace events: vpid, vtid, perf:thread:COUNTER, $app.PROVIDER:TYPE\n"
+      "context fields of kernel events: pid, perf:cpu:COUNTER\n";
+  EXPECT_EQ(run({"events"}, tracer).out,
+            "userspace: 1 event of running programs\n"
+            "  ros2:rcl_init (ping 7, pong 8)\n"
+            "kernel: kernel events cannot be recorded: no modules\n"
+            "  install them\n" +
+                fields);
+  tracer.events.userspace.clear();
+  tracer.events.why_no_kernel.clear();
+  tracer.events.kernel = {"sched_switch"};
+  tracer.events.syscalls = 2;
+  EXPECT_EQ(run({"events"}, tracer).out,
+            "userspace: no running program has registered events; rules for events to come can be enabled all the same\n"
+            "kernel: 1 event, 2 system calls\n"
+            "  sched_switch\n" +
+                fields);
 }
 
 TEST(TraceCommand, InteractiveDualSessionNeedsItsSnapshotHalf) {

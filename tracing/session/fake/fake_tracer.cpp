@@ -86,6 +86,28 @@ void FakeTracer::record_snapshot(const std::string& lttng_session_name) {
   record("record_snapshot " + lttng_session_name);
 }
 
+std::vector<SessionSummary> FakeTracer::sessions() {
+  record("sessions");
+  return session_list;
+}
+
+SessionDetails FakeTracer::status(const std::string& lttng_session_name) {
+  record("status " + lttng_session_name);
+  return {.summary = {.name = lttng_session_name, .path = "/traces/" + lttng_session_name, .active = true},
+          .channels = {{.domain = "ust",
+                        .name = "ros2",
+                        .subbuffer_size = 32768,
+                        .subbuffer_count = 2,
+                        .overwrite = false,
+                        .events = {"ros2:a", "ros2:b"}}},
+          .losses = losses};
+}
+
+TraceableEvents FakeTracer::traceable_events() {
+  record("events");
+  return events;
+}
+
 void FakeTracer::record(const std::string& call) {
   const std::lock_guard lock(mutex_);
   calls_.push_back(call);

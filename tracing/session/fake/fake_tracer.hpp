@@ -17,9 +17,11 @@ class FakeTracer : public Tracer {
   // What the calls give back or throw.
   SetupReport setup_report;  // its trace directory is filled in by start()
   LossAccount losses;
+  std::vector<SessionSummary> session_list;
+  TraceableEvents events;
   std::optional<TraceError> start_error;
   std::optional<TraceError> finish_error;
-  std::optional<TraceError> verb_error;  // of pause, resume and record_snapshot
+  std::optional<TraceError> verb_error;  // of pause, resume, record_snapshot and status
 
   // From now on finish() does not return before release() is called or its give_up says true.
   void block_finish();
@@ -39,6 +41,9 @@ class FakeTracer : public Tracer {
   void pause(const std::string& lttng_session_name) override;
   void resume(const std::string& lttng_session_name) override;
   void record_snapshot(const std::string& lttng_session_name) override;
+  std::vector<SessionSummary> sessions() override;
+  SessionDetails status(const std::string& lttng_session_name) override;
+  TraceableEvents traceable_events() override;
 
  private:
   void record(const std::string& call);

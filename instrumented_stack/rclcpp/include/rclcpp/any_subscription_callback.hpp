@@ -23,6 +23,9 @@ class AnySubscriptionCallbackBase {
   // Whether the callback wants the bytes.
   bool is_serialized_message_callback() const { return is_serialized_; }
 
+  // Whether the callback cannot keep the message, so that the next one may come in the same memory.
+  bool takes_reference() const { return takes_reference_; }
+
   // Runs the callback. `message` must be of the callback's type and belong to nobody else: it may be moved from.
   void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info);
 
@@ -31,6 +34,7 @@ class AnySubscriptionCallbackBase {
  protected:
   std::function<void(const std::shared_ptr<void>&, const MessageInfo&)> deliver_;
   bool is_serialized_ = false;
+  bool takes_reference_ = false;
   detail::CallbackSymbol symbol_;
 };
 
@@ -90,6 +94,7 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
       }
     }
     is_serialized_ = std::is_same_v<typename Pointee<ArgumentT>::type, SerializedMessage>;
+    takes_reference_ = std::is_reference_v<ArgumentT>;
   }
 };
 

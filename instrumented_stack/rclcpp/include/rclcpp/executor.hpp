@@ -4,16 +4,15 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "rclcpp/any_executable.hpp"
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/context.hpp"
+#include "rclcpp/detail/ready_entity.hpp"
 #include "rclcpp/executor_options.hpp"
 #include "rclcpp/future_return_code.hpp"
 #include "rclcpp/macros.hpp"
@@ -96,9 +95,12 @@ class Executor {
   void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive);
 
   std::shared_ptr<ExecutorEntities> entities_;
-  // What the last wait found: O(1) per callback, however many entities there are.
-  std::deque<std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr>>
-      ready_;
+  void forget_ready();
+
+  // What the last wait found, the first next_ready_ of it used up: O(1) per callback, however many entities there are,
+  // and no allocation once it has grown.
+  std::vector<detail::ReadyEntity> ready_;
+  size_t next_ready_ = 0;
   size_t removals_before_wait_ = 0;  // of nodes and groups; later ones make ready_ stale
   OnShutdownCallbackHandle shutdown_callback_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <rosidl_runtime_cpp/message_initialization.hpp>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
 #include <string>
 #include <utility>
@@ -30,7 +31,10 @@ class Subscription : public SubscriptionBase {
   }
 
  protected:
-  std::shared_ptr<void> create_message() override { return std::make_shared<MessageT>(); }
+  // Reading a message sets every member.
+  std::shared_ptr<void> create_message() override {
+    return std::make_shared<MessageT>(rosidl_runtime_cpp::MessageInitialization::SKIP);
+  }
   AnySubscriptionCallbackBase& callback() override { return any_callback_; }
 
  private:

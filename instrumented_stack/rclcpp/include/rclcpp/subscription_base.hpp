@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "rclcpp/any_subscription_callback.hpp"
@@ -57,10 +58,17 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
  private:
   bool check_taken(rcl_ret_t ret) const;
+  // A message, or serialized message, for the callback, and after the callback the way back.
+  std::shared_ptr<void> borrow_message();
+  void return_message(std::shared_ptr<void> message);
 
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;
   CallbackGroup::WeakPtr callback_group_;
+  // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
+  // run such a callback several times at once.
+  std::mutex spare_mutex_;
+  std::shared_ptr<void> spare_message_;
 };
 
 }  // namespace rclcpp

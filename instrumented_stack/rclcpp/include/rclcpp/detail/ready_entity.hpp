@@ -1,0 +1,16 @@
+// What an executor's wait can find ready. Weak, so that a user's reset() destroys it at once.
+#pragma once
+
+#include <variant>
+
+#include "rclcpp/client_base.hpp"
+#include "rclcpp/service_base.hpp"
+#include "rclcpp/subscription_base.hpp"
+#include "rclcpp/timer.hpp"
+
+namespace rclcpp::detail {
+
+using ReadyEntity =
+    std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr>;
+
+}  // namespace rclcpp::detail

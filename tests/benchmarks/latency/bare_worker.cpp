@@ -1,0 +1,222 @@
+// The floor: the same exchange on nothing but Fast DDS, with the quality of service that the stack's rmw asks for.
+//   latency_bare publisher|wait_set|listener
+// The subscriber `wait_set` has the stack's threads: one that waits in a wait set, woken by the one that receives. The
+// subscriber `listener` works in the thread that receives, which is the least that Fast DDS can do.
+#include <fastcdr/Cdr.h>
+
+#include <condition_variable>
+#include <cstdlib>
+#include <cstring>
+#include <fastdds/dds/core/condition/GuardCondition.hpp>
+#include <fastdds/dds/core/condition/StatusCondition.hpp>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <vector>
+
+#include "worker.hpp"
+
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastcdr::Cdr;
+using eprosima::fastcdr::FastBuffer;
+
+constexpr int kTopics = latency::kSizes.size();
+using Topics = std::vector<fdds::Topic*>;
+
+// Any of the message types; `data` has the length that the size leaves.
+struct Message {
+  std::int64_t sent;
+  std::int64_t remaining;
+  std::uint8_t data[latency::kSizes.back() - 2 * sizeof(std::int64_t)];
+};
+
+class MessageType final : public fdds::TopicDataType {
+ public:
+  explicit MessageType(std::size_t size) : length_(size - 2 * sizeof(std::int64_t)) {
+    setName(("Bytes" + std::to_string(size)).c_str());
+    m_typeSize = static_cast<std::uint32_t>(size) + kEncapsulation;
+  }
+
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const Message& message = *static_cast<const Message*>(data);
+    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+    payload->encapsulation = CDR_LE;
+    cdr.serialize_encapsulation();
+    cdr << message.sent << message.remaining;
+    cdr.serializeArray(message.data, length_);
+    payload->length = static_cast<std::uint32_t>(cdr.getSerializedDataLength());
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    Message& message = *static_cast<Message*>(data);
+    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+    cdr.read_encapsulation();
+    cdr >> message.sent >> message.remaining;
+    cdr.deserializeArray(message.data, length_);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
+    return [this] { return m_typeSize; };
+  }
+  void* createData() override { return new Message; }
+  void deleteData(void* data) override { delete static_cast<Message*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+  bool is_bounded() const override { return true; }
+
+ private:
+  static constexpr std::uint32_t kEncapsulation = 4;
+  std::size_t length_;
+};
+
+template <typename Qos>
+Qos like_rmw(Qos qos) {
+  qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = latency::kDepth;
+  qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind = fdds::VOLATILE_DURABILITY_QOS;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  return qos;
+}
+
+// Counts the endpoints that have found their other side.
+class Matches {
+ public:
+  void add(int change) {
+    const std::lock_guard lock(mutex_);
+    count_ += change;
+    condition_.notify_all();
+  }
+  void wait_for_all() {
+    std::unique_lock lock(mutex_);
+    condition_.wait(lock, [&] { return count_ == kTopics; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  int count_ = 0;
+};
+
+class WriterListener final : public fdds::DataWriterListener {
+ public:
+  void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& info) override {
+    matches.add(info.current_count_change);
+  }
+
+  Matches matches;
+};
+
+class Receiver final : public fdds::DataReaderListener {
+ public:
+  void on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& info) override {
+    matches.add(info.current_count_change);
+  }
+  void on_data_available(fdds::DataReader* reader) override { take_all(*reader); }
+  void take_all(fdds::DataReader& reader) {
+    fdds::SampleInfo info;
+    while (reader.take_next_sample(message_.get(), &info) == ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) {
+        log_.received(message_->sent, message_->remaining);
+      }
+    }
+  }
+
+  Matches matches;
+
+ private:
+  std::unique_ptr<Message> message_ = std::make_unique<Message>();
+  latency::LatencyLog log_;
+};
+
+void publish(fdds::DomainParticipant& participant, const Topics& topics) {
+  WriterListener listener;
+  fdds::Publisher* publisher = participant.create_publisher(participant.get_default_publisher_qos());
+  fdds::DataWriterQos qos = like_rmw(publisher->get_default_datawriter_qos());
+  qos.publish_mode().kind = fdds::SYNCHRONOUS_PUBLISH_MODE;
+  std::vector<fdds::DataWriter*> writers;
+  for (fdds::Topic* topic : topics) {
+    writers.push_back(publisher->create_datawriter(topic, qos, &listener, fdds::StatusMask::publication_matched()));
+  }
+  listener.matches.wait_for_all();
+  latency::tell_ready();
+  const auto message = std::make_unique<Message>();
+  latency::publish_batches([&](std::size_t size_index, std::int64_t remaining) {
+    message->remaining = remaining;
+    message->sent = latency::monotonic_now();
+    writers[size_index]->write(message.get());
+  });
+}
+
+[[noreturn]] void subscribe(fdds::DomainParticipant& participant, const Topics& topics,
+                            bool in_listener) {
+  Receiver receiver;
+  fdds::Subscriber* subscriber = participant.create_subscriber(participant.get_default_subscriber_qos());
+  fdds::WaitSet wait_set;
+  for (fdds::Topic* topic : topics) {
+    fdds::StatusMask to_listener = fdds::StatusMask::subscription_matched();
+    if (in_listener) {
+      to_listener << fdds::StatusMask::data_available();
+    }
+    fdds::DataReader* reader = subscriber->create_datareader(
+        topic, like_rmw(subscriber->get_default_datareader_qos()), &receiver, to_listener);
+    reader->get_statuscondition().set_enabled_statuses(fdds::StatusMask::data_available());
+    if (!in_listener) {
+      wait_set.attach_condition(reader->get_statuscondition());
+    }
+  }
+  receiver.matches.wait_for_all();
+  latency::tell_ready();
+  // Without a reader in the wait set, `never` keeps the thread asleep.
+  fdds::GuardCondition never;
+  wait_set.attach_condition(never);
+  fdds::ConditionSeq ready;
+  while (true) {
+    wait_set.wait(ready, eprosima::fastrtps::c_TimeInfinite);
+    for (fdds::Condition* condition : ready) {
+      if (auto* status = dynamic_cast<fdds::StatusCondition*>(condition)) {
+        receiver.take_all(*static_cast<fdds::DataReader*>(status->get_entity()));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view role = argc == 2 ? argv[1] : "";
+  const char* domain = std::getenv("ROS_DOMAIN_ID");
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  auto* participant = factory->create_participant(static_cast<std::uint32_t>(domain == nullptr ? 0 : std::atoi(domain)),
+                                                  factory->get_default_participant_qos());
+  Topics topics;
+  for (std::size_t i = 0; i < latency::kSizes.size(); ++i) {
+    fdds::TypeSupport type(new MessageType(latency::kSizes[i]));
+    type.register_type(participant);
+    topics.push_back(participant->create_topic("rt" + latency::topic_of(i), type.get_type_name(),
+                                               participant->get_default_topic_qos()));
+  }
+  if (role == "publisher") {
+    publish(*participant, topics);
+  } else {
+    subscribe(*participant, topics, role == "listener");
+  }
+  // The driver of the benchmark ends both programs; nothing is left to take apart.
+  std::_Exit(EXIT_SUCCESS);
+}

@@ -1,0 +1,60 @@
+#include "worker.hpp"
+
+#include <time.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace latency {
+namespace {
+
+void sleep_until(std::int64_t time) {
+  const timespec at{time / 1'000'000'000, time % 1'000'000'000};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+}
+
+}  // namespace
+
+std::int64_t monotonic_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+std::string topic_of(std::size_t size_index) {
+  return "/bytes_" + std::to_string(kSizes[size_index]);
+}
+
+void tell_ready() {
+  if (write(STDOUT_FILENO, "R", 1) != 1) {
+    std::exit(EXIT_FAILURE);
+  }
+}
+
+void publish_batches(const std::function<void(std::size_t, std::int64_t)>& publish) {
+  Batch batch{};
+  while (read(STDIN_FILENO, &batch, sizeof batch) == sizeof batch) {
+    std::int64_t next = monotonic_now();
+    for (std::uint64_t remaining = batch.messages; remaining-- > 0;) {
+      next += batch.period;
+      sleep_until(next);
+      publish(batch.size_index, static_cast<std::int64_t>(remaining));
+    }
+  }
+}
+
+void LatencyLog::received(std::int64_t sent, std::int64_t remaining) {
+  latencies_.push_back(monotonic_now() - sent);
+  if (remaining != 0) {
+    return;
+  }
+  const std::uint64_t count = latencies_.size();
+  const std::size_t bytes = count * sizeof latencies_[0];
+  if (write(STDOUT_FILENO, &count, sizeof count) != sizeof count ||
+      write(STDOUT_FILENO, latencies_.data(), bytes) != static_cast<ssize_t>(bytes)) {
+    std::exit(EXIT_FAILURE);
+  }
+  latencies_.clear();
+}
+
+}  // namespace latency

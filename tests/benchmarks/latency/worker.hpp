@@ -1,0 +1,45 @@
+// What the publishing and subscribing programs of the latency benchmark have in common, whatever they are built on: the
+// sizes, the pace, and the conversation with bench_latency over stdin and stdout.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace latency {
+
+inline constexpr std::array<std::size_t, 4> kSizes = {1024, 32 * 1024, 64 * 1024, 256 * 1024};
+inline constexpr int kDepth = 10;
+
+std::int64_t monotonic_now();  // nanoseconds
+
+// The topic of messages of one size, as ROS names it.
+std::string topic_of(std::size_t size_index);
+
+// A batch of messages of one size: what bench_latency writes to the stdin of a publisher, as it is in memory.
+struct Batch {
+  std::uint64_t size_index;
+  std::uint64_t messages;
+  std::int64_t period;  // nanoseconds from one message to the next
+};
+
+// Tells bench_latency that every topic has found its other side. Call it once.
+void tell_ready();
+
+// Sends the batches that are asked for until stdin ends.
+void publish_batches(const std::function<void(std::size_t size_index, std::int64_t remaining)>& publish);
+
+// Collects latencies; after the last message of a batch they go to stdout: their number as uint64, then each as
+// int64 nanoseconds. One thread at a time.
+class LatencyLog {
+ public:
+  void received(std::int64_t sent, std::int64_t remaining);
+
+ private:
+  std::vector<std::int64_t> latencies_;
+};
+
+}  // namespace latency

@@ -1,0 +1,71 @@
+#include "tracing/session/packet_index.hpp"
+
+#include <endian.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <tuple>
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kMagic = 0xC1F1DCC1;
+constexpr std::size_t kLongestEntry = 4096;  // bytes; later versions may append fields
+
+// The 32-bit words at the beginning of a file, and the 64-bit words at the beginning of each entry.
+enum HeaderWord { kMagicWord, kMajorWord, kMinorWord, kEntryLengthWord, kHeaderWords };
+enum EntryWord { kOffset, kPacketBits, kContentBits, kBegin, kEnd, kDiscarded, kEntryWords };
+
+std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<std::uint32_t, kHeaderWords> header{};
+  if (!file.read(reinterpret_cast<char*>(header.data()), sizeof header) || be32toh(header[kMagicWord]) != kMagic) {
+    return std::nullopt;
+  }
+  const std::size_t length = be32toh(header[kEntryLengthWord]);
+  std::array<std::uint64_t, kEntryWords> words{};
+  if (length < sizeof words || length > kLongestEntry) return std::nullopt;
+
+  std::vector<Packet> packets;
+  for (std::vector<char> entry(length); file.read(entry.data(), static_cast<std::streamsize>(length));) {
+    std::memcpy(words.data(), entry.data(), sizeof words);
+    packets.push_back({.begin = be64toh(words[kBegin]),
+                       .end = be64toh(words[kEnd]),
+                       .bytes = be64toh(words[kContentBits]) / 8,
+                       .discarded_events = be64toh(words[kDiscarded])});
+  }
+  return packets;
+}
+
+}  // namespace
+
+std::vector<Stream> read_packet_index(const fs::path& directory) {
+  std::vector<Stream> streams;
+  for (const char* domain : {"ust", "kernel"}) {
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory / domain, none)) {
+      // …/index/CHANNEL_CPU.idx
+      const fs::path& path = entry.path();
+      if (path.extension() != ".idx" || path.parent_path().filename() != "index") continue;
+      const std::string name = path.stem().string();
+      const std::size_t separator = name.rfind('_');
+      auto packets = read_index_file(path);
+      if (separator == std::string::npos || !packets) continue;
+      streams.push_back({.domain = domain,
+                         .channel = name.substr(0, separator),
+                         .cpu = name.substr(separator + 1),
+                         .packets = std::move(*packets)});
+    }
+  }
+  std::sort(streams.begin(), streams.end(), [](const Stream& a, const Stream& b) {
+    return std::tie(a.domain, a.channel, a.cpu) < std::tie(b.domain, b.channel, b.cpu);
+  });
+  return streams;
+}
+
+}  // namespace tracing

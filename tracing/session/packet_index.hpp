@@ -1,0 +1,31 @@
+// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+// One sub-buffer's worth of events of one processor, as it was written.
+struct Packet {
+  std::uint64_t begin = 0;  // trace clock, ns
+  std::uint64_t end = 0;
+  std::uint64_t bytes = 0;             // of events and header, without padding
+  std::uint64_t discarded_events = 0;  // of the stream since its beginning
+};
+
+// What one processor recorded into one channel.
+struct Stream {
+  std::string domain;   // "ust" or "kernel"
+  std::string channel;  // "ros2"
+  std::string cpu;      // "0"
+  std::vector<Packet> packets;
+};
+
+// The streams of the recording in `directory` (the path of its session). A file that can't be read as an index gives no
+// stream. Format: struct ctf_packet_index of lttng-tools, big-endian.
+std::vector<Stream> read_packet_index(const std::filesystem::path& directory);
+
+}  // namespace tracing

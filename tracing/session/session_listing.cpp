@@ -1,0 +1,206 @@
+#include "tracing/session/session_listing.hpp"
+
+#include <fmt/core.h>
+#include <lttng/lttng.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "tracing/session/channels.hpp"
+#include "tracing/session/context_fields.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/lttng_error.hpp"
+#include "tracing/session/session_daemon.hpp"
+#include "tracing/session/setup_checks.hpp"
+
+namespace tracing {
+namespace {
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
+// The events of a channel that are enabled.
+std::vector<std::string> enabled_events(lttng_handle* handle, const char* channel) {
+  lttng_event* listed = nullptr;
+  const int count = check_lttng(lttng_list_events(handle, channel, &listed), "list the events of a channel");
+  const std::unique_ptr<lttng_event, Free> events(listed);
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) {
+    if (listed[i].enabled != 0) names.emplace_back(listed[i].name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<ChannelDetails> channels_of(const std::string& session, const lttng_domain& domain) {
+  const DomainHandle handle = domain_handle(session, domain);
+  lttng_channel* listed = nullptr;
+  const int count = check_lttng(lttng_list_channels(handle.get(), &listed),
+                                fmt::format("list the channels of session '{}'", session));
+  const std::unique_ptr<lttng_channel, Free> channels(listed);
+  std::vector<ChannelDetails> details;
+  for (int i = 0; i < count; ++i) {
+    const lttng_channel_attr& attributes = listed[i].attr;
+    details.push_back({.domain = domain_name(domain.type),
+                       .name = listed[i].name,
+                       .subbuffer_size = attributes.subbuf_size,
+                       .subbuffer_count = attributes.num_subbuf,
+                       .overwrite = attributes.overwrite == 1,
+                       .events = enabled_events(handle.get(), listed[i].name)});
+  }
+  return details;
+}
+
+std::string process_name(int pid) {
+  std::string name = "?";
+  if (const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(fmt::format("/proc/{}/comm", pid).c_str(), "r"),
+                                                       &std::fclose);
+      file) {
+    std::array<char, 64> line{};
+    if (std::fgets(line.data(), line.size(), file.get()) != nullptr) name = line.data();
+    if (name.ends_with('\n')) name.pop_back();
+  }
+  return fmt::format("{} {}", name, pid);
+}
+
+std::vector<TraceableEvent> userspace_events() {
+  const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_UST);
+  lttng_event* listed = nullptr;
+  const int count = check_lttng(lttng_list_tracepoints(handle.get(), &listed), "list the userspace events");
+  const std::unique_ptr<lttng_event, Free> events(listed);
+  std::map<std::string, std::set<int>> processes;
+  for (int i = 0; i < count; ++i) processes[listed[i].name].insert(listed[i].pid);
+  std::vector<TraceableEvent> traceable;
+  for (const auto& [name, pids] : processes) {
+    TraceableEvent event{.name = name, .processes = {}};
+    for (const int pid : pids) event.processes.push_back(process_name(pid));
+    traceable.push_back(std::move(event));
+  }
+  return traceable;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::vector<SessionSummary> list_sessions() {
+  if (lttng_session_daemon_alive() != 1) return {};
+  lttng_session* listed = nullptr;
+  const int count = check_lttng(lttng_list_sessions(&listed), "list the trace sessions");
+  const std::unique_ptr<lttng_session, Free> sessions(listed);
+  std::vector<SessionSummary> summaries;
+  for (int i = 0; i < count; ++i) {
+    summaries.push_back({.name = listed[i].name,
+                         .path = listed[i].path,
+                         .active = listed[i].enabled != 0,
+                         .snapshot = listed[i].snapshot_mode != 0});
+  }
+  return summaries;
+}
+
+SessionDetails describe_session(const std::string& name) {
+  const std::vector<SessionSummary> sessions = list_sessions();
+  const auto found = std::find_if(sessions.begin(), sessions.end(),
+                                  [&](const SessionSummary& session) { return session.name == name; });
+  if (found == sessions.end()) {
+    throw TraceError(fmt::format("there is no trace session '{}'", name),
+                     "`launch trace list` shows the sessions that exist");
+  }
+  SessionDetails details{.summary = *found, .channels = {}, .losses = read_losses(name)};
+  lttng_domain* listed = nullptr;
+  const int count =
+      check_lttng(lttng_list_domains(name.c_str(), &listed), fmt::format("list the domains of session '{}'", name));
+  const std::unique_ptr<lttng_domain, Free> domains(listed);
+  for (int i = 0; i < count; ++i) {
+    for (ChannelDetails& channel : channels_of(name, listed[i])) details.channels.push_back(std::move(channel));
+  }
+  return details;
+}
+
+TraceableEvents list_traceable_events() {
+  TraceableEvents events;
+  events.started_daemon = ensure_session_daemon();
+  events.userspace = userspace_events();
+  try {
+    check_kernel_tracer();
+    lttng_event* listed = nullptr;
+    const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_KERNEL);
+    const int count = check_lttng(lttng_list_tracepoints(handle.get(), &listed), "list the kernel events");
+    const std::unique_ptr<lttng_event, Free> tracepoints(listed);
+    for (int i = 0; i < count; ++i) events.kernel.emplace_back(listed[i].name);
+    std::sort(events.kernel.begin(), events.kernel.end());
+    lttng_event* calls = nullptr;
+    events.syscalls = static_cast<std::size_t>(check_lttng(lttng_list_syscalls(&calls), "list the system calls"));
+    std::free(calls);
+  } catch (const TraceError& error) {
+    events.why_no_kernel = error.what();
+    events.kernel_remedy = error.remedy();
+  }
+  events.context_fields_ust = context_field_names(LTTNG_DOMAIN_UST);
+  events.context_fields_kernel = context_field_names(LTTNG_DOMAIN_KERNEL);
+  return events;
+}
+
+std::string sessions_as_text(const std::vector<SessionSummary>& sessions) {
+  if (sessions.empty()) return "no trace sessions\n";
+  std::string text;
+  for (const SessionSummary& session : sessions) {
+    text += fmt::format("{} ({}{}){}{}\n", session.name, session.active ? "recording" : "paused",
+                        session.snapshot ? ", snapshot" : "", session.path.empty() ? "" : " ", session.path);
+  }
+  return text;
+}
+
+std::string session_as_text(const SessionDetails& session) {
+  std::string text = sessions_as_text({session.summary});
+  for (const ChannelDetails& channel : session.channels) {
+    text += fmt::format("  {} channel {}: {} of {} bytes per {}, {} when full\n", channel.domain, channel.name,
+                        counted(channel.subbuffer_count, "sub-buffer"), channel.subbuffer_size, "processor",
+                        channel.overwrite ? "overwrites the oldest events" : "drops the newest events");
+    text += fmt::format("    {}: {}\n", counted(channel.events.size(), "event rule"), joined(channel.events));
+  }
+  return text + fmt::format("  {}\n", describe_losses(session.losses));
+}
+
+std::string events_as_text(const TraceableEvents& events) {
+  std::string text;
+  if (events.started_daemon) {
+    text += "the session daemon was not running and has been started: programs that run already tell it of their events "
+            "within a moment\n";
+  }
+  if (events.userspace.empty()) {
+    text += "userspace: no running program has registered events; rules for events to come can be enabled all the same\n";
+  } else {
+    text += fmt::format("userspace: {} of running programs\n", counted(events.userspace.size(), "event"));
+    for (const TraceableEvent& event : events.userspace) {
+      text += fmt::format("  {} ({})\n", event.name, joined(event.processes));
+    }
+  }
+  if (!events.why_no_kernel.empty()) {
+    text += fmt::format("kernel: {}\n  {}\n", events.why_no_kernel, events.kernel_remedy);
+  } else {
+    text += fmt::format("kernel: {}, {}\n", counted(events.kernel.size(), "event"),
+                        counted(events.syscalls, "system call"));
+    for (const std::string& name : events.kernel) text += fmt::format("  {}\n", name);
+  }
+  text += fmt::format("context fields of userspace events: {}, perf:thread:COUNTER, $app.PROVIDER:TYPE\n",
+                      joined(events.context_fields_ust));
+  text += fmt::format("context fields of kernel events: {}, perf:cpu:COUNTER\n", joined(events.context_fields_kernel));
+  return text;
+}
+
+}  // namespace tracing
