@@ -2,7 +2,7 @@
 #include <thread>
 #include <type_description_interfaces/srv/get_type_description.hpp>
 
-#include "ros_test.hpp"
+#include "tests/unit/rclcpp/ros_test.hpp"
 
 namespace {
 

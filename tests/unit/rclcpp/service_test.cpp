@@ -2,7 +2,7 @@
 #include <example_interfaces/srv/add_two_ints.hpp>
 #include <thread>
 
-#include "ros_test.hpp"
+#include "tests/unit/rclcpp/ros_test.hpp"
 
 namespace {
 
