@@ -88,7 +88,7 @@ TEST_F(InitTest, ANodeNeedsInit) {
 }
 
 TEST_F(InitTest, ShutdownRunsCallbacksInOrder) {
-  // The default context keeps its callbacks for later shutdowns, of later tests.
+  // The context keeps its callbacks for the next shutdown: they must not refer to this function.
   const auto calls = std::make_shared<std::vector<std::string>>();
   auto context = rclcpp::contexts::get_global_default_context();
   const auto pre = context->add_pre_shutdown_callback([calls] { calls->push_back(rclcpp::ok() ? "pre" : "pre, late"); });
