@@ -33,16 +33,23 @@ std::vector<ItemSpec> ComposableNodes::items() {
   ItemSpec lifecycle = node;
   lifecycle.tag = kTags[1];
   lifecycle.help = "a composable node with a managed life cycle";
-  lifecycle.attributes.push_back({"autostart", AttributeType::kBoolean, false, "false", "configure and activate the node"});
+  lifecycle.attributes.push_back(
+      {"autostart", AttributeType::kBoolean, false, "false", "configure and activate the node"});
   return {std::move(node), std::move(lifecycle)};
 }
 
 ComposableNodes::ComposableNodes(const Fields& fields) {
   for (const char* const tag : kTags) {
     for (const Fields* item : fields.items(tag)) {
-      Description node{item->where(),       item->condition(),  item->text("pkg"),
-                       item->text("plugin"), item->text("name"), item->optional_text("namespace"),
-                       {},                   remaps_of(*item),   {},
+      Description node{item->where(),
+                       item->condition(),
+                       item->text("pkg"),
+                       item->text("plugin"),
+                       item->text("name"),
+                       item->optional_text("namespace"),
+                       {},
+                       remaps_of(*item),
+                       {},
                        item->boolean("autostart", false)};
       for (const Fields* parameter : item->items("param")) {
         node.parameters.emplace_back(*parameter);
@@ -61,8 +68,8 @@ void ComposableNodes::request(LaunchContext& context, const std::string& target,
   request.origin = where;
   for (const Description& node : nodes_) {
     if (node.condition.holds(context.scope())) {
-      context.cannot_run("composable nodes can't be loaded: this launcher can't call the container's services", node.where,
-                         "run the node as a process of its own: <node pkg=… exec=…>");
+      context.cannot_run("composable nodes can't be loaded: this launcher can't call the container's services",
+                         node.where, "run the node as a process of its own: <node pkg=… exec=…>");
       request.nodes.push_back(evaluate(node, context));
     }
   }

@@ -1,4 +1,5 @@
-// <set_env>, <unset_env>, <append_env>, <reset_env> and <rep_env>: the launch environment, which $(env …) reads and later processes inherit.
+// <set_env>, <unset_env>, <append_env>, <reset_env> and <rep_env>: the launch environment, which $(env …) reads and
+// later processes inherit.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 

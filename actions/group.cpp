@@ -56,7 +56,8 @@ ActionType group_action() {
   return {
       .tag = "group",
       .help = "Visits actions in a scope: what they set ends with the group.",
-      .attributes = {{"scoped", AttributeType::kBoolean, false, "true", "restore configurations and environment at the end"},
+      .attributes = {{"scoped", AttributeType::kBoolean, false, "true",
+                      "restore configurations and environment at the end"},
                      {"forwarding", AttributeType::kBoolean, false, "true",
                       "false: start without configurations and with the launcher's own environment"}},
       .items = {{"keep",

@@ -85,14 +85,16 @@ class IncludeLaunchDescription : public Action {
 }  // namespace
 
 ActionType include_action() {
-  const std::vector<AttributeSpec> name_and_value = {{"name", AttributeType::kText, true, "", "name of the configuration"},
-                                                     {"value", AttributeType::kText, true, "", "its value"}};
+  const std::vector<AttributeSpec> name_and_value = {
+      {"name", AttributeType::kText, true, "", "name of the configuration"},
+      {"value", AttributeType::kText, true, "", "its value"}};
   return {
       .tag = "include",
       .help = "Visits another launch file in place. Not a scope: what the file sets stays set.",
       .attributes = {{"file", AttributeType::kText, true, "",
                       "path of the launch file; relative to the launcher's working directory"}},
-      .items = {{"arg", "an argument for the file", name_and_value}, {"let", "the same as arg, set after all of them", name_and_value}},
+      .items = {{"arg", "an argument for the file", name_and_value},
+                {"let", "the same as arg, set after all of them", name_and_value}},
       .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },
   };
 }

@@ -16,8 +16,8 @@ class LifecycleNode : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     if (autostart_.perform(context.scope())) {
-      context.cannot_run("autostart can't be carried out: this launcher can't call the node's services", autostart_where_,
-                         "leave it out, and run: ros2 lifecycle set NODE configure, then activate");
+      context.cannot_run("autostart can't be carried out: this launcher can't call the node's services",
+                         autostart_where_, "leave it out, and run: ros2 lifecycle set NODE configure, then activate");
     }
     node_.request(context);
   }

@@ -30,7 +30,8 @@ ActionType load_composable_node_action() {
   return {
       .tag = "load_composable_node",
       .help = "Loads nodes into a component container that runs already.",
-      .attributes = {{"target", AttributeType::kText, true, "", "node name of the container; the scope's namespace doesn't count"}},
+      .attributes = {{"target", AttributeType::kText, true, "",
+                      "node name of the container; the scope's namespace doesn't count"}},
       .items = ComposableNodes::items(),
       .make = [](const Fields& fields) { return std::make_shared<LoadComposableNodes>(fields); },
   };

@@ -70,10 +70,18 @@ ActionType log_with_level(const std::string& level_name, LogLevel level) {
 
 }  // namespace
 
-ActionType log_debug_action() { return log_with_level("debug", LogLevel::kDebug); }
-ActionType log_info_action() { return log_with_level("info", LogLevel::kInfo); }
-ActionType log_warning_action() { return log_with_level("warning", LogLevel::kWarning); }
-ActionType log_error_action() { return log_with_level("error", LogLevel::kError); }
+ActionType log_debug_action() {
+  return log_with_level("debug", LogLevel::kDebug);
+}
+ActionType log_info_action() {
+  return log_with_level("info", LogLevel::kInfo);
+}
+ActionType log_warning_action() {
+  return log_with_level("warning", LogLevel::kWarning);
+}
+ActionType log_error_action() {
+  return log_with_level("error", LogLevel::kError);
+}
 
 ActionType log_action() {
   return {

@@ -103,8 +103,9 @@ class ForEach : public Action {
       std::vector<Diagnostic> duplicate_keys;  // the last one counts
       node = read_yaml(LocatedText(text), duplicate_keys);
     } catch (const LaunchError& error) {
-      throw LaunchError(fmt::format("the values of a turn are no YAML: {}: '{}'", error.diagnostics().front().message, text),
-                        values_.where());
+      throw LaunchError(
+          fmt::format("the values of a turn are no YAML: {}: '{}'", error.diagnostics().front().message, text),
+          values_.where());
     }
     if (node.kind != YamlNode::Kind::kMapping) {
       throw LaunchError(fmt::format("the values of a turn are a mapping, got '{}'", text), values_.where(),

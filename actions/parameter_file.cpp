@@ -77,7 +77,8 @@ void append_node(const YamlNode& node, const std::string& name, std::vector<Name
 
 }  // namespace
 
-void append_parameter_text(const LocatedText& text, const std::string& full_name, std::vector<NamedParameter>& parameters) {
+void append_parameter_text(const LocatedText& text, const std::string& full_name,
+                           std::vector<NamedParameter>& parameters) {
   std::vector<Diagnostic> duplicate_keys;  // the last one counts
   const YamlNode root = read_yaml(text, duplicate_keys);
   if (root.is_null()) {
@@ -118,8 +119,8 @@ void append_parameter_file(const std::string& path, const std::string& full_name
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where);
   }
   const auto file = SourceFile::read(path, where);
-  append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}), full_name,
-                        parameters);
+  append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),
+                        full_name, parameters);
 }
 
 }  // namespace launch

@@ -1,4 +1,5 @@
-// Reads the parameters of one node from a parameter file, as a launcher must for nodes that are loaded into a container.
+// Reads the parameters of one node from a parameter file, as a launcher must for nodes that are loaded into a
+// container.
 #pragma once
 
 #include <string>
@@ -16,6 +17,7 @@ void append_parameter_file(const std::string& path, const std::string& full_name
                            std::vector<NamedParameter>& parameters);
 
 // The same for the text of such a file.
-void append_parameter_text(const LocatedText& text, const std::string& full_name, std::vector<NamedParameter>& parameters);
+void append_parameter_text(const LocatedText& text, const std::string& full_name,
+                           std::vector<NamedParameter>& parameters);
 
 }  // namespace launch

@@ -81,7 +81,8 @@ ParameterScalar to_parameter(const Scalar& scalar, const SourceRange& where) {
     case Scalar::Type::kUntyped:
       return scalar.text.text();
     default:
-      throw LaunchError(fmt::format("a {} can't be the value of a parameter", type_name(scalar.type)), where, kNoParameterType);
+      throw LaunchError(fmt::format("a {} can't be the value of a parameter", type_name(scalar.type)), where,
+                        kNoParameterType);
   }
 }
 
@@ -137,9 +138,9 @@ void require_uniform(const std::vector<ParameterScalar>& items, const char* mess
 
 // Whether a node reads the text, unquoted, as the string that it is.
 bool reads_as_string(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:@+-";
-  constexpr std::string_view kOtherTypes[] = {"y", "n", "yes", "no", "on", "off", "true", "false", "null", "inf", "infinity", "nan"};
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:@+-";
+  constexpr std::string_view kOtherTypes[] = {"y",    "n",     "yes",  "no",  "on",       "off",
+                                              "true", "false", "null", "inf", "infinity", "nan"};
   if (text.empty() || text.find_first_not_of(kPlain) != std::string::npos || text.ends_with(':')) {
     return false;
   }
@@ -147,7 +148,8 @@ bool reads_as_string(const std::string& text) {
   for (const char character : text) {
     lower += static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
   }
-  const bool begins_as_text = std::isalpha(static_cast<unsigned char>(text.front())) || text.front() == '/' || text.front() == '_';
+  const bool begins_as_text =
+      std::isalpha(static_cast<unsigned char>(text.front())) || text.front() == '/' || text.front() == '_';
   return begins_as_text && std::find(std::begin(kOtherTypes), std::end(kOtherTypes), lower) == std::end(kOtherTypes);
 }
 
@@ -226,7 +228,8 @@ ParameterValueSource::ParameterValueSource(const Value& value, const std::string
     for (std::size_t begin = 0; begin <= text.size();) {
       const std::size_t end = std::min(text.find(*separator, begin), text.size());
       LocatedText piece(text.substr(begin, end - begin), scalar->text.range(begin, end - begin));
-      items_.push_back(type_ == ParameterType::kAny ? make_untyped(piece) : make_item(Scalar{.text = std::move(piece)}));
+      items_.push_back(type_ == ParameterType::kAny ? make_untyped(piece)
+                                                    : make_item(Scalar{.text = std::move(piece)}));
       begin = end + separator->size();
     }
   }

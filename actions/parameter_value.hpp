@@ -46,16 +46,16 @@ class ParameterValueSource {
   std::vector<Item> items_;  // one, unless is_list_
 };
 
-// Types performed text by YAML 1.1 rules; empty text is an empty string. Throws LaunchError at `where` for what can't be
-// a parameter: nothing, a mapping, a list of several types.
+// Types performed text by YAML 1.1 rules; empty text is an empty string. Throws LaunchError at `where` for what can't
+// be a parameter: nothing, a mapping, a list of several types.
 ParameterValue typed_parameter(const std::string& text, const SourceRange& where);
 // The parameter that a typed value is. Throws LaunchError, as typed_parameter().
 ParameterValue parameter_of(const Value& value);
 
 // One line of YAML that any reader of parameter files types alike: strings are always quoted.
 std::string to_yaml(const ParameterValue& value);
-// What stands behind "-p NAME:=": as ros2 launch writes it, but strings that a node would read as another type are quoted
-// and lists are YAML.
+// What stands behind "-p NAME:=": as ros2 launch writes it, but strings that a node would read as another type are
+// quoted and lists are YAML.
 std::string to_argument(const ParameterValue& value);
 // A mapping key, quoted unless it is plain letters, digits, '_', '.', '-' and '/'.
 std::string quote_yaml_if_needed(const std::string& key);

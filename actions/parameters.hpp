@@ -20,11 +20,12 @@ class Parameters {
   // Throws LaunchError for forms that exclude each other and for values that have no parameter type.
   explicit Parameters(const Fields& fields);
 
-  // Appends --params-file and its file to a node's argv: the named file, or one to be generated. `qualified_name` is the
-  // node's, or empty when it isn't known; the parameters are then for whatever the node is called.
+  // Appends --params-file and its file to a node's argv: the named file, or one to be generated. `qualified_name` is
+  // the node's, or empty when it isn't known; the parameters are then for whatever the node is called.
   void append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const;
   // Appends typed values, as a node that is loaded into a container is given them; files are read now.
-  void append_to(std::vector<NamedParameter>& parameters, LaunchContext& context, const std::string& qualified_name) const;
+  void append_to(std::vector<NamedParameter>& parameters, LaunchContext& context,
+                 const std::string& qualified_name) const;
 
  private:
   // A value with its name, or a name with nested ones.
@@ -34,7 +35,8 @@ class Parameters {
     std::vector<Tree> nested;
   };
   static Tree parse_tree(const Fields& fields);
-  static void perform_tree(const Tree& tree, const std::string& prefix, Scope& scope, std::vector<NamedParameter>& parameters);
+  static void perform_tree(const Tree& tree, const std::string& prefix, Scope& scope,
+                           std::vector<NamedParameter>& parameters);
   // The text of a file with the substitutions in it performed.
   LocatedText performed_file(const std::string& path, Scope& scope) const;
 

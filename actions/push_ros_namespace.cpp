@@ -23,7 +23,8 @@ ActionType push_ros_namespace(std::string tag, std::string help) {
   return {
       .tag = std::move(tag),
       .help = std::move(help),
-      .attributes = {{"namespace", AttributeType::kText, true, "", "below the scope's namespace unless it starts with '/'"}},
+      .attributes = {{"namespace", AttributeType::kText, true, "",
+                      "below the scope's namespace unless it starts with '/'"}},
       .items = {},
       .make = [](const Fields& fields) { return std::make_shared<PushRosNamespace>(fields); },
   };

@@ -57,7 +57,8 @@ bool is_valid_node_name(std::string_view name) {
   return true;
 }
 
-std::optional<std::string> resolve_namespace(const std::optional<Template>& given, Scope& scope, const SourceRange& where) {
+std::optional<std::string> resolve_namespace(const std::optional<Template>& given, Scope& scope,
+                                             const SourceRange& where) {
   const auto pushed = scope.configurations.find(kNamespaceConfiguration);
   const std::string base = pushed == scope.configurations.end() ? std::string() : pushed->second;
   if (!given && base.empty()) {

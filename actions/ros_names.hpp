@@ -14,7 +14,8 @@ bool is_valid_node_name(std::string_view name);
 
 // The namespace that `given` means in the scope: below the pushed one unless it is absolute. Nothing when neither
 // exists. Throws LaunchError, at the template or at `where` without one, when the result is no valid namespace.
-std::optional<std::string> resolve_namespace(const std::optional<Template>& given, Scope& scope, const SourceRange& where);
+std::optional<std::string> resolve_namespace(const std::optional<Template>& given, Scope& scope,
+                                             const SourceRange& where);
 
 // Makes a namespace that of the scope.
 void push_namespace(const Template& given, Scope& scope);

@@ -18,7 +18,8 @@ class SetParameter : public Action {
   void execute(LaunchContext& context) const override {
     Scope& scope = context.scope();
     std::string name = name_.perform(scope);
-    scope.global_parameters.push_back(NamedParameter{std::move(name), typed_parameter(value_.perform(scope), value_.where())});
+    scope.global_parameters.push_back(
+        NamedParameter{std::move(name), typed_parameter(value_.perform(scope), value_.where())});
   }
 
  private:

@@ -28,7 +28,8 @@ class SetRemap : public Action {
 ActionType set_remap_action() {
   return {
       .tag = "set_remap",
-      .help = "Renames a topic, a service or an action for every later node of the scope. It wins over a node's own remap.",
+      .help =
+          "Renames a topic, a service or an action for every later node of the scope. It wins over a node's own remap.",
       .attributes = {{"from", AttributeType::kText, true, "", "the name in the programs"},
                      {"to", AttributeType::kText, true, "", "the name to use"}},
       .items = {},

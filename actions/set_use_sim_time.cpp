@@ -22,8 +22,9 @@ class SetUseSimTime : public Action {
       throw LaunchError(fmt::format("expected a boolean, got '{}'", text), value_.where(), "write true or false");
     }
     if (*value) {
-      context.scope().warn(value_.where(), "set_use_sim_time has no effect: ros_timer counts system time. For nodes, use "
-                                           "set_parameter with use_sim_time");
+      context.scope().warn(value_.where(),
+                           "set_use_sim_time has no effect: ros_timer counts system time. For nodes, use "
+                           "set_parameter with use_sim_time");
     }
   }
 

@@ -22,8 +22,8 @@ class TimerAction : public Action {
   void execute(LaunchContext& context) const override {
     Scope& scope = context.scope();
     const std::chrono::duration<double> period(period_.perform(scope));
-    context.requests().timers.push_back({std::chrono::duration_cast<Duration>(period), cancel_on_shutdown_.perform(scope),
-                                         actions_, scope});
+    context.requests().timers.push_back(
+        {std::chrono::duration_cast<Duration>(period), cancel_on_shutdown_.perform(scope), actions_, scope});
   }
 
  private:
@@ -47,7 +47,9 @@ ActionType timer(std::string tag, std::string help) {
 
 }  // namespace
 
-ActionType timer_action() { return timer("timer", "Visits its actions once, a while after the system has started."); }
+ActionType timer_action() {
+  return timer("timer", "Visits its actions once, a while after the system has started.");
+}
 
 // The launcher is no ROS node and hears no /clock, so ROS time is the system's time here.
 ActionType ros_timer_action() {

@@ -1,6 +1,9 @@
 // <trace session-name="…"/>: records the run. Takes effect before any process starts, wherever it stands in the file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "actions/trace_scope.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
@@ -10,6 +13,11 @@ namespace launch {
 namespace {
 
 using Words = std::optional<std::vector<Template>>;
+
+// LTTng's timers are 32 bits wide: more than 71 minutes is as good as never.
+std::uint32_t microseconds(const NumberField& field, Scope& scope) {
+  return static_cast<std::uint32_t>(std::min<double>(field.perform(scope), std::numeric_limits<std::uint32_t>::max()));
+}
 
 class Trace : public Action {
  public:
@@ -26,9 +34,14 @@ class Trace : public Action {
         context_fields_(fields.optional_words("context-fields")),
         subbuffer_size_ust_(fields.number("subbuffer-size-ust")),
         subbuffer_size_kernel_(fields.number("subbuffer-size-kernel")),
+        init_channel_(fields.boolean("init-channel", false)),
+        subbuffer_count_ust_(fields.number("subbuffer-count-ust")),
+        read_timer_ust_(fields.number("read-timer-ust")),
+        switch_timer_ust_(fields.number("switch-timer-ust")),
         snapshot_mode_(fields.boolean("snapshot-mode", false)),
         dual_session_(fields.boolean("dual-session", false)) {
-    for (std::optional<NumberField>* size : {&subbuffer_size_ust_, &subbuffer_size_kernel_}) {
+    for (std::optional<NumberField>* size : {&subbuffer_size_ust_, &subbuffer_size_kernel_, &subbuffer_count_ust_,
+                                              &read_timer_ust_, &switch_timer_ust_}) {
       if (*size) {
         (*size)->require_not_negative();
       }
@@ -79,6 +92,16 @@ class Trace : public Action {
     if (subbuffer_size_kernel_) {
       config.subbuffer_size_kernel = static_cast<std::uint64_t>(subbuffer_size_kernel_->perform(scope));
     }
+    config.init_channel = init_channel_.perform(scope);
+    if (subbuffer_count_ust_) {
+      config.subbuffer_count_ust = static_cast<std::uint64_t>(subbuffer_count_ust_->perform(scope));
+    }
+    if (read_timer_ust_) {
+      config.read_timer_ust = microseconds(*read_timer_ust_, scope);
+    }
+    if (switch_timer_ust_) {
+      config.switch_timer_ust = microseconds(*switch_timer_ust_, scope);
+    }
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
         std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));
   }
@@ -95,6 +118,10 @@ class Trace : public Action {
   Words context_fields_;
   std::optional<NumberField> subbuffer_size_ust_;
   std::optional<NumberField> subbuffer_size_kernel_;
+  BooleanField init_channel_;
+  std::optional<NumberField> subbuffer_count_ust_;
+  std::optional<NumberField> read_timer_ust_;
+  std::optional<NumberField> switch_timer_ust_;
   BooleanField snapshot_mode_;
   BooleanField dual_session_;
 };
@@ -117,6 +144,10 @@ ActionType trace_action() {
            {"syscalls", AttributeType::kCommandLine, false, "none", "system calls"},
            {"context-fields", AttributeType::kCommandLine, false, "procname vpid vtid", "fields added to every event"},
            {"subbuffer-size-ust", AttributeType::kInteger, false, "32768", "bytes"},
+           {"init-channel", AttributeType::kBoolean, false, "false", "initialisation events in a channel of their own, ros2_init"},
+           {"subbuffer-count-ust", AttributeType::kInteger, false, "2; 4 in snapshot mode", "sub-buffers for each processor"},
+           {"read-timer-ust", AttributeType::kInteger, false, "200", "microseconds between two reads of the buffers"},
+           {"switch-timer-ust", AttributeType::kInteger, false, "0", "microseconds until a part-full sub-buffer is written; 0: never"},
            {"subbuffer-size-kernel", AttributeType::kInteger, false, "131072", "bytes"},
            {"snapshot-mode", AttributeType::kBoolean, false, "false", "keep the newest events in memory until recorded"},
            {"dual-session", AttributeType::kBoolean, false, "false", "be the snapshot half of a dual session"}},

@@ -177,6 +177,10 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"syscalls", config_.syscalls},
           {"context-fields", config_.context_fields_ust},
           {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
+          {"init-channel", config_.init_channel},
+          {"subbuffer-count-ust", static_cast<std::int64_t>(config_.subbuffer_count_ust)},
+          {"read-timer-ust", static_cast<std::int64_t>(config_.read_timer_ust)},
+          {"switch-timer-ust", static_cast<std::int64_t>(config_.switch_timer_ust)},
           {"subbuffer-size-kernel", static_cast<std::int64_t>(config_.subbuffer_size_kernel)},
           {"snapshot-mode", config_.snapshot_mode},
           {"dual-session", config_.dual_session}};

@@ -16,6 +16,8 @@ struct CommandLine {
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value, in order
   bool debug = false;
   bool timing = false;
+  bool trace = false;  // record the launch also when its file has no <trace>
+  bool strict_arguments = false;
   bool show_all_output = false;
   std::string launch_prefix;
   std::string launch_prefix_filter;

@@ -75,7 +75,8 @@ Json node_as_json(const YamlNode& node) {
       break;
   }
   // What the tag of a scalar says is as good as quotes.
-  return node.is_plain || node.is_null() ? plain_scalar_as_json(node.scalar.text.text()) : Json(node.scalar.text.text());
+  return node.is_plain || node.is_null() ? plain_scalar_as_json(node.scalar.text.text())
+                                         : Json(node.scalar.text.text());
 }
 
 }  // namespace

@@ -51,6 +51,12 @@ std::string attribute_table(const std::vector<AttributeSpec>& attributes) {
   return text + "\n";
 }
 
+std::string item_section(const ItemSpec& item, const std::string& kind) {
+  return fmt::format("{} `{}`: {}{}{}.\n\n", kind, item.tag, item.help, item.recursive ? "; may be nested" : "",
+                     item.has_condition ? "; takes `if` and `unless`" : "") +
+         attribute_table(item.attributes);
+}
+
 }  // namespace
 
 std::string reference_page(const Registry& registry) {
@@ -59,8 +65,10 @@ std::string reference_page(const Registry& registry) {
       "\n"
       "Made by `launch reference` from the declarations of the actions and substitutions.\n"
       "\n"
-      "Every action also takes `if` and `unless`. Types: **text** with substitutions, **literal** text without, **boolean**, "
-      "**float** and **integer** as a literal or substitutions that give one, **words** split as a shell does, **any** scalar "
+      "Every action also takes `if` and `unless`. Types: **text** with substitutions, **literal** text without, "
+      "**boolean**, "
+      "**float** and **integer** as a literal or substitutions that give one, **words** split as a shell does, **any** "
+      "scalar "
       "or list.\n"
       "\n"
       "## Actions\n"
@@ -69,8 +77,10 @@ std::string reference_page(const Registry& registry) {
     text += fmt::format("### `{}`\n\n{}{}\n\n", tag, type.help, type.holds_actions ? " Holds actions." : "");
     text += attribute_table(type.attributes);
     for (const ItemSpec& item : type.items) {
-      text += fmt::format("Item `{}`: {}{}.\n\n", item.tag, item.help, item.recursive ? "; may be nested" : "");
-      text += attribute_table(item.attributes);
+      text += item_section(item, "Item");
+      for (const ItemSpec& nested : item.items) {
+        text += item_section(nested, fmt::format("Item of `{}`,", item.tag));
+      }
     }
   }
   text += "## Substitutions\n\n| substitution | gives |\n| --- | --- |\n";

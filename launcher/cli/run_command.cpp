@@ -7,8 +7,10 @@
 #include <filesystem>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
 #include "launcher/core/launch_service.hpp"
@@ -34,6 +36,16 @@ void set_arguments(const CommandLine& command, Scope& scope) {
   if (!command.launch_prefix_filter.empty()) {
     scope.configurations.insert_or_assign("launch-prefix-filter", command.launch_prefix_filter);
   }
+}
+
+// Throws LaunchError for what is wrong with the launch arguments if that is an error, else warns.
+void report_arguments(const CommandLine& command, const LaunchDescription& description, const ArgumentList& declared) {
+  const Severity severity = command.strict_arguments ? Severity::kError : Severity::kWarning;
+  std::vector<Diagnostic> found = check_arguments(command.arguments, description, declared, severity);
+  if (command.strict_arguments && !found.empty()) {
+    throw LaunchError(std::move(found));
+  }
+  fmt::print(stderr, "{}", render(found, ::isatty(STDERR_FILENO) != 0));
 }
 
 void print_timing(const std::vector<TimedStep>& steps) {
@@ -119,7 +131,13 @@ int run_command(const CommandLine& command, Environment environment) {
     set_arguments(command, context.scope());
 
     const auto before = std::chrono::steady_clock::now();
-    const auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    if (!command.arguments.empty()) {
+      report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
+    }
+    if (command.trace) {
+      description = with_trace(*description, registry);
+    }
     const TimedStep load = {"load", std::chrono::steady_clock::now() - before};
     switch (command.mode) {
       case CommandMode::kShowArguments:

@@ -140,8 +140,9 @@ void ActionParser::report_unknown_child(const Entity& parent, const Entity& chil
       known.push_back(tag);
     }
   }
-  const std::string message = actions ? fmt::format("unrecognized entity of the type '{}'", child.type_name)
-                                      : fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name);
+  const std::string message =
+      actions ? fmt::format("unrecognized entity of the type '{}'", child.type_name)
+              : fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name);
   errors_.push_back({Severity::kError, message, child.where, did_you_mean(child.type_name, known)});
 }
 
@@ -163,10 +164,11 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
       }
       // A YAML list without items looks like the empty value of an attribute.
       const bool is_item = std::find(items.begin(), items.end(), attribute.name) != items.end();
-      errors_.push_back({Severity::kError,
-                         is_item ? fmt::format("expected '{}' of '{}' to be a list of mappings", attribute.name, entity.type_name)
-                                 : fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
-                         attribute.name_where, is_item ? "leave it out when there is none" : did_you_mean(attribute.name, known)});
+      errors_.push_back(
+          {Severity::kError,
+           is_item ? fmt::format("expected '{}' of '{}' to be a list of mappings", attribute.name, entity.type_name)
+                   : fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
+           attribute.name_where, is_item ? "leave it out when there is none" : did_you_mean(attribute.name, known)});
       continue;
     }
     collect([&] {
@@ -176,9 +178,9 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
   }
   for (const AttributeSpec& spec : specs) {
     if (spec.required && entity.find(spec.name) == nullptr) {
-      errors_.push_back({Severity::kError,
-                         fmt::format("attribute '{}' not found in entity '{}'", spec.name, entity.type_name),
-                         entity.where, spec.help.empty() ? std::string() : fmt::format("{}: {}", spec.name, spec.help)});
+      errors_.push_back(
+          {Severity::kError, fmt::format("attribute '{}' not found in entity '{}'", spec.name, entity.type_name),
+           entity.where, spec.help.empty() ? std::string() : fmt::format("{}: {}", spec.name, spec.help)});
     }
   }
 }

@@ -14,8 +14,8 @@ struct ComposableNode {
   std::string package;
   std::string plugin;
   std::string name;
-  std::string name_space;                          // empty: the container's choice
-  std::vector<NamedParameter> parameters;          // in order, the last of a name wins
+  std::string name_space;                                   // empty: the container's choice
+  std::vector<NamedParameter> parameters;                   // in order, the last of a name wins
   std::vector<std::pair<std::string, std::string>> remaps;  // from, to
   std::vector<NamedParameter> extra_arguments;
   SourceRange origin;

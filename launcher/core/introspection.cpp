@@ -23,7 +23,8 @@ class Walk {
   Walk(const Registry& registry, Scope scope, bool follow_dirname, Seen seen)
       : registry_(registry), scope_(std::move(scope)), follow_dirname_(follow_dirname), seen_(std::move(seen)) {}
 
-  void description(const LaunchDescription& description, const std::set<std::string>& given, bool conditional, int depth) {
+  void description(const LaunchDescription& description, const std::set<std::string>& given, bool conditional,
+                   int depth) {
     const std::shared_ptr<const SourceFile> outer = scope_.current_file;
     scope_.current_file = follow_dirname_ ? description.file : nullptr;
     actions(description.actions, given, conditional, depth);
@@ -31,9 +32,11 @@ class Walk {
   }
 
   std::vector<std::shared_ptr<const LaunchDescription>> take_loaded() { return std::move(loaded_); }
+  bool complete() const { return complete_; }
 
  private:
-  void actions(const std::vector<ActionPtr>& actions_to_walk, const std::set<std::string>& given, bool conditional, int depth) {
+  void actions(const std::vector<ActionPtr>& actions_to_walk, const std::set<std::string>& given, bool conditional,
+               int depth) {
     for (const ActionPtr& action : actions_to_walk) {
       const Introspection known = action->introspect();
       const bool maybe = conditional || action->is_conditional();
@@ -57,6 +60,7 @@ class Walk {
         given.insert(name.perform(scope_));
       }
     } catch (const LaunchError&) {
+      complete_ = false;
       return;  // not to be known before it is visited, where the error is reported
     }
     loaded_.push_back(included);
@@ -68,6 +72,7 @@ class Walk {
   bool follow_dirname_;
   Seen seen_;
   std::vector<std::shared_ptr<const LaunchDescription>> loaded_;
+  bool complete_ = true;
 };
 
 std::string quoted_list(const std::vector<std::string>& names) {
@@ -91,6 +96,7 @@ ArgumentList find_arguments(const LaunchDescription& description, const Registry
             });
   walk.description(description, {}, false, 0);
   list.loaded = walk.take_loaded();
+  list.complete = walk.complete();
   return list;
 }
 
@@ -103,12 +109,13 @@ void check_required_arguments(const LaunchDescription& description, const Regist
                 return;
               }
               const std::vector<std::string> listed(names.begin(), names.end());
-              missing.emplace(fmt::format("included launch description missing required argument '{}' (description: '{}'), "
-                                          "given: {}",
-                                          declaration.name, declaration.description, quoted_list(listed)),
-                              where,
-                              fmt::format("it is declared without a default at {}; add an arg of that name to the include",
-                                          to_string(declaration.where)));
+              missing.emplace(
+                  fmt::format("included launch description missing required argument '{}' (description: '{}'), "
+                              "given: {}",
+                              declaration.name, declaration.description, quoted_list(listed)),
+                  where,
+                  fmt::format("it is declared without a default at {}; add an arg of that name to the include",
+                              to_string(declaration.where)));
             });
   walk.description(description, std::set<std::string>(given.begin(), given.end()), false, 0);
   if (missing) {
@@ -128,8 +135,9 @@ std::string show_arguments(const ArgumentList& list) {
     text += fmt::format("\n    '{}':{}\n", argument.name, info.conditional ? "*" : "");
     std::string description = argument.description;
     if (!argument.choices.empty()) {
-      description = description.empty() ? fmt::format("One of: {}", quoted_list(argument.choices))
-                                        : fmt::format("{}. Valid choices are: {}", description, quoted_list(argument.choices));
+      description = description.empty()
+                        ? fmt::format("One of: {}", quoted_list(argument.choices))
+                        : fmt::format("{}. Valid choices are: {}", description, quoted_list(argument.choices));
     }
     text += fmt::format("        {}\n", description.empty() ? "no description given" : description);
     if (argument.default_value) {

@@ -21,6 +21,7 @@ struct ArgumentInfo {
 struct ArgumentList {
   std::vector<ArgumentInfo> arguments;
   std::vector<std::shared_ptr<const LaunchDescription>> loaded;
+  bool complete = true;  // no include was passed over
 };
 ArgumentList find_arguments(const LaunchDescription& description, const Registry& registry, Scope scope);
 

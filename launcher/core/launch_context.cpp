@@ -67,7 +67,9 @@ void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions)
   visit(actions);
 }
 
-Requests LaunchContext::take_requests() { return std::exchange(requests_, Requests{}); }
+Requests LaunchContext::take_requests() {
+  return std::exchange(requests_, Requests{});
+}
 
 void LaunchContext::note_node(const std::string& fully_qualified_name) {
   const int count = ++nodes_[fully_qualified_name];

@@ -38,9 +38,9 @@ struct ItemSpec {
   std::string tag;
   std::string help;
   std::vector<AttributeSpec> attributes;
-  bool recursive = false;        // may hold items of its own tag
-  std::vector<ItemSpec> items;   // that it may hold besides
-  bool has_condition = false;    // takes `if` and `unless`
+  bool recursive = false;       // may hold items of its own tag
+  std::vector<ItemSpec> items;  // that it may hold besides
+  bool has_condition = false;   // takes `if` and `unless`
 };
 
 struct ActionType {

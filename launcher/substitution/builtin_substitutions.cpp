@@ -66,11 +66,13 @@ std::string find_pkg_prefix(const SubstitutionCall& call) {
 
 std::string find_pkg_share(const SubstitutionCall& call) {
   const std::string package = call.text(0);
-  std::string path = call.look_up([&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
-                      [&](PackageIndex& index) { return index.packages(call.scope().environment); });
+  std::string path =
+      call.look_up([&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
+                   [&](PackageIndex& index) { return index.packages(call.scope().environment); });
   std::error_code ignored;
   if (call.scope().warn && !std::filesystem::is_directory(path, ignored)) {
-    call.scope().warn(call.where(), fmt::format("package '{}' has no share directory: '{}' does not exist", package, path));
+    call.scope().warn(call.where(),
+                      fmt::format("package '{}' has no share directory: '{}' does not exist", package, path));
   }
   return path;
 }
@@ -162,8 +164,9 @@ std::string param(const SubstitutionCall& call) {
   }
   std::string help = did_you_mean(name, names);
   call.fail(fmt::format("parameter '{}' does not exist", name),
-            help.empty() ? fmt::format("set it before with 'set_parameter', or give a default: $(param {} DEFAULT)", name)
-                         : std::move(help));
+            help.empty()
+                ? fmt::format("set it before with 'set_parameter', or give a default: $(param {} DEFAULT)", name)
+                : std::move(help));
 }
 
 std::string loop_variable(const SubstitutionCall& call, const char* kind, const char* loop) {
@@ -277,7 +280,8 @@ const std::vector<SubstitutionType>& substitution_types() {
       {"anon", 1, 1, "$(anon NAME)", "NAME made unique", make(anon, "AnonName({0})")},
       {"param", 1, 2, "$(param NAME [DEFAULT])", "value of an earlier set_parameter", make(param, "Parameter({0})")},
       {"file-content", 1, 1, "$(file-content PATH)", "text of a file", make(file_content, "FileContent({0})")},
-      {"for-var", 1, 2, "$(for-var NAME [DEFAULT])", "variable of the enclosing for_each", make(for_var, "ForEachVar({0})")},
+      {"for-var", 1, 2, "$(for-var NAME [DEFAULT])", "variable of the enclosing for_each",
+       make(for_var, "ForEachVar({0})")},
       {"index", 1, 1, "$(index NAME)", "index of the enclosing for", make(index, "ForLoopIndex({0})")},
   };
   return types;

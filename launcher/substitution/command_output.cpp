@@ -53,7 +53,7 @@ std::vector<char*> pointers(const std::vector<std::string>& words) {
 }  // namespace
 
 CommandOutput capture_command(const std::string& program, const std::vector<std::string>& argv,
-                          const Environment& environment, bool merge_error) {
+                              const Environment& environment, bool merge_error) {
   Pipe out = make_pipe();
   Pipe error = make_pipe();
   std::vector<std::string> variables;
@@ -74,7 +74,8 @@ CommandOutput capture_command(const std::string& program, const std::vector<std:
   ::posix_spawn_file_actions_adddup2(&files, out.write.get(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&files, (merge_error ? out : error).write.get(), STDERR_FILENO);
   pid_t pid = 0;
-  const int failure = ::posix_spawn(&pid, program.c_str(), &files, &attributes, pointers(argv).data(), pointers(variables).data());
+  const int failure =
+      ::posix_spawn(&pid, program.c_str(), &files, &attributes, pointers(argv).data(), pointers(variables).data());
   ::posix_spawn_file_actions_destroy(&files);
   ::posix_spawnattr_destroy(&attributes);
   if (failure != 0) {

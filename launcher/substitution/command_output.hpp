@@ -14,10 +14,10 @@ struct CommandOutput {
   int status = 0;     // as waitpid() gives it
 };
 
-// Blocks until the program has ended. `program` is a path; its standard input is empty. Throws std::runtime_error when it
-// can't be started.
+// Blocks until the program has ended. `program` is a path; its standard input is empty. Throws std::runtime_error when
+// it can't be started.
 CommandOutput capture_command(const std::string& program, const std::vector<std::string>& argv,
-                          const Environment& environment, bool merge_error);
+                              const Environment& environment, bool merge_error);
 
 // "exit code 2", "killed by signal 9".
 std::string describe_status(int status);

@@ -30,8 +30,9 @@ std::string command(const SubstitutionCall& call) {
   const std::string on_stderr = call.has(1) ? call.text(1) : "fail";
   const std::vector<std::string> policies = {"fail", "warn", "ignore", "capture"};
   if (std::find(policies.begin(), policies.end(), on_stderr) == policies.end()) {
-    throw LaunchError(fmt::format("'{}' is not what to do with standard error, expected fail, warn, ignore or capture", on_stderr),
-                      call.where(1), did_you_mean(on_stderr, policies));
+    throw LaunchError(
+        fmt::format("'{}' is not what to do with standard error, expected fail, warn, ignore or capture", on_stderr),
+        call.where(1), did_you_mean(on_stderr, policies));
   }
   const std::vector<std::string> words = split_shell_words(line, call.where(0));
   if (words.empty()) {
@@ -58,7 +59,8 @@ std::string command(const SubstitutionCall& call) {
               fmt::format("{}; to accept that: $(command '…' warn), or ignore, or capture", said));
   }
   if (!output.error.empty() && on_stderr == "warn" && call.scope().warn) {
-    call.scope().warn(call.where(), fmt::format("command '{}' wrote to standard error: {}", line, last_line(output.error)));
+    call.scope().warn(call.where(),
+                      fmt::format("command '{}' wrote to standard error: {}", line, last_line(output.error)));
   }
   return output.text;
 }
@@ -70,11 +72,13 @@ std::string eval(const SubstitutionCall& call) {
   } catch (const std::runtime_error& error) {
     std::string help;
     for (const char* const word : {"true", "false"}) {
-      if (std::string_view(error.what()).find(fmt::format("name '{}' is not defined", word)) != std::string_view::npos) {
+      if (std::string_view(error.what()).find(fmt::format("name '{}' is not defined", word)) !=
+          std::string_view::npos) {
         help = fmt::format("Python writes booleans True and False; compare the text: \"$(var x)\" == \"{}\"", word);
       }
     }
-    call.fail(fmt::format("failed to evaluate the Python expression '{}': {}", expression, error.what()), std::move(help));
+    call.fail(fmt::format("failed to evaluate the Python expression '{}': {}", expression, error.what()),
+              std::move(help));
   }
 }
 

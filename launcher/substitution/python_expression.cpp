@@ -38,7 +38,9 @@ PythonEvaluate load_module() {
 
 }  // namespace
 
-void use_python_module(std::string path) { module_path() = std::move(path); }
+void use_python_module(std::string path) {
+  module_path() = std::move(path);
+}
 
 std::string evaluate_python(const std::string& expression, const std::string& modules) {
   static const PythonEvaluate evaluate = load_module();

@@ -1,7 +1,7 @@
 // `launch --dry-run=json` agrees with the recorded behaviour of the reference engine, launch file by launch file.
 //
-// The records and the program that compares (`compare`) come with the files. deliberate_differences.tsv lists the records
-// that differ on purpose, each with its reason; a row that no longer applies fails as well.
+// The records and the program that compares (`compare`) come with the files. deliberate_differences.tsv lists the
+// records that differ on purpose, each with its reason; a row that no longer applies fails as well.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -66,7 +66,8 @@ class Conformance : public testing::TestWithParam<const char*> {
 
 TEST_P(Conformance, PlansAgreeWithTheReferenceButForDeliberateDifferences) {
   const fs::path prefix = directory_ / "prefix";
-  ASSERT_EQ(test_support::run_command({kPython, SHARED_CORPUS "/make_prefix", prefix.string(), "--standins"}).exit_code, 0);
+  ASSERT_EQ(test_support::run_command({kPython, SHARED_CORPUS "/make_prefix", prefix.string(), "--standins"}).exit_code,
+            0);
   const fs::path report = directory_ / "report.jsonl";
   const CommandResult result = test_support::run_command(
       {{kPython, SHARED_CORPUS "/compare", SHARED_CORPUS "/expected.jsonl", "--corpus", SHARED_CORPUS "/launch_files",
@@ -88,8 +89,8 @@ TEST_P(Conformance, PlansAgreeWithTheReferenceButForDeliberateDifferences) {
         << difference.first << " (" << row["variant"] << ") " << difference.second << ": " << row["text"];
   }
   for (const Difference& difference : deliberate) {
-    EXPECT_TRUE(found.contains(difference)) << difference.first << " agrees in " << difference.second
-                                            << ": remove it from the deliberate differences";
+    EXPECT_TRUE(found.contains(difference))
+        << difference.first << " agrees in " << difference.second << ": remove it from the deliberate differences";
   }
 }
 

@@ -37,7 +37,8 @@ TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
 TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
   const CommandResult result = launch({"reference"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md")) << "./dev launch reference > docs/launch_reference.md";
+  EXPECT_EQ(result.out, read_file(DOCS_DIRECTORY "/launch_reference.md"))
+      << "./dev launch reference > docs/launch_reference.md";
 }
 
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
@@ -77,6 +78,27 @@ TEST_F(CommandLine, ShowArgsIsEqualForBothFormats) {
             "        milliseconds between two messages\n"
             "        (default: '100')\n");
   EXPECT_EQ(xml.out, yaml.out);
+}
+
+TEST_F(CommandLine, UnknownAndRepeatedArgumentsAreReported) {
+  const auto file = sandbox_.directory() / "args.launch.xml";
+  write_file(file, "<launch><arg name=\"rate\" default=\"1\"/><log message=\"$(var read '')\"/></launch>\n");
+  const std::string warning =
+      "warning: launch argument 'rat' is unknown to the launch file\n"
+      "      = help: did you mean 'rate'?\n"
+      "warning: launch argument 'rate' is given more than once\n"
+      "      = help: the last one counts\n"
+      "[launch.user]: \n";
+  const CommandResult tolerant = launch({"--dry-run", file.string(), "rat:=2", "rate:=3", "rate:=4"});
+  EXPECT_EQ(tolerant.exit_code, 0);
+  EXPECT_EQ(tolerant.err, warning);
+  const CommandResult strict = launch({"--dry-run", "--strict-args", file.string(), "rat:=2"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_EQ(strict.err,
+            "error: launch argument 'rat' is unknown to the launch file\n"
+            "      = help: did you mean 'rate'?\n");
+  EXPECT_EQ(launch({"--dry-run", "--strict-args", file.string(), "rate:=2", "emulate_tty:=true", "read:=x"}).err,
+            "[launch.user]: x\n");
 }
 
 TEST_F(CommandLine, DryRunOfAllProcessAttributes) {

@@ -126,6 +126,22 @@ TEST_F(Supervision, NothingSurvivesWhenTheLauncherIsKilled) {
   wait_until_all_have_gone();
 }
 
+TEST_F(Supervision, TraceOptionRecordsAFileWithoutATrace) {
+  const std::string file = write(R"xml(<executable cmd="true"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "--trace", file});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+  EXPECT_THAT(result.out, HasSubstr("writing tracing session to: " + sandbox_.trace_directory().string() + "/system-2"));
+}
+
+TEST_F(Supervision, TraceOptionLeavesAFileWithATraceAsItIs) {
+  const std::string file = write(R"xml(<executable cmd="true"/><group><trace session-name="own"/></group>)xml");
+  const CommandResult plan = run_command({LAUNCH_PROGRAM, "--trace", "--dry-run", file});
+  EXPECT_EQ(plan.exit_code, 0) << plan.err;
+  EXPECT_THAT(plan.out, HasSubstr("1 processes, 1 traces; nothing was started\n"));
+  EXPECT_THAT(plan.out, HasSubstr("own"));
+}
+
 TEST_F(Supervision, LostEventsFailTheRunWhereTheFileSaysSo) {
   // The smallest buffers, and more events at once than they hold: every malloc of a shell script that copies text.
   const std::string traced = R"xml(<trace session-name="$(var name)" events-ust="lttng_ust_libc:*" subbuffer-size-ust="4096"

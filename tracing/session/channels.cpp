@@ -15,11 +15,13 @@ namespace tracing {
 namespace {
 
 constexpr const char* kUserspaceChannel = "ros2";
+constexpr const char* kInitialisationChannel = "ros2_init";
+constexpr const char* kAllRosEvents = "ros2:*";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint64_t kSubbuffers = 2;
 constexpr std::uint64_t kSubbuffersOfSnapshot = 4;
-constexpr unsigned int kReadTimer = 200;  // µs: the consumer polls, no traced process has to wake it
-constexpr unsigned int kSwitchTimer = 0;  // off: a sub-buffer is handed over when it is full
+constexpr unsigned int kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
+constexpr std::uint64_t kMostSubbuffers = std::uint64_t{1} << 20;
 constexpr std::uint64_t kLargestSubbuffer = std::uint64_t{1} << 40;
 
 lttng_domain make_domain(lttng_domain_type type) {
@@ -52,6 +54,43 @@ std::uint64_t usable_subbuffer_size(std::uint64_t given, lttng_domain_type domai
                     given, domain_name(domain), usable));
   }
   return usable;
+}
+
+std::uint64_t default_subbuffer_count(const TraceConfig& config) {
+  return config.records_snapshots() ? kSubbuffersOfSnapshot : kSubbuffers;
+}
+
+// A power of two, and two at least: one is written to while the other is read.
+std::uint64_t usable_subbuffer_count(const TraceConfig& config, std::vector<std::string>& warnings) {
+  const std::uint64_t given = config.subbuffer_count_ust;
+  if (given == 0) return default_subbuffer_count(config);
+  if (given > kMostSubbuffers)
+    throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
+  const std::uint64_t usable = std::bit_ceil(std::max(given, kSubbuffers));
+  if (usable != given) {
+    warnings.push_back(fmt::format(
+        "number of sub-buffers {} is rounded up to {}: LTTng needs a power of two, at least 2", given, usable));
+  }
+  return usable;
+}
+
+// Moves the initialisation events of the userspace channel, which is the first plan, to a channel of their own. A
+// pattern other than "ros2:*" stays where it is: an event that two rules match would be recorded twice.
+void split_initialisation_events(std::vector<DomainPlan>& plans) {
+  const std::vector<std::string>& all = initialisation_ros_events();
+  const std::set<std::string> initialisation(all.begin(), all.end());
+  DomainPlan first = plans.front();
+  first.channel = kInitialisationChannel;
+  first.events.clear();
+  std::vector<std::string> rest;
+  for (const std::string& name : plans.front().events) {
+    const std::vector<std::string> names = name == kAllRosEvents ? default_ros_events() : std::vector{name};
+    for (const std::string& event : names) (initialisation.contains(event) ? first.events : rest).push_back(event);
+  }
+  first.events = without_repetitions(first.events);
+  plans.front().events = without_repetitions(rest);
+  if (rest.empty()) plans.erase(plans.begin());
+  if (!first.events.empty()) plans.insert(plans.begin(), std::move(first));
 }
 
 void enable_event(lttng_handle* handle, const std::string& name, lttng_event_type type, const std::string& channel) {
@@ -96,6 +135,9 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
                      .syscalls = {},
                      .context_fields = without_repetitions(config.context_fields_ust),
                      .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_ust, LTTNG_DOMAIN_UST, warnings),
+                     .subbuffer_count = usable_subbuffer_count(config, warnings),
+                     .read_timer = config.read_timer_ust,
+                     .switch_timer = config.switch_timer_ust,
                      .overwrite = config.records_snapshots()});
   }
   if (!config.events_kernel.empty() || !config.syscalls.empty()) {
@@ -106,8 +148,11 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
          .syscalls = without_repetitions(config.syscalls),
          .context_fields = without_repetitions(config.context_fields_kernel),
          .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_kernel, LTTNG_DOMAIN_KERNEL, warnings),
+         .subbuffer_count = default_subbuffer_count(config),
+         .read_timer = kKernelReadTimer,
          .overwrite = config.records_snapshots()});
   }
+  if (config.init_channel && !config.events_ust.empty()) split_initialisation_events(plans);
   for (const DomainPlan& plan : plans) {
     for (const std::string& name : plan.context_fields) ContextField{name, plan.domain};
   }
@@ -122,9 +167,9 @@ void enable_channel(const std::string& lttng_session_name, const DomainPlan& pla
   plan.channel.copy(channel->name, sizeof channel->name - 1);
   channel->attr.overwrite = plan.overwrite ? 1 : 0;
   channel->attr.subbuf_size = plan.subbuffer_size;
-  channel->attr.num_subbuf = plan.overwrite ? kSubbuffersOfSnapshot : kSubbuffers;
-  channel->attr.switch_timer_interval = kSwitchTimer;
-  channel->attr.read_timer_interval = kReadTimer;
+  channel->attr.num_subbuf = plan.subbuffer_count;
+  channel->attr.switch_timer_interval = plan.switch_timer;
+  channel->attr.read_timer_interval = plan.read_timer;
   channel->attr.output = LTTNG_EVENT_MMAP;
   const DomainHandle handle = domain_handle(lttng_session_name, plan.domain);
   check_lttng(lttng_enable_channel(handle.get(), channel.get()),

@@ -179,11 +179,13 @@ std::string session_as_text(const SessionDetails& session) {
 std::string events_as_text(const TraceableEvents& events) {
   std::string text;
   if (events.started_daemon) {
-    text += "the session daemon was not running and has been started: programs that run already tell it of their events "
-            "within a moment\n";
+    text +=
+        "the session daemon was not running and has been started: programs that run already tell it of their events "
+        "within a moment\n";
   }
   if (events.userspace.empty()) {
-    text += "userspace: no running program has registered events; rules for events to come can be enabled all the same\n";
+    text +=
+        "userspace: no running program has registered events; rules for events to come can be enabled all the same\n";
   } else {
     text += fmt::format("userspace: {} of running programs\n", counted(events.userspace.size(), "event"));
     for (const TraceableEvent& event : events.userspace) {

@@ -62,6 +62,13 @@ void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOp
   command.add_flag("--snapshot-mode", config.snapshot_mode, "keep the newest events in memory until record_snapshot");
   command.add_option("--subbuffer-size-ust", config.subbuffer_size_ust, "sub-buffers of the userspace channel")
       ->option_text("BYTES");
+  command.add_flag("--init-channel", config.init_channel, "initialisation events in a channel of their own, ros2_init");
+  command.add_option("--subbuffer-count-ust", config.subbuffer_count_ust, "how many for each processor (default: 2)")
+      ->option_text("NUMBER");
+  command.add_option("--read-timer-ust", config.read_timer_ust, "time between two reads of the buffers (default: 200)")
+      ->option_text("MICROSECONDS");
+  command.add_option("--switch-timer-ust", config.switch_timer_ust, "time until a part-full sub-buffer is written")
+      ->option_text("MICROSECONDS");
   command.add_option("--subbuffer-size-kernel", config.subbuffer_size_kernel, "sub-buffers of the kernel channel")
       ->option_text("BYTES");
 }

@@ -95,7 +95,8 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void write_verdict(const LossAccount& account, const std::string& session_name, const std::filesystem::path& directory) {
+void write_verdict(const LossAccount& account, const std::string& session_name,
+                   const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / kVerdictFile;
   std::ofstream file(path);
   file << verdict_as_json(account, session_name) << std::flush;

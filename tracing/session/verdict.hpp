@@ -16,8 +16,8 @@ inline constexpr const char* kVerdictFile = "verdict.json";
 //
 // The rule: while events are lost the buffers of a processor are full. What they would have had to take more than they
 // have is the longest unbroken run of losses, in events, at kBytesPerLostEvent each. Twice the sum of both, in
-// kAdvisedSubbuffers sub-buffers of a power of two, is advised. Longer overload than that can't be buffered away: beyond
-// kLargestAdvice nothing is advised.
+// kAdvisedSubbuffers sub-buffers of a power of two, is advised. Longer overload than that can't be buffered away:
+// beyond kLargestAdvice nothing is advised.
 void explain_losses(LossAccount& account, const std::filesystem::path& directory);
 
 inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 with the three contexts has 60 to 110

@@ -2,8 +2,8 @@
 //
 // Standard input is a socket to the launcher, which tells of each process group that it starts and of each that it has
 // ended. When the launcher disappears, also by kill -9, the socket closes. Groups still known then get SIGTERM, and
-// SIGKILL when their leader has ended or the grace period is over. After that the clean-up commands run that the launcher
-// named and did not take back, the last one first.
+// SIGKILL when their leader has ended or the grace period is over. After that the clean-up commands run that the
+// launcher named and did not take back, the last one first.
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -73,8 +73,8 @@ Remains follow_launcher(int socket) {
         remains.groups.erase(record.id);
         break;
       case GuardianRecord::Kind::kAddCleanUp:
-        remains.clean_ups[record.id] = split_words(
-            {message.data() + sizeof record, static_cast<std::size_t>(size) - sizeof record});
+        remains.clean_ups[record.id] =
+            split_words({message.data() + sizeof record, static_cast<std::size_t>(size) - sizeof record});
         break;
       case GuardianRecord::Kind::kRemoveCleanUp:
         remains.clean_ups.erase(record.id);

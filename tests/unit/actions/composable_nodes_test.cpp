@@ -65,32 +65,36 @@ TEST(ComposableNodes, ParameterFilesGiveTheSectionsThatMatch) {
                          "/*/talker:\n  ros__parameters: {d: yes}\n";
   const Planned planned = plan_actions(R"xml(
     <load_composable_node target="c">
-      <composable_node pkg="demo" plugin="demo::Talker" name="talker" namespace="ns"><param from=")xml" + path.string() +
+      <composable_node pkg="demo" plugin="demo::Talker" name="talker" namespace="ns"><param from=")xml" +
+                                       path.string() +
                                        R"xml("/></composable_node>
     </load_composable_node>)xml");
   std::filesystem::remove(path);
   ASSERT_EQ(planned.error, "");
   ASSERT_EQ(planned.plan.loads.size(), 1U);
   EXPECT_EQ(planned.plan.loads[0].target, "c");
-  EXPECT_THAT(texts_of(planned.plan.loads[0].nodes[0].parameters), ElementsAre("a=3", "n.b=2.5", "c=('x', 'y')", "d=True"));
+  EXPECT_THAT(texts_of(planned.plan.loads[0].nodes[0].parameters),
+              ElementsAre("a=3", "n.b=2.5", "c=('x', 'y')", "d=True"));
 }
 
 TEST(ComposableNodes, AMissingParameterFileIsAnError) {
   EXPECT_THAT(plan_actions(R"xml(<load_composable_node target="c">
       <composable_node pkg="demo" plugin="demo::Talker" name="t"><param from="/nowhere.yaml"/></composable_node>
-    </load_composable_node>)xml").error,
+    </load_composable_node>)xml")
+                  .error,
               HasSubstr("parameter file path is not a file: /nowhere.yaml"));
 }
 
 TEST(ComposableNodes, ARunRefusesThemAtTheirLine) {
-  EXPECT_EQ(run_error("<node_container exec=\"c\" name=\"c\" namespace=\"\">\n"
-                      "<composable_node pkg=\"p\" plugin=\"p::T\" name=\"t\"/>\n"
-                      "</node_container>"),
-            "/test/system.launch.xml:3:2: error: composable nodes can't be loaded: this launcher can't call the container's "
-            "services\n"
-            "    3 | <composable_node pkg=\"p\" plugin=\"p::T\" name=\"t\"/>\n"
-            "      |  ^~~~~~~~~~~~~~~\n"
-            "      = help: run the node as a process of its own: <node pkg=… exec=…>");
+  EXPECT_EQ(
+      run_error("<node_container exec=\"c\" name=\"c\" namespace=\"\">\n"
+                "<composable_node pkg=\"p\" plugin=\"p::T\" name=\"t\"/>\n"
+                "</node_container>"),
+      "/test/system.launch.xml:3:2: error: composable nodes can't be loaded: this launcher can't call the container's "
+      "services\n"
+      "    3 | <composable_node pkg=\"p\" plugin=\"p::T\" name=\"t\"/>\n"
+      "      |  ^~~~~~~~~~~~~~~\n"
+      "      = help: run the node as a process of its own: <node pkg=… exec=…>");
   EXPECT_EQ(run_error("<node_container exec=\"c\" name=\"c\" namespace=\"\"/>"), "");
   EXPECT_THAT(run_error(R"xml(<lifecycle_node exec="n" name="x" namespace="" autostart="true"/>)xml"),
               HasSubstr("autostart can't be carried out"));
@@ -101,10 +105,11 @@ TEST(ComposableNodes, ItemsAreCheckedLikeActions) {
               HasSubstr("load_composable_node needs a composable_node"));
   EXPECT_THAT(plan_actions(R"xml(<load_composable_node target="c">
       <composable_node pkg="p" plugin="q" name="n" iff="1"><parm name="a" value="1"/></composable_node>
-    </load_composable_node>)xml").error,
-              testing::AllOf(HasSubstr("unexpected attribute 'iff' in 'composable_node'"), HasSubstr("did you mean 'if'?"),
-                             HasSubstr("unexpected nested tag 'parm' in 'composable_node'"),
-                             HasSubstr("did you mean 'param'?")));
+    </load_composable_node>)xml")
+                  .error,
+              testing::AllOf(
+                  HasSubstr("unexpected attribute 'iff' in 'composable_node'"), HasSubstr("did you mean 'if'?"),
+                  HasSubstr("unexpected nested tag 'parm' in 'composable_node'"), HasSubstr("did you mean 'param'?")));
 }
 
 TEST(PythonIncludes, AreNotedByAPlanAndRefusedByARun) {
@@ -115,9 +120,11 @@ TEST(PythonIncludes, AreNotedByAPlanAndRefusedByARun) {
   EXPECT_THAT(planned.plan.logs, ElementsAre("1"));
   EXPECT_EQ(run_error(text),
             "/test/system.launch.xml:2:16: error: Python launch files can't be included: /nowhere/x.launch.py\n"
-            "    2 | " + text + "\n"
-            "      |                ^~~~~~~~~~~~~~~~~~~~\n"
-            "      = help: rewrite it in XML or YAML, or launch it with ros2 launch");
+            "    2 | " +
+                text +
+                "\n"
+                "      |                ^~~~~~~~~~~~~~~~~~~~\n"
+                "      = help: rewrite it in XML or YAML, or launch it with ros2 launch");
 }
 
 }  // namespace

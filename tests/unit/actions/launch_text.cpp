@@ -33,7 +33,8 @@ std::string run_error(const std::string& xml) {
   const launch::Registry registry = launch::builtin_actions();
   launch::LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
   try {
-    const auto file = std::make_shared<launch::SourceFile>("/test/system.launch.xml", "<launch>\n" + xml + "\n</launch>\n");
+    const auto file =
+        std::make_shared<launch::SourceFile>("/test/system.launch.xml", "<launch>\n" + xml + "\n</launch>\n");
     context.visit(*launch::parse_launch_description(file, registry));
   } catch (const launch::LaunchError& error) {
     return error.what();

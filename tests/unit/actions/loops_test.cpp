@@ -70,9 +70,10 @@ TEST(Logs, HaveATagForEachLevel) {
 TEST(BoolArg, TakesBooleansOnly) {
   const std::string text = R"xml(<bool_arg name="b" default="true"/>)xml";
   EXPECT_EQ(plan_actions(text, {.arguments = {{"b", "FALSE"}}}).error, "");
-  EXPECT_THAT(plan_actions(text, {.arguments = {{"b", "maybe"}}}).error,
-              HasSubstr("argument \"b\" provided value \"maybe\" is not valid. Valid options are: ['true', 'false', 'True', "
-                        "'False', 'TRUE', 'FALSE']"));
+  EXPECT_THAT(
+      plan_actions(text, {.arguments = {{"b", "maybe"}}}).error,
+      HasSubstr("argument \"b\" provided value \"maybe\" is not valid. Valid options are: ['true', 'false', 'True', "
+                "'False', 'TRUE', 'FALSE']"));
 }
 
 TEST(Unset, RemovesAConfiguration) {

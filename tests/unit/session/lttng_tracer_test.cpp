@@ -267,6 +267,43 @@ TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2Tracing) {
   tracer->finish(config_named("run"), never);
 }
 
+TEST_F(LttngTracer, ChannelHasTheNumberAndTimersThatWereAskedFor) {
+  TraceConfig config = config_named("run");
+  config.subbuffer_count_ust = 7;
+  config.read_timer_ust = 50'000;
+  config.switch_timer_ust = 1'000'000;
+  EXPECT_THAT(tracer->start(config).warnings,
+              testing::ElementsAre(
+                  "number of sub-buffers 7 is rounded up to 8: LTTng needs a power of two, at least 2"));
+  const std::string listing = run_command({"lttng", "list", "run"}).out;
+  for (const char* expected : {"Sub-buffer count: 8", "Switch timer:     1000000 us", "Read timer:       50000 us"}) {
+    EXPECT_THAT(listing, testing::HasSubstr(expected));
+  }
+  tracer->finish(config, never);
+}
+
+TEST_F(LttngTracer, InitialisationEventsHaveAChannelOfTheirOwnWhereAskedFor) {
+  TraceConfig config = config_named("run");
+  config.events_ust = {"ros2:*", "my:event"};
+  config.init_channel = true;
+  tracer->start(config);
+  TracedApp(30, 10).end();
+  const std::vector<tracing::ChannelDetails> channels = tracer->status("run").channels;
+  ASSERT_EQ(channels.size(), 2u);
+  for (const tracing::ChannelDetails& channel : channels) {
+    const bool initialisation = channel.name == "ros2_init";
+    EXPECT_EQ(channel.events.size(), initialisation ? 22u : 21u) << channel.name;
+    EXPECT_THAT(channel.events, testing::Contains(initialisation ? "ros2:rcl_init" : "ros2:callback_start"));
+  }
+  const LossAccount losses = tracer->finish(config, never);
+  EXPECT_EQ(read_trace(config.trace_directory()).events["ros2:rclcpp_callback_register"], 30) << "each once";
+  ASSERT_EQ(losses.channels.size(), 2u);
+  const auto bytes = [&losses](const std::string& name) {
+    return losses.channels.at(losses.channels.at(0).channel == name ? 0 : 1).bytes;
+  };
+  EXPECT_GT(bytes("ros2_init"), bytes("ros2") + 30 * 30) << "they are not in the other one";
+}
+
 TEST_F(LttngTracer, LossesEqualWhatTheTraceSays) {
   TraceConfig config = config_named("flood");
   config.subbuffer_size_ust = 4096;
@@ -307,7 +344,7 @@ TEST_F(LttngTracer, FinishOfASessionThatSomebodyDestroyedIsAnError) {
     FAIL() << "no error";
   } catch (const TraceError& error) {
     EXPECT_STREQ(error.what(), "cannot stop trace session 'run': Session name not found");
-    EXPECT_EQ(error.remedy(), "`lttng list` shows the sessions that exist");
+    EXPECT_EQ(error.remedy(), "`launch trace list` shows the sessions that exist");
   }
 }
 

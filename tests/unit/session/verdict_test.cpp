@@ -33,8 +33,9 @@ struct Verdict : testing::Test {
       file.write(reinterpret_cast<const char*>(&big), sizeof big);
     }
     for (const IndexEntry& entry : entries) {
-      for (const std::uint64_t word : {std::uint64_t{0}, std::uint64_t{32768 * 8}, entry.bytes * 8, entry.begin,
-                                       entry.end, entry.discarded, std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{0}}) {
+      for (const std::uint64_t word :
+           {std::uint64_t{0}, std::uint64_t{32768 * 8}, entry.bytes * 8, entry.begin, entry.end, entry.discarded,
+            std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{0}}) {
         const std::uint64_t big = htobe64(word);
         file.write(reinterpret_cast<const char*>(&big), sizeof big);
       }
@@ -53,7 +54,10 @@ struct Verdict : testing::Test {
 };
 
 TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
-  write_index("ros2_0", {{1000, 2000, 32000, 0}, {2100, 3000, 32000, 300}, {3100, 4000, 32000, 1000}, {4100, 5000, 100, 1000},
+  write_index("ros2_0", {{1000, 2000, 32000, 0},
+                         {2100, 3000, 32000, 300},
+                         {3100, 4000, 32000, 1000},
+                         {4100, 5000, 100, 1000},
                          {5100, 6000, 32000, 1500}});
   write_index("ros2_1", {{900, 5900, 500, 0}});
   LossAccount losses = account(1500);

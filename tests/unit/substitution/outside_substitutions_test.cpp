@@ -21,8 +21,8 @@ const bool module_is_chosen = [] {
   return true;
 }();
 
-#define NEEDS_PYTHON()                                                                     \
-  if (!std::filesystem::exists(PYTHON_MODULE)) {                                           \
+#define NEEDS_PYTHON()                                                                       \
+  if (!std::filesystem::exists(PYTHON_MODULE)) {                                             \
     GTEST_SKIP() << "skipped, because this build has no Python (python3-dev, pybind11-dev)"; \
   }
 
@@ -60,11 +60,12 @@ TEST(Eval, ListedModulesReplaceMath) {
 
 TEST(Eval, ErrorsAreOneLineOfPythonWithARemedy) {
   NEEDS_PYTHON();
-  EXPECT_EQ(perform_error("$(eval '$(var true) == 1')"),
-            "t:1:1: error: failed to evaluate the Python expression 'true == 1': NameError: name 'true' is not defined\n"
-            "    1 | $(eval '$(var true) == 1')\n"
-            "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~\n"
-            "      = help: Python writes booleans True and False; compare the text: \"$(var x)\" == \"true\"\n");
+  EXPECT_EQ(
+      perform_error("$(eval '$(var true) == 1')"),
+      "t:1:1: error: failed to evaluate the Python expression 'true == 1': NameError: name 'true' is not defined\n"
+      "    1 | $(eval '$(var true) == 1')\n"
+      "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~\n"
+      "      = help: Python writes booleans True and False; compare the text: \"$(var x)\" == \"true\"\n");
   EXPECT_THAT(perform_error("$(eval '1 +')"), HasSubstr("SyntaxError: invalid syntax"));
 }
 
@@ -79,7 +80,9 @@ TEST(Command, LongOutputOfBothStreamsIsRead) {
 }
 
 TEST(Command, StandardErrorIsWhatItsSecondArgumentSays) {
-  const auto with = [](const std::string& policy) { return "$(command 'sh -c \"echo out; echo err >&2\"'" + policy + ")"; };
+  const auto with = [](const std::string& policy) {
+    return "$(command 'sh -c \"echo out; echo err >&2\"'" + policy + ")";
+  };
   EXPECT_THAT(perform_error(with(""), scope_with_path()), HasSubstr("it wrote to standard error"));
   EXPECT_EQ(perform_in(scope_with_path(), with(" ignore")), "out\n");
   EXPECT_EQ(perform_in(scope_with_path(), with(" capture")), "out\nerr\n");
@@ -96,7 +99,8 @@ TEST(Command, FailuresSayWhatHappened) {
             "    1 | $(command 'sh -c \"echo why >&2; exit 3\"')\n"
             "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~\n"
             "      = help: it wrote: why\n");
-  EXPECT_THAT(perform_error("$(command no_such_program)", scope_with_path()), HasSubstr("'no_such_program' was not found"));
+  EXPECT_THAT(perform_error("$(command no_such_program)", scope_with_path()),
+              HasSubstr("'no_such_program' was not found"));
   EXPECT_THAT(perform_error("$(command 'echo hi' shout)", scope_with_path()),
               HasSubstr("expected fail, warn, ignore or capture"));
 }
@@ -120,7 +124,8 @@ TEST(Anon, IsTheSameWithinAScopeAndAValidName) {
 
 TEST(Param, IsTheLastValueAsPythonPrintsIt) {
   Scope scope = test_scope();
-  scope.global_parameters = {NamedParameter{"p", ParameterScalar(std::int64_t{1})}, NamedParameter{"p", ParameterScalar(true)},
+  scope.global_parameters = {NamedParameter{"p", ParameterScalar(std::int64_t{1})},
+                             NamedParameter{"p", ParameterScalar(true)},
                              NamedParameter{"l", std::vector<ParameterScalar>{1.0, 2.5}}};
   EXPECT_EQ(perform_in(scope, "$(param p)"), "True");
   EXPECT_EQ(perform_in(scope, "$(param l)"), "(1.0, 2.5)");

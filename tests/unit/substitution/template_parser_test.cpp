@@ -140,45 +140,46 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Names, TemplateFault,
-    testing::Values(Fault{"$(find-pkg-shar demo)",
-                          "t:1:3: error: unknown substitution 'find-pkg-shar'\n"
-                          "    1 | $(find-pkg-shar demo)\n"
-                          "      |   ^~~~~~~~~~~~~\n"
-                          "      = help: did you mean 'find-pkg-share'?\n"},
-                    Fault{"$(arg x)",
-                          "t:1:3: error: unknown substitution 'arg'\n"
-                          "    1 | $(arg x)\n"
-                          "      |   ^~~\n"
-                          "      = help: in ROS 2 it is $(var NAME)\n"},
-                    Fault{"$(xyzzy)",
-                          "t:1:3: error: unknown substitution 'xyzzy'\n"
-                          "    1 | $(xyzzy)\n"
-                          "      |   ^~~~~\n"},
-                    Fault{"$(eval 1 + 2)",
-                          "t:1:1: error: substitution 'eval' takes 1 or 2 arguments, got 3\n"
-                          "    1 | $(eval 1 + 2)\n"
-                          "      | ^~~~~~~~~~~~~\n"
-                          "      = help: usage: $(eval 'EXPRESSION' ['MODULE, ...']); quote an argument that has spaces\n"},
-                    Fault{"$(var)",
-                          "t:1:1: error: substitution 'var' takes 1 or 2 arguments, got 0\n"
-                          "    1 | $(var)\n"
-                          "      | ^~~~~~\n"
-                          "      = help: usage: $(var NAME [DEFAULT])\n"},
-                    Fault{"$(dirname x)",
-                          "t:1:1: error: substitution 'dirname' takes no arguments, got 1\n"
-                          "    1 | $(dirname x)\n"
-                          "      | ^~~~~~~~~~~~\n"
-                          "      = help: usage: $(dirname)\n"},
-                    Fault{"$(var x my default)",
-                          "t:1:1: error: substitution 'var' takes 1 or 2 arguments, got 3\n"
-                          "    1 | $(var x my default)\n"
-                          "      | ^~~~~~~~~~~~~~~~~~~\n"
-                          "      = help: usage: $(var NAME [DEFAULT]); quote an argument that has spaces\n"},
-                    Fault{"$(string-join)",
-                          "t:1:1: error: substitution 'string-join' takes at least 2 arguments, got 0\n"
-                          "    1 | $(string-join)\n"
-                          "      | ^~~~~~~~~~~~~~\n"
-                          "      = help: usage: $(string-join SEPARATOR A...)\n"}));
+    testing::Values(
+        Fault{"$(find-pkg-shar demo)",
+              "t:1:3: error: unknown substitution 'find-pkg-shar'\n"
+              "    1 | $(find-pkg-shar demo)\n"
+              "      |   ^~~~~~~~~~~~~\n"
+              "      = help: did you mean 'find-pkg-share'?\n"},
+        Fault{"$(arg x)",
+              "t:1:3: error: unknown substitution 'arg'\n"
+              "    1 | $(arg x)\n"
+              "      |   ^~~\n"
+              "      = help: in ROS 2 it is $(var NAME)\n"},
+        Fault{"$(xyzzy)",
+              "t:1:3: error: unknown substitution 'xyzzy'\n"
+              "    1 | $(xyzzy)\n"
+              "      |   ^~~~~\n"},
+        Fault{"$(eval 1 + 2)",
+              "t:1:1: error: substitution 'eval' takes 1 or 2 arguments, got 3\n"
+              "    1 | $(eval 1 + 2)\n"
+              "      | ^~~~~~~~~~~~~\n"
+              "      = help: usage: $(eval 'EXPRESSION' ['MODULE, ...']); quote an argument that has spaces\n"},
+        Fault{"$(var)",
+              "t:1:1: error: substitution 'var' takes 1 or 2 arguments, got 0\n"
+              "    1 | $(var)\n"
+              "      | ^~~~~~\n"
+              "      = help: usage: $(var NAME [DEFAULT])\n"},
+        Fault{"$(dirname x)",
+              "t:1:1: error: substitution 'dirname' takes no arguments, got 1\n"
+              "    1 | $(dirname x)\n"
+              "      | ^~~~~~~~~~~~\n"
+              "      = help: usage: $(dirname)\n"},
+        Fault{"$(var x my default)",
+              "t:1:1: error: substitution 'var' takes 1 or 2 arguments, got 3\n"
+              "    1 | $(var x my default)\n"
+              "      | ^~~~~~~~~~~~~~~~~~~\n"
+              "      = help: usage: $(var NAME [DEFAULT]); quote an argument that has spaces\n"},
+        Fault{"$(string-join)",
+              "t:1:1: error: substitution 'string-join' takes at least 2 arguments, got 0\n"
+              "    1 | $(string-join)\n"
+              "      | ^~~~~~~~~~~~~~\n"
+              "      = help: usage: $(string-join SEPARATOR A...)\n"}));
 
 TEST(TemplateParser, RefusesWhatTheReferenceRefuses) {
   for (const char* text :
