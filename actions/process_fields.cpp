@@ -33,7 +33,8 @@ const std::string* find_configuration(const Scope& scope, const std::string& nam
 std::vector<AttributeSpec> ProcessFields::attributes() {
   return {
       {"cwd", AttributeType::kText, false, "the launcher's", "working directory"},
-      {"launch-prefix", AttributeType::kText, false, "configuration launch-prefix", "command line put in front, such as gdb"},
+      {"launch-prefix", AttributeType::kText, false, "configuration launch-prefix",
+       "command line put in front, such as gdb"},
       {"output", AttributeType::kText, false, "log", "screen, log, both, own_log or full"},
       {"respawn", AttributeType::kText, false, "false", "start again whenever the process ends"},
       {"respawn_delay", AttributeType::kFloat, false, "0", "seconds between an exit and the next start"},
@@ -136,7 +137,8 @@ std::vector<std::string> ProcessFields::launch_prefix(Scope& scope, const std::s
         return {};
       }
     } catch (const std::regex_error& error) {
-      throw LaunchError(fmt::format("launch-prefix-filter '{}' is not a regular expression: {}", *filter, error.what()), where_);
+      throw LaunchError(fmt::format("launch-prefix-filter '{}' is not a regular expression: {}", *filter, error.what()),
+                        where_);
     }
   }
   return split_shell_words(*prefix, where_);
@@ -146,7 +148,9 @@ OutputRouting ProcessFields::output(LaunchContext& context) const {
   const Environment& environment = context.initial_environment();
   const auto everywhere = environment.find("OVERRIDE_LAUNCH_PROCESS_OUTPUT");
   const bool overridden = everywhere != environment.end() && !everywhere->second.empty();
-  const std::string mode = overridden ? everywhere->second : output_ ? output_->perform(context.scope()) : std::string("log");
+  const std::string mode = overridden ? everywhere->second
+                           : output_  ? output_->perform(context.scope())
+                                      : std::string("log");
   const std::optional<OutputRouting> routing = OutputRouting::from_mode(mode);
   if (!routing) {
     throw LaunchError(fmt::format("'{}' is not a valid output mode, expected screen, log, both, own_log or full", mode),
@@ -161,15 +165,17 @@ bool ProcessFields::emulate_tty(Scope& scope) const {
   if (const std::string* const configuration = find_configuration(scope, "emulate_tty")) {
     const std::optional<bool> value = condition_boolean(*configuration);
     if (!value) {
-      throw LaunchError(fmt::format("launch configuration 'emulate_tty' is expected to be true or false, got '{}'", *configuration),
-                        where_);
+      throw LaunchError(
+          fmt::format("launch configuration 'emulate_tty' is expected to be true or false, got '{}'", *configuration),
+          where_);
     }
     return *value;
   }
   return emulate_tty_.perform(scope);
 }
 
-Duration ProcessFields::timeout(Scope& scope, const std::optional<NumberField>& given, const std::string& configuration) const {
+Duration ProcessFields::timeout(Scope& scope, const std::optional<NumberField>& given,
+                                const std::string& configuration) const {
   if (given) {
     return seconds(given->perform(scope));
   }
@@ -179,7 +185,8 @@ Duration ProcessFields::timeout(Scope& scope, const std::optional<NumberField>& 
       number.require_not_negative();
       return seconds(number.perform(scope));
     } catch (const LaunchError& error) {
-      throw LaunchError(fmt::format("launch configuration '{}': {}", configuration, error.diagnostics().front().message), where_);
+      throw LaunchError(
+          fmt::format("launch configuration '{}': {}", configuration, error.diagnostics().front().message), where_);
     }
   }
   return ProcessSpec().sigterm_timeout;

@@ -40,8 +40,8 @@ class Trace : public Action {
         switch_timer_ust_(fields.number("switch-timer-ust")),
         snapshot_mode_(fields.boolean("snapshot-mode", false)),
         dual_session_(fields.boolean("dual-session", false)) {
-    for (std::optional<NumberField>* size : {&subbuffer_size_ust_, &subbuffer_size_kernel_, &subbuffer_count_ust_,
-                                              &read_timer_ust_, &switch_timer_ust_}) {
+    for (std::optional<NumberField>* size :
+         {&subbuffer_size_ust_, &subbuffer_size_kernel_, &subbuffer_count_ust_, &read_timer_ust_, &switch_timer_ust_}) {
       if (*size) {
         (*size)->require_not_negative();
       }
@@ -63,7 +63,8 @@ class Trace : public Action {
     if (append_timestamp_.perform(scope)) {
       config.session_name += tracing::session_timestamp();
     }
-    config.base_path = tracing::trace_base_path(base_path_ ? base_path_->perform(scope) : std::string(), scope.environment);
+    config.base_path =
+        tracing::trace_base_path(base_path_ ? base_path_->perform(scope) : std::string(), scope.environment);
     config.append_trace = append_trace_.perform(scope);
     config.fail_on_loss = fail_on_loss_.perform(scope);
     config.snapshot_mode = snapshot_mode_.perform(scope);
@@ -102,8 +103,8 @@ class Trace : public Action {
     if (switch_timer_ust_) {
       config.switch_timer_ust = microseconds(*switch_timer_ust_, scope);
     }
-    context.requests().scopes.push_back(std::make_unique<TraceScope>(
-        std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));
+    context.requests().scopes.push_back(
+        std::make_unique<TraceScope>(std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where()));
   }
 
  private:
@@ -139,17 +140,22 @@ ActionType trace_action() {
             "directory that will hold the trace's directory"},
            {"append-trace", AttributeType::kBoolean, false, "false", "allow a trace directory that exists"},
            {"fail-on-loss", AttributeType::kBoolean, false, "false", "exit with 1 when events were lost"},
-           {"events-ust", AttributeType::kCommandLine, false, "all events of provider ros2", "userspace events; * matches any text"},
+           {"events-ust", AttributeType::kCommandLine, false, "all events of provider ros2",
+            "userspace events; * matches any text"},
            {"events-kernel", AttributeType::kCommandLine, false, "none", "kernel tracepoints"},
            {"syscalls", AttributeType::kCommandLine, false, "none", "system calls"},
            {"context-fields", AttributeType::kCommandLine, false, "procname vpid vtid", "fields added to every event"},
            {"subbuffer-size-ust", AttributeType::kInteger, false, "32768", "bytes"},
-           {"init-channel", AttributeType::kBoolean, false, "false", "initialisation events in a channel of their own, ros2_init"},
-           {"subbuffer-count-ust", AttributeType::kInteger, false, "2; 4 in snapshot mode", "sub-buffers for each processor"},
+           {"init-channel", AttributeType::kBoolean, false, "false",
+            "initialisation events in a channel of their own, ros2_init"},
+           {"subbuffer-count-ust", AttributeType::kInteger, false, "2; 4 in snapshot mode",
+            "sub-buffers for each processor"},
            {"read-timer-ust", AttributeType::kInteger, false, "200", "microseconds between two reads of the buffers"},
-           {"switch-timer-ust", AttributeType::kInteger, false, "0", "microseconds until a part-full sub-buffer is written; 0: never"},
+           {"switch-timer-ust", AttributeType::kInteger, false, "0",
+            "microseconds until a part-full sub-buffer is written; 0: never"},
            {"subbuffer-size-kernel", AttributeType::kInteger, false, "131072", "bytes"},
-           {"snapshot-mode", AttributeType::kBoolean, false, "false", "keep the newest events in memory until recorded"},
+           {"snapshot-mode", AttributeType::kBoolean, false, "false",
+            "keep the newest events in memory until recorded"},
            {"dual-session", AttributeType::kBoolean, false, "false", "be the snapshot half of a dual session"}},
       .items = {},
       .make = [](const Fields& fields) { return std::make_shared<Trace>(fields); },

@@ -1,7 +1,7 @@
 #include "actions/trace_scope.hpp"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -62,10 +62,7 @@ std::string output_of(const std::string& program, const std::vector<std::string>
 
 TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
                        SourceRange origin)
-    : config_(std::move(config)),
-      tracer_(std::move(tracer)),
-      prefix_(std::move(prefix)),
-      origin_(std::move(origin)) {
+    : config_(std::move(config)), tracer_(std::move(tracer)), prefix_(std::move(prefix)), origin_(std::move(origin)) {
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
@@ -123,9 +120,9 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
         try {
           losses_ = tracer_->finish(config_, [this] { return hurry_.load(); });
         } catch (const tracing::TraceError& error) {
-          throw LaunchError(fmt::format("tracing session '{}' could not be finished: {}", config_.lttng_session_name(),
-                                        error.what()),
-                            origin_, error.remedy());
+          throw LaunchError(
+              fmt::format("tracing session '{}' could not be finished: {}", config_.lttng_session_name(), error.what()),
+              origin_, error.remedy());
         }
         if (!config_.snapshot_mode && !config_.dual_session && !hurry_) {
           summary_ = output_of(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
@@ -135,9 +132,9 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
         if (!error) {
           tell_result(tell);
           if (config_.fail_on_loss && !losses_.complete()) {
-            error = std::make_exception_ptr(LaunchError(
-                fmt::format("the trace of session '{}' is incomplete", config_.lttng_session_name()), origin_,
-                "use larger sub-buffers, record fewer events, or leave out fail-on-loss"));
+            error = std::make_exception_ptr(
+                LaunchError(fmt::format("the trace of session '{}' is incomplete", config_.lttng_session_name()),
+                            origin_, "use larger sub-buffers, record fewer events, or leave out fail-on-loss"));
           }
         }
         done(error);
@@ -145,7 +142,8 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
 }
 
 void TraceScope::tell_result(const Tell& tell) const {
-  tell(false, fmt::format("trace written to: {}{}", config_.trace_directory(), summary_.empty() ? "" : " (" + summary_ + ")"));
+  tell(false,
+       fmt::format("trace written to: {}{}", config_.trace_directory(), summary_.empty() ? "" : " (" + summary_ + ")"));
   if (!config_.records_snapshots()) {
     tell(!losses_.complete(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
                                           tracing::describe_losses(losses_)));

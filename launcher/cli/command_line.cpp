@@ -49,7 +49,8 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   app.add_flag("-s,--show-args,--show-arguments", show_arguments, "print the file's arguments, don't run it");
   app.add_flag("--dry-run{text}", dry_run, "print what would run, don't run it; --dry-run=json for programs");
   app.add_flag("-d,--debug", command.debug, "show debug messages");
-  app.add_flag("--trace", command.trace, "record a trace with the default settings, unless the file has a trace of its own");
+  app.add_flag("--trace", command.trace,
+               "record a trace with the default settings, unless the file has a trace of its own");
   app.add_flag("--timing", command.timing, "print how long each step of the start took");
   app.add_flag("-a,--show-all-subprocesses-output", command.show_all_output,
                "show the output of every process on the screen and in launch.log");

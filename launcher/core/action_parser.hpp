@@ -27,7 +27,8 @@ class ActionParser {
   void parse_condition(const Entity& entity, Fields& fields);
   void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
   Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
-  void report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items, bool actions);
+  void report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items,
+                            bool actions);
   // Runs `step`, keeping the errors that it throws.
   template <typename Step>
   void collect(Step step);

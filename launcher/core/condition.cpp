@@ -13,8 +13,9 @@ bool Condition::holds(Scope& scope) const {
   const std::string text = expression_->perform(scope);
   const std::optional<bool> value = condition_boolean(text);
   if (!value) {
-    throw LaunchError(fmt::format("invalid condition expression, expected one of [true, 1, false, 0] but got '{}'", text),
-                      expression_->where());
+    throw LaunchError(
+        fmt::format("invalid condition expression, expected one of [true, 1, false, 0] but got '{}'", text),
+        expression_->where());
   }
   return *value != negated_;
 }

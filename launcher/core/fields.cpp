@@ -55,9 +55,11 @@ double NumberField::convert(const std::string& text) const {
   double value = 0.0;
   std::int64_t whole_value = 0;
   const char* const end = digits.data() + digits.size();
-  const auto result = whole_ ? std::from_chars(digits.data(), end, whole_value) : std::from_chars(digits.data(), end, value);
+  const auto result =
+      whole_ ? std::from_chars(digits.data(), end, whole_value) : std::from_chars(digits.data(), end, value);
   if (digits.empty() || result.ec != std::errc() || result.ptr != end) {
-    throw LaunchError(fmt::format("expected a {}, got '{}'", whole_ ? "whole number" : "number", text), source_.where());
+    throw LaunchError(fmt::format("expected a {}, got '{}'", whole_ ? "whole number" : "number", text),
+                      source_.where());
   }
   if (whole_) {
     value = static_cast<double>(whole_value);
@@ -68,7 +70,9 @@ double NumberField::convert(const std::string& text) const {
   return value;
 }
 
-double NumberField::perform(Scope& scope) const { return convert(source_.perform(scope)); }
+double NumberField::perform(Scope& scope) const {
+  return convert(source_.perform(scope));
+}
 
 void NumberField::require_not_negative() {
   not_negative_ = true;

@@ -39,7 +39,8 @@ void LaunchService::on_signal(int signal) {
     shutdown();
     return;
   }
-  context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {} again, killing what is left", name));
+  context_.message(LogLevel::kWarning, "launch",
+                   fmt::format("user interrupted with {} again, killing what is left", name));
   supervisor_.kill_all();
   for (const auto& scope : active_scopes_) {
     scope->hurry();

@@ -68,8 +68,8 @@ class LaunchService {
   Guardian* guardian_ = nullptr;
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
-  std::deque<Requests> waiting_;                   // the first one may be beginning its scopes
-  std::size_t next_scope_ = 0;                     // of waiting_.front()
+  std::deque<Requests> waiting_;  // the first one may be beginning its scopes
+  std::size_t next_scope_ = 0;    // of waiting_.front()
   bool scope_is_beginning_ = false;
   std::vector<std::unique_ptr<RunScope>> active_scopes_;
   std::list<Timer> timers_;

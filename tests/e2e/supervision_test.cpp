@@ -22,8 +22,8 @@ class Supervision : public testing::Test {
     return path.string();
   }
 
-  // What the launcher leaves becomes ours: its processes and the guardian that ends them. All of it goes by itself; what
-  // doesn't is waited for until the test's time is over.
+  // What the launcher leaves becomes ours: its processes and the guardian that ends them. All of it goes by itself;
+  // what doesn't is waited for until the test's time is over.
   static void wait_until_all_have_gone() {
     while (::waitpid(-1, nullptr, 0) > 0) {
     }
@@ -131,7 +131,8 @@ TEST_F(Supervision, TraceOptionRecordsAFileWithoutATrace) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, "--trace", file});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
-  EXPECT_THAT(result.out, HasSubstr("writing tracing session to: " + sandbox_.trace_directory().string() + "/system-2"));
+  EXPECT_THAT(result.out,
+              HasSubstr("writing tracing session to: " + sandbox_.trace_directory().string() + "/system-2"));
 }
 
 TEST_F(Supervision, TraceOptionLeavesAFileWithATraceAsItIs) {
@@ -144,7 +145,8 @@ TEST_F(Supervision, TraceOptionLeavesAFileWithATraceAsItIs) {
 
 TEST_F(Supervision, LostEventsFailTheRunWhereTheFileSaysSo) {
   // The smallest buffers, and more events at once than they hold: every malloc of a shell script that copies text.
-  const std::string traced = R"xml(<trace session-name="$(var name)" events-ust="lttng_ust_libc:*" subbuffer-size-ust="4096"
+  const std::string traced =
+      R"xml(<trace session-name="$(var name)" events-ust="lttng_ust_libc:*" subbuffer-size-ust="4096"
  fail-on-loss="$(var fail)"/>
 <executable cmd="python3 -c 'for i in range(300000): str(i).encode()*600'"/>)xml";
   const std::string file = write(R"xml(<arg name="name"/><arg name="fail"/>)xml" + traced);

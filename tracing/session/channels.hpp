@@ -27,7 +27,8 @@ DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain d
 // "ust" or "kernel".
 std::string domain_name(lttng_domain_type domain);
 
-// One channel of a session and everything that is recorded into it. A domain has one, userspace two with `init_channel`.
+// One channel of a session and everything that is recorded into it. A domain has one, userspace two with
+// `init_channel`.
 struct DomainPlan {
   lttng_domain_type domain = LTTNG_DOMAIN_UST;
   std::string channel;
@@ -36,13 +37,13 @@ struct DomainPlan {
   std::vector<std::string> context_fields;
   std::uint64_t subbuffer_size = 0;  // bytes
   std::uint64_t subbuffer_count = 2;
-  std::uint32_t read_timer = 200;   // µs
-  std::uint32_t switch_timer = 0;   // µs
-  bool overwrite = false;            // keep the newest events rather than the oldest: what a snapshot needs
+  std::uint32_t read_timer = 200;  // µs
+  std::uint32_t switch_timer = 0;  // µs
+  bool overwrite = false;          // keep the newest events rather than the oldest: what a snapshot needs
 };
 
-// The channels into which `config` records something; names that occur twice are taken once. Warnings (a sub-buffer size
-// that had to be rounded up) are appended. Throws TraceError for a context field that can't be had.
+// The channels into which `config` records something; names that occur twice are taken once. Warnings (a sub-buffer
+// size that had to be rounded up) are appended. Throws TraceError for a context field that can't be had.
 std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std::string>& warnings);
 
 // The steps of setting a domain up, in this order. Each throws TraceError.

@@ -15,8 +15,8 @@
 #include "tracing/session/session_listing.hpp"
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
-#include "tracing/session/verdict.hpp"
 #include "tracing/session/tracer.hpp"
+#include "tracing/session/verdict.hpp"
 
 namespace tracing {
 namespace {

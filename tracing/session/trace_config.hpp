@@ -26,10 +26,10 @@ struct TraceConfig {
   std::vector<std::string> context_fields_kernel = default_context_fields();
   std::uint64_t subbuffer_size_ust = 8 * 4096;  // bytes, rounded up to a power of two
   std::uint64_t subbuffer_size_kernel = 32 * 4096;
-  bool init_channel = false;  // initialisation events in a channel of their own, `ros2_init`
+  bool init_channel = false;              // initialisation events in a channel of their own, `ros2_init`
   std::uint64_t subbuffer_count_ust = 0;  // for each processor, a power of two; 0: 2, and 4 in a snapshot session
-  std::uint32_t read_timer_ust = 200;     // µs between two looks of the consumer into the buffers; 0: it is woken instead
-  std::uint32_t switch_timer_ust = 0;     // µs after which a sub-buffer is written though it is not full; 0: never
+  std::uint32_t read_timer_ust = 200;  // µs between two looks of the consumer into the buffers; 0: it is woken instead
+  std::uint32_t switch_timer_ust = 0;  // µs after which a sub-buffer is written though it is not full; 0: never
   bool snapshot_mode = false;
   bool dual_session = false;  // the snapshot half of a dual session: always a snapshot session
   bool dual_runtime = false;  // the runtime half of a dual session: never a snapshot session

@@ -97,7 +97,8 @@ CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
 void complete(TraceOptions& options, const SessionArguments& arguments) {
   TraceConfig& config = options.config;
   const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
-  config.session_name = arguments.session_name.empty() && !all_sessions ? "session" + session_timestamp() : arguments.session_name;
+  config.session_name =
+      arguments.session_name.empty() && !all_sessions ? "session" + session_timestamp() : arguments.session_name;
   config.base_path = trace_base_path(arguments.path, environment());
   config.context_fields_ust = arguments.context_fields;
   config.context_fields_kernel = arguments.context_fields;
@@ -134,8 +135,9 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
        TraceVerb::kRecordSnapshot},
       {command.add_subcommand("list", "print the sessions that exist"), TraceVerb::kList},
       {add_status(command, session), TraceVerb::kStatus},
-      {command.add_subcommand("events", "print what can be recorded now: events of running programs and of the kernel, "
-                                        "context fields"),
+      {command.add_subcommand("events",
+                              "print what can be recorded now: events of running programs and of the kernel, "
+                              "context fields"),
        TraceVerb::kEvents},
   };
 

@@ -41,9 +41,10 @@ struct ChannelLoss {
 
   std::uint64_t subbuffer_size = 0;  // bytes
   std::uint64_t subbuffer_count = 0;
-  std::uint64_t bytes = 0;                   // recorded
-  std::vector<LossRange> ranges = {};        // where the discarded events are missing
-  std::uint64_t advised_subbuffer_size = 0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
+  std::uint64_t bytes = 0;             // recorded
+  std::vector<LossRange> ranges = {};  // where the discarded events are missing
+  std::uint64_t advised_subbuffer_size =
+      0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
 };
 
 struct LossAccount {

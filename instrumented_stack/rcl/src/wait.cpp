@@ -148,9 +148,9 @@ rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscript
     RCL_SET_ERROR_MSG("a wait set needs a context that is initialized and not shut down");
     return RCL_RET_NOT_INIT;
   }
-  rmw_wait_set_t* handle = rmw_create_wait_set(rcl_context_get_rmw_context(context),
-                                               number_of_subscriptions + number_of_guard_conditions + number_of_timers +
-                                                   number_of_clients + number_of_services);
+  rmw_wait_set_t* handle = rmw_create_wait_set(
+      rcl_context_get_rmw_context(context),
+      number_of_subscriptions + number_of_guard_conditions + number_of_timers + number_of_clients + number_of_services);
   if (handle == nullptr) {
     return RCL_RET_ERROR;
   }
@@ -253,7 +253,8 @@ rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
   if (impl.subscription_count + impl.guard_condition_count + impl.timer_count + impl.client_count +
-          impl.service_count == 0) {
+          impl.service_count ==
+      0) {
     RCL_SET_ERROR_MSG("there is nothing to wait for in the wait set");
     return RCL_RET_WAIT_SET_EMPTY;
   }

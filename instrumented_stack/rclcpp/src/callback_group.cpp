@@ -66,8 +66,7 @@ void CallbackGroup::collect(Entities& entities) const {
 size_t CallbackGroup::size() const {
   Entities entities;
   collect(entities);
-  return entities.subscriptions.size() + entities.timers.size() + entities.services.size() +
-         entities.clients.size();
+  return entities.subscriptions.size() + entities.timers.size() + entities.services.size() + entities.clients.size();
 }
 
 void CallbackGroup::set_on_change(std::function<void()> on_change) {

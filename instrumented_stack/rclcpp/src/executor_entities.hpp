@@ -41,8 +41,8 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   void remove_all();
   std::vector<CallbackGroup::WeakPtr> groups();
 
-  // Waits until something is ready, interrupt() is called, or the time is over (negative: never). Appends what is ready.
-  // One thread at a time.
+  // Waits until something is ready, interrupt() is called, or the time is over (negative: never). Appends what is
+  // ready. One thread at a time.
   void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
 
   // How often nodes and groups were removed. What an earlier wait found may be theirs.

@@ -22,9 +22,8 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
       node_topics_(std::make_shared<node_interfaces::NodeTopicsInterface>(node_base_)),
       node_services_(std::make_shared<node_interfaces::NodeServicesInterface>(node_base_)),
       clock_(std::make_shared<Clock>(options.clock_type())),
-      node_parameters_(
-          std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, node_services_, clock_, options_,
-                                                                     rcl_options)),
+      node_parameters_(std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, node_services_, clock_,
+                                                                                  options_, rcl_options)),
       node_type_descriptions_(std::make_shared<node_interfaces::NodeTypeDescriptionsInterface>(
           node_base_, node_parameters_, node_services_)),
       time_source_(std::make_unique<node_interfaces::TimeSource>(*this)) {}

@@ -18,8 +18,8 @@ std::shared_future<ResultT> call(Client<ServiceT>& client, std::shared_ptr<typen
                                  ConvertT convert, std::function<void(std::shared_future<ResultT>)> callback) {
   auto promise = std::make_shared<std::promise<ResultT>>();
   std::shared_future<ResultT> result = promise->get_future().share();
-  client.async_send_request(request, [promise, result, convert = std::move(convert), callback = std::move(callback)](
-                                         typename Client<ServiceT>::SharedFuture future) {
+  client.async_send_request(request, [promise, result, convert = std::move(convert),
+                                      callback = std::move(callback)](typename Client<ServiceT>::SharedFuture future) {
     promise->set_value(convert(*future.get()));
     if (callback) {
       callback(result);

@@ -80,8 +80,8 @@ ParameterService::ParameterService(const node_interfaces::NodeBaseInterface::Sha
                                    node_interfaces::NodeParameters* node_parameters, const QoS& qos) {
   const ServiceFactory factory(node_base, node_services, qos);
   // The order of creation is that of the trace.
-  services_.push_back(factory.make<srv::GetParameters>(
-      names::kGetParameters, [node_parameters](const auto& request, auto& response) {
+  services_.push_back(
+      factory.make<srv::GetParameters>(names::kGetParameters, [node_parameters](const auto& request, auto& response) {
         answer_or_warn("get", [&] {
           for (const Parameter& parameter : node_parameters->get_parameters(request.names)) {
             response.values.push_back(parameter.get_value_message());
@@ -92,8 +92,8 @@ ParameterService::ParameterService(const node_interfaces::NodeBaseInterface::Sha
       names::kGetParameterTypes, [node_parameters](const auto& request, auto& response) {
         answer_or_warn("get types of", [&] { response.types = node_parameters->get_parameter_types(request.names); });
       }));
-  services_.push_back(factory.make<srv::SetParameters>(
-      names::kSetParameters, [node_parameters](const auto& request, auto& response) {
+  services_.push_back(
+      factory.make<srv::SetParameters>(names::kSetParameters, [node_parameters](const auto& request, auto& response) {
         for (const Parameter& parameter : from_messages(request.parameters)) {
           response.results.push_back(set(*node_parameters, {parameter}));
         }
@@ -104,11 +104,10 @@ ParameterService::ParameterService(const node_interfaces::NodeBaseInterface::Sha
       }));
   services_.push_back(factory.make<srv::DescribeParameters>(
       names::kDescribeParameters, [node_parameters](const auto& request, auto& response) {
-        answer_or_warn("describe",
-                       [&] { response.descriptors = node_parameters->describe_parameters(request.names); });
+        answer_or_warn("describe", [&] { response.descriptors = node_parameters->describe_parameters(request.names); });
       }));
-  services_.push_back(factory.make<srv::ListParameters>(
-      names::kListParameters, [node_parameters](const auto& request, auto& response) {
+  services_.push_back(
+      factory.make<srv::ListParameters>(names::kListParameters, [node_parameters](const auto& request, auto& response) {
         response.result = node_parameters->list_parameters(request.prefixes, request.depth);
       }));
 }

@@ -1,4 +1,6 @@
 // Nodes and the endpoints that they own: every change is announced on ros_discovery_info.
+#include "node.hpp"
+
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -6,7 +8,6 @@
 #include "context_impl.hpp"
 #include "endpoint.hpp"
 #include "identifier.hpp"
-#include "node.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
 #include "rmw/validate_full_topic_name.h"

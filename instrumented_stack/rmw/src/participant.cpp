@@ -194,7 +194,8 @@ Participant::~Participant() {
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
 }
 
-fdds::Topic& Participant::acquire_topic(const std::string& dds_name, const message_type_support_callbacks_t& callbacks) {
+fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
+                                        const message_type_support_callbacks_t& callbacks) {
   const std::string type_name = dds_type_name(callbacks);
   if (const auto found = topics_.find(dds_name); found != topics_.end()) {
     if (found->second.topic->get_type_name() != type_name) {

@@ -109,7 +109,7 @@ template <typename Qos>
 rmw_qos_profile_t profile_from(const Qos& qos) {
   rmw_qos_profile_t profile{};
   profile.history = qos.history().kind == fdds::KEEP_LAST_HISTORY_QOS ? RMW_QOS_POLICY_HISTORY_KEEP_LAST
-                                                                     : RMW_QOS_POLICY_HISTORY_KEEP_ALL;
+                                                                      : RMW_QOS_POLICY_HISTORY_KEEP_ALL;
   profile.depth = static_cast<std::size_t>(qos.history().depth);
   profile.reliability = qos.reliability().kind == fdds::RELIABLE_RELIABILITY_QOS
                             ? RMW_QOS_POLICY_RELIABILITY_RELIABLE

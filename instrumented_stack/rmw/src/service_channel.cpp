@@ -74,8 +74,8 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
   fdds::DataWriterQos qos = participant_->writer_qos(topic_name);
   apply_profile(profile, qos);
   writer_topic_ = &participant_->acquire_topic(topic_name, type);
-  writer = participant_->publisher().create_datawriter(writer_topic_, qos, this,
-                                                       fdds::StatusMask::publication_matched());
+  writer =
+      participant_->publisher().create_datawriter(writer_topic_, qos, this, fdds::StatusMask::publication_matched());
   if (writer == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a writer on topic '" + topic_name + "'");
   }

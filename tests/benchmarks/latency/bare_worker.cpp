@@ -164,8 +164,7 @@ void publish(fdds::DomainParticipant& participant, const Topics& topics) {
   });
 }
 
-[[noreturn]] void subscribe(fdds::DomainParticipant& participant, const Topics& topics,
-                            bool in_listener) {
+[[noreturn]] void subscribe(fdds::DomainParticipant& participant, const Topics& topics, bool in_listener) {
   Receiver receiver;
   fdds::Subscriber* subscriber = participant.create_subscriber(participant.get_default_subscriber_qos());
   fdds::WaitSet wait_set;
@@ -174,8 +173,8 @@ void publish(fdds::DomainParticipant& participant, const Topics& topics) {
     if (in_listener) {
       to_listener << fdds::StatusMask::data_available();
     }
-    fdds::DataReader* reader = subscriber->create_datareader(
-        topic, like_rmw(subscriber->get_default_datareader_qos()), &receiver, to_listener);
+    fdds::DataReader* reader = subscriber->create_datareader(topic, like_rmw(subscriber->get_default_datareader_qos()),
+                                                             &receiver, to_listener);
     reader->get_statuscondition().set_enabled_statuses(fdds::StatusMask::data_available());
     if (!in_listener) {
       wait_set.attach_condition(reader->get_statuscondition());

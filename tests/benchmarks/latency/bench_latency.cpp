@@ -1,8 +1,8 @@
 // How long a message takes from publish() to the callback of a subscription in another process, through the stack and
 // through bare Fast DDS, and what recording every ros2 event adds to it.
 //
-// Every variant is a pair of processes. They take turns, batch by batch, so that whatever the machine does meanwhile meets
-// them all. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
+// Every variant is a pair of processes. They take turns, batch by batch, so that whatever the machine does meanwhile
+// meets them all. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -156,8 +156,10 @@ int main() try {
   print_table({&bare, &idle, &disabled, &listener});
 
   const double path = median(path_costs);
-  fmt::print("\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop; added to the latency by:\n",
-             path);
+  fmt::print(
+      "\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop; added to the latency "
+      "by:\n",
+      path);
   fmt::print("{:<8}{:>20}{:>26}{:>14}\n", "KiB", "tracing idle", "every event recorded", "of the loop");
   for (std::size_t size = 0; size < kSizes.size(); ++size) {
     const double by_recording = added(recorded[size], beside_recorded[size]);

@@ -1,5 +1,5 @@
-// What the tracepoints between publish() and the callback cost: answers each byte on stdin with the sum in microseconds,
-// a double, of the mean costs of each in a loop of its own.
+// What the tracepoints between publish() and the callback cost: answers each byte on stdin with the sum in
+// microseconds, a double, of the mean costs of each in a loop of its own.
 #include <tracetools/tracetools.h>
 #include <unistd.h>
 

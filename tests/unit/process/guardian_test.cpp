@@ -151,8 +151,9 @@ TEST_F(GuardianTest, CleansUpAfterTheGroupsHaveEndedTheLastCommandFirst) {
     guardian.attach(sleeper.pid);
     guardian.add_clean_up({"/bin/sh", "-c", "echo 'first one' >> " + done});
     // Not reaped yet, the sleeper is a zombie then.
-    guardian.add_clean_up({"/bin/sh", "-c",
-                           "grep -q State:.Z /proc/" + std::to_string(sleeper.pid) + "/status && echo ended >> " + done});
+    guardian.add_clean_up(
+        {"/bin/sh", "-c",
+         "grep -q State:.Z /proc/" + std::to_string(sleeper.pid) + "/status && echo ended >> " + done});
   }
   std::ifstream file(done);
   const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -116,9 +116,9 @@ bool AllocationCount::is_possible() {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // glibc's own names for what is replaced (malloc(3) allows replacing).
 extern "C" {
-void* __libc_malloc(std::size_t size);                          // NOLINT
-void* __libc_calloc(std::size_t count, std::size_t size);       // NOLINT
-void* __libc_realloc(void* memory, std::size_t size);           // NOLINT
+void* __libc_malloc(std::size_t size);                           // NOLINT
+void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT
+void* __libc_realloc(void* memory, std::size_t size);            // NOLINT
 void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
 
 void* malloc(std::size_t size) {

@@ -8,8 +8,8 @@
 namespace test_support {
 
 struct Allocations {
-  std::size_t in_stack = 0;     // by rclcpp, rcl, rmw, tracetools, messages and the program itself
-  std::size_t in_fast_dds = 0;  // by Fast DDS and Fast CDR
+  std::size_t in_stack = 0;                // by rclcpp, rcl, rmw, tracetools, messages and the program itself
+  std::size_t in_fast_dds = 0;             // by Fast DDS and Fast CDR
   std::vector<std::string> stack_callers;  // functions, or libraries with addresses, of the first ones in_stack
 };
 

@@ -1,11 +1,10 @@
-#include "allocation_count.hpp"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <std_msgs/msg/color_rgba.hpp>
 #include <std_msgs/msg/string.hpp>
 
+#include "allocation_count.hpp"
 #include "tests/unit/rclcpp/ros_test.hpp"
 
 namespace {

@@ -91,7 +91,8 @@ TEST_F(InitTest, ShutdownRunsCallbacksInOrder) {
   // The context keeps its callbacks for the next shutdown: they must not refer to this function.
   const auto calls = std::make_shared<std::vector<std::string>>();
   auto context = rclcpp::contexts::get_global_default_context();
-  const auto pre = context->add_pre_shutdown_callback([calls] { calls->push_back(rclcpp::ok() ? "pre" : "pre, late"); });
+  const auto pre =
+      context->add_pre_shutdown_callback([calls] { calls->push_back(rclcpp::ok() ? "pre" : "pre, late"); });
   rclcpp::on_shutdown([calls] { calls->push_back(rclcpp::ok() ? "on, early" : "on"); });
   const auto removed = context->add_on_shutdown_callback([calls] { calls->push_back("removed"); });
   EXPECT_TRUE(context->remove_on_shutdown_callback(removed));

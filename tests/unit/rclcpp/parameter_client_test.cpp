@@ -71,9 +71,8 @@ TEST_F(ParameterClient, TypeDescriptionServiceSaysThatThereIsNone) {
 
 TEST_F(RosTest, NodeHasNoParameterServicesWhenItIsToldSo) {
   const rclcpp::Node with("with");
-  const rclcpp::Node without("without", rclcpp::NodeOptions()
-                                            .start_parameter_services(false)
-                                            .append_parameter_override("start_type_description_service", false));
+  const rclcpp::Node without("without", rclcpp::NodeOptions().start_parameter_services(false).append_parameter_override(
+                                            "start_type_description_service", false));
   for (const char* name : {"get_parameters", "get_parameter_types", "set_parameters", "set_parameters_atomically",
                            "describe_parameters", "list_parameters", "get_type_description"}) {
     EXPECT_EQ(with.count_services(std::string("with/") + name), 1u) << name;

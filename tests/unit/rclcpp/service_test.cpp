@@ -85,8 +85,8 @@ TEST_F(ServiceTest, ClientMayBeCalledBack) {
   const auto client = node_->create_client<AddTwoInts>("add");
   ASSERT_TRUE(client->wait_for_service(kPatience));
   int64_t sum = 0;
-  const auto first = client->async_send_request(make_request(1, 2),
-                                                [&](AddClient::SharedFuture future) { sum = future.get()->sum; });
+  const auto first =
+      client->async_send_request(make_request(1, 2), [&](AddClient::SharedFuture future) { sum = future.get()->sum; });
   EXPECT_EQ(executor_.spin_until_future_complete(first, kPatience), rclcpp::FutureReturnCode::SUCCESS);
   EXPECT_EQ(sum, 3);
   const auto second = client->async_send_request(make_request(4, 5), [&](AddClient::SharedFutureWithRequest future) {

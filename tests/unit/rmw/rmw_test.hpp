@@ -60,7 +60,8 @@ class Node {
     while (!condition()) {
       void* changed = rmw_node_get_graph_guard_condition(handle)->data;
       rmw_guard_conditions_t guard_conditions{1, &changed};
-      ASSERT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, wait_set_, &kPatience), RMW_RET_OK) << "the graph stays as it is";
+      ASSERT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, wait_set_, &kPatience), RMW_RET_OK)
+          << "the graph stays as it is";
     }
   }
 

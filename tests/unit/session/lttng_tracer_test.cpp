@@ -272,9 +272,9 @@ TEST_F(LttngTracer, ChannelHasTheNumberAndTimersThatWereAskedFor) {
   config.subbuffer_count_ust = 7;
   config.read_timer_ust = 50'000;
   config.switch_timer_ust = 1'000'000;
-  EXPECT_THAT(tracer->start(config).warnings,
-              testing::ElementsAre(
-                  "number of sub-buffers 7 is rounded up to 8: LTTng needs a power of two, at least 2"));
+  EXPECT_THAT(
+      tracer->start(config).warnings,
+      testing::ElementsAre("number of sub-buffers 7 is rounded up to 8: LTTng needs a power of two, at least 2"));
   const std::string listing = run_command({"lttng", "list", "run"}).out;
   for (const char* expected : {"Sub-buffer count: 8", "Switch timer:     1000000 us", "Read timer:       50000 us"}) {
     EXPECT_THAT(listing, testing::HasSubstr(expected));

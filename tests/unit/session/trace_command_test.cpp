@@ -168,8 +168,7 @@ TEST(TraceCommand, StatusPrintsOneSessionOrAll) {
   EXPECT_EQ(run({"status"}, tracer).out, "no trace sessions\n");
   EXPECT_EQ(run({"status", "a"}, tracer).out, "a (recording) /traces/a\n" + channel);
   tracer.session_list = {{.name = "a"}, {.name = "b"}};
-  EXPECT_EQ(run({"status"}, tracer).out,
-            "a (recording) /traces/a\n" + channel + "b (recording) /traces/b\n" + channel);
+  EXPECT_EQ(run({"status"}, tracer).out, "a (recording) /traces/a\n" + channel + "b (recording) /traces/b\n" + channel);
   tracer.verb_error = TraceError("there is no trace session 'c'");
   EXPECT_EQ(run({"status", "c"}, tracer).exit_code, 1);
 }
@@ -194,11 +193,12 @@ TEST(TraceCommand, EventsPrintsWhatCanBeRecorded) {
   tracer.events.why_no_kernel.clear();
   tracer.events.kernel = {"sched_switch"};
   tracer.events.syscalls = 2;
-  EXPECT_EQ(run({"events"}, tracer).out,
-            "userspace: no running program has registered events; rules for events to come can be enabled all the same\n"
-            "kernel: 1 event, 2 system calls\n"
-            "  sched_switch\n" +
-                fields);
+  EXPECT_EQ(
+      run({"events"}, tracer).out,
+      "userspace: no running program has registered events; rules for events to come can be enabled all the same\n"
+      "kernel: 1 event, 2 system calls\n"
+      "  sched_switch\n" +
+          fields);
 }
 
 TEST(TraceCommand, InteractiveDualSessionNeedsItsSnapshotHalf) {

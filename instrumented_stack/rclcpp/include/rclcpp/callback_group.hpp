@@ -1,4 +1,5 @@
-// The entities (timers, subscriptions, services, clients) whose callbacks belong together, and the unit that an executor serves.
+// The entities (timers, subscriptions, services, clients) whose callbacks belong together, and the unit that an
+// executor serves.
 #pragma once
 
 #include <atomic>

@@ -79,7 +79,8 @@ class Client : public ClientBase {
   };
 
   Client(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name, const QoS& qos)
-      : ClientBase(node_base, *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>(), service_name, qos) {}
+      : ClientBase(node_base, *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>(), service_name, qos) {
+  }
 
   // A request that is never answered stays pending until it is removed. Throw exceptions::RCLError.
   FutureAndRequestId async_send_request(SharedRequest request) {
@@ -103,8 +104,8 @@ class Client : public ClientBase {
                     "the callback takes neither a SharedFuture nor a SharedFutureWithRequest");
       PromiseWithRequest promise;
       SharedFutureWithRequest future = promise.get_future().share();
-      const int64_t request_id = send(*request, WithRequest{std::forward<CallbackT>(callback), request,
-                                                            std::move(promise), future});
+      const int64_t request_id =
+          send(*request, WithRequest{std::forward<CallbackT>(callback), request, std::move(promise), future});
       return SharedFutureWithRequestAndRequestId(std::move(future), request_id);
     }
   }

@@ -1,5 +1,5 @@
-// A node: a name in the graph, with publishers, subscriptions, services, timers and parameters. Derive from it or create it with
-// std::make_shared, then give it to an executor or to rclcpp::spin().
+// A node: a name in the graph, with publishers, subscriptions, services, timers and parameters. Derive from it or
+// create it with std::make_shared, then give it to an executor or to rclcpp::spin().
 #pragma once
 
 #include <chrono>

@@ -15,7 +15,8 @@ class NodeTypeDescriptions {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeTypeDescriptions)
 
-  NodeTypeDescriptions(const NodeBaseInterface::SharedPtr& node_base, const NodeParametersInterface::SharedPtr& parameters,
+  NodeTypeDescriptions(const NodeBaseInterface::SharedPtr& node_base,
+                       const NodeParametersInterface::SharedPtr& parameters,
                        const NodeServicesInterface::SharedPtr& services);
 
  private:
