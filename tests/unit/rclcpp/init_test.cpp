@@ -150,9 +150,11 @@ TEST_F(InitTest, SignalHandlersOfTheProgramAreCalledAndComeBack) {
   EXPECT_TRUE(rclcpp::signal_handlers_installed());
   EXPECT_FALSE(rclcpp::install_signal_handlers());
   std::promise<void> ended;
-  rclcpp::on_shutdown([&] { ended.set_value(); });
+  auto context = rclcpp::contexts::get_global_default_context();
+  const auto callback = context->add_on_shutdown_callback([&] { ended.set_value(); });
   raise(SIGINT);
   EXPECT_EQ(ended.get_future().wait_for(kPatience), std::future_status::ready);
+  EXPECT_TRUE(context->remove_on_shutdown_callback(callback));
   EXPECT_EQ(g_signals, 1);
   rclcpp::shutdown();
   raise(SIGINT);
