@@ -52,7 +52,11 @@ INSTANTIATE_TEST_SUITE_P(
                                 {},
                                 {"[greeter-1] hello", "[greeter-1] world", "[clock-2] tick", "that was it",
                                  "sending signal 'SIGINT' to process[waiter-3]"}},
-                        Example{"06_trace_options", {}, {"trace written to: "}}),
+                        Example{"06_trace_options", {}, {"trace written to: "}},
+                        Example{"07_services",
+                                {},
+                                {"the client will ask 3 times", "[add_two_ints_server]: 2 + 3 = 5",
+                                 "[add_two_ints_client]: 2 + 3 = 5"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 
