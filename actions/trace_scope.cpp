@@ -176,7 +176,9 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"context-fields", config_.context_fields_ust},
           {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
           {"init-channel", config_.init_channel},
-          {"subbuffer-count-ust", static_cast<std::int64_t>(config_.subbuffer_count_ust)},
+          {"subbuffer-count-ust",
+           static_cast<std::int64_t>(config_.subbuffer_count_ust != 0 ? config_.subbuffer_count_ust
+                                                                      : config_.default_subbuffer_count())},
           {"read-timer-ust", static_cast<std::int64_t>(config_.read_timer_ust)},
           {"switch-timer-ust", static_cast<std::int64_t>(config_.switch_timer_ust)},
           {"subbuffer-size-kernel", static_cast<std::int64_t>(config_.subbuffer_size_kernel)},

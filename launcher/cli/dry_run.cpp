@@ -120,6 +120,10 @@ std::string indented(const std::string& text) {
   return result;
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
 }  // namespace
 
 std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_environment) {
@@ -173,7 +177,8 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
     }
     text += '\n';
   }
-  text += fmt::format("{} processes, {} traces; nothing was started\n", plan.processes.size(), plan.scopes.size());
+  text += fmt::format("{}, {}; nothing was started\n", counted(plan.processes.size(), "process", "processes"),
+                      counted(plan.scopes.size(), "trace", "traces"));
   return text;
 }
 

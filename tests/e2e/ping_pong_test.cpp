@@ -268,14 +268,14 @@ TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
 
   const std::vector<std::uint64_t> pings = published(ping, "/ping");
   const std::vector<std::uint64_t> pongs = published(pong, "/pong");
-  // The timestamp that was handed to the writer is the one that the reader tells, to the nanosecond. On a busy machine
-  // ping asks again, and may have gone before the last answer comes.
+  // The timestamp that was handed to the writer is the one that the reader tells, to the nanosecond. Not every message
+  // is taken: one may be sent before the reader knows of its writer, and ping may have gone before the last answer.
   const std::vector<std::uint64_t> at_pong = received(pong, check_subscription(pong, "/ping"));
   const std::vector<std::uint64_t> at_ping = received(ping, check_subscription(ping, "/pong"));
   for (const auto& [takes, publications] : {std::pair(at_pong, pings), std::pair(at_ping, pongs)}) {
     EXPECT_GE(takes.size(), kExchanges);
-    ASSERT_LE(takes.size(), publications.size());
-    EXPECT_TRUE(std::equal(takes.begin(), takes.end(), publications.begin()));
+    EXPECT_TRUE(std::is_sorted(takes.begin(), takes.end()));
+    EXPECT_TRUE(std::includes(publications.begin(), publications.end(), takes.begin(), takes.end()));
   }
 }
 
@@ -352,7 +352,7 @@ TEST(PingPongPlan, DryRunStartsNothingAndShowsBothNodes) {
   EXPECT_THAT(xml.out, HasSubstr("/lib/demo_nodes/ping\""));
   EXPECT_THAT(xml.out, HasSubstr("\"session-name\": \"ping_pong-2"));
   EXPECT_EQ(yaml.exit_code, 0) << yaml.err;
-  EXPECT_THAT(yaml.out, HasSubstr("2 processes, 1 traces; nothing was started\n"));
+  EXPECT_THAT(yaml.out, HasSubstr("2 processes, 1 trace; nothing was started\n"));
   EXPECT_FALSE(fs::exists(sandbox.trace_directory()) && !fs::is_empty(sandbox.trace_directory()));
 }
 

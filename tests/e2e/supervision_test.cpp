@@ -139,7 +139,7 @@ TEST_F(Supervision, TraceOptionLeavesAFileWithATraceAsItIs) {
   const std::string file = write(R"xml(<executable cmd="true"/><group><trace session-name="own"/></group>)xml");
   const CommandResult plan = run_command({LAUNCH_PROGRAM, "--trace", "--dry-run", file});
   EXPECT_EQ(plan.exit_code, 0) << plan.err;
-  EXPECT_THAT(plan.out, HasSubstr("1 processes, 1 traces; nothing was started\n"));
+  EXPECT_THAT(plan.out, HasSubstr("1 process, 1 trace; nothing was started\n"));
   EXPECT_THAT(plan.out, HasSubstr("own"));
 }
 

@@ -18,9 +18,8 @@ constexpr const char* kUserspaceChannel = "ros2";
 constexpr const char* kInitialisationChannel = "ros2_init";
 constexpr const char* kAllRosEvents = "ros2:*";
 constexpr const char* kKernelChannel = "kchan";
-constexpr std::uint64_t kSubbuffers = 2;
-constexpr std::uint64_t kSubbuffersOfSnapshot = 4;
 constexpr unsigned int kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
+constexpr std::uint64_t kFewestSubbuffers = 2;
 constexpr std::uint64_t kMostSubbuffers = std::uint64_t{1} << 20;
 constexpr std::uint64_t kLargestSubbuffer = std::uint64_t{1} << 40;
 
@@ -56,17 +55,13 @@ std::uint64_t usable_subbuffer_size(std::uint64_t given, lttng_domain_type domai
   return usable;
 }
 
-std::uint64_t default_subbuffer_count(const TraceConfig& config) {
-  return config.records_snapshots() ? kSubbuffersOfSnapshot : kSubbuffers;
-}
-
 // A power of two, and two at least: one is written to while the other is read.
 std::uint64_t usable_subbuffer_count(const TraceConfig& config, std::vector<std::string>& warnings) {
   const std::uint64_t given = config.subbuffer_count_ust;
-  if (given == 0) return default_subbuffer_count(config);
+  if (given == 0) return config.default_subbuffer_count();
   if (given > kMostSubbuffers)
     throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
-  const std::uint64_t usable = std::bit_ceil(std::max(given, kSubbuffers));
+  const std::uint64_t usable = std::bit_ceil(std::max(given, kFewestSubbuffers));
   if (usable != given) {
     warnings.push_back(fmt::format(
         "number of sub-buffers {} is rounded up to {}: LTTng needs a power of two, at least 2", given, usable));
@@ -148,7 +143,7 @@ std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std:
          .syscalls = without_repetitions(config.syscalls),
          .context_fields = without_repetitions(config.context_fields_kernel),
          .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_kernel, LTTNG_DOMAIN_KERNEL, warnings),
-         .subbuffer_count = default_subbuffer_count(config),
+         .subbuffer_count = config.default_subbuffer_count(),
          .read_timer = kKernelReadTimer,
          .overwrite = config.records_snapshots()});
   }

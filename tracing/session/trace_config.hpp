@@ -35,6 +35,8 @@ struct TraceConfig {
   bool dual_runtime = false;  // the runtime half of a dual session: never a snapshot session
 
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
+  // Sub-buffers for each processor, where none are asked for.
+  std::uint64_t default_subbuffer_count() const { return records_snapshots() ? 4 : 2; }
 
   // base_path/session_name; for the halves of a dual session …/snapshot and …/runtime below it.
   std::string trace_directory() const;
