@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using Events = std::vector<RecordedEvent>;
 
 constexpr const char* kLaunchFile = R"(<launch>
-  <trace session-name="service" context-fields="procname vpid vtid"/>
+  <trace session-name="service" context-fields="procname vpid vtid" subbuffer-size-ust="1048576"/>
   <node pkg="demo_nodes" exec="add_two_ints_server" name="server"/>
   <node pkg="demo_nodes" exec="add_two_ints_client" name="client" on_exit="shutdown">
     <param name="count" value="3"/>
