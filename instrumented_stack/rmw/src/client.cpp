@@ -123,7 +123,7 @@ rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* requ
   fdds::SampleInfo sample;
   bool valid = false;
   // Invalid samples tell of the end of a service, not of a response.
-  while (!valid && owned.reader->take_next_sample(&incoming, &sample) == ReturnCode_t::RETCODE_OK) {
+  while (!valid && owned.take_next(&incoming, sample)) {
     valid = sample.valid_data;
   }
   if (valid) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
@@ -14,36 +15,41 @@ namespace rmw_fastrtps {
 class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, public Waitable {
  public:
   void on_data_available(eprosima::fastdds::dds::DataReader*) override {
-    may_have_data_.store(true, std::memory_order_release);
+    arrivals_.fetch_add(1, std::memory_order_release);
     notify();
   }
 
   // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap.
   bool is_ready() override {
-    if (!may_have_data_.load(std::memory_order_acquire)) {
+    const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
+    if (settled_.load(std::memory_order_acquire) == arrivals) {
       return false;
     }
-    if (has_data()) {
+    eprosima::fastdds::dds::SampleInfo info;
+    if (reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK) {
       return true;
     }
-    may_have_data_.store(false, std::memory_order_release);
-    // Data that came between the two lines above must not be forgotten.
-    if (has_data()) {
-      may_have_data_.store(true, std::memory_order_release);
-      return true;
-    }
+    settled_.store(arrivals, std::memory_order_release);
     return false;
+  }
+
+  // Takes the next sample; false when there is none to take. The reader is then not ready until something arrives: it
+  // may hold a sample all the same, one behind another that is missing, which arrives once more when its writer has
+  // resent or given up the other.
+  bool take_next(void* data, eprosima::fastdds::dds::SampleInfo& info) {
+    const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
+    const ReturnCode_t result = reader->take_next_sample(data, &info);
+    if (result == ReturnCode_t::RETCODE_NO_DATA) {
+      settled_.store(arrivals, std::memory_order_release);
+    }
+    return result == ReturnCode_t::RETCODE_OK;
   }
 
   eprosima::fastdds::dds::DataReader* reader = nullptr;
 
  private:
-  bool has_data() const {
-    eprosima::fastdds::dds::SampleInfo info;
-    return reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK;
-  }
-
-  std::atomic<bool> may_have_data_{false};
+  std::atomic<std::uint64_t> arrivals_{0};
+  std::atomic<std::uint64_t> settled_{0};  // arrivals that are known to have left nothing to take
 };
 
 }  // namespace rmw_fastrtps

@@ -107,7 +107,7 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
   IncomingMessage incoming{ros_request, nullptr};
   fdds::SampleInfo sample;
   // Invalid samples tell of the end of a client, not of a request.
-  while (!*taken && owned.reader->take_next_sample(&incoming, &sample) == ReturnCode_t::RETCODE_OK) {
+  while (!*taken && owned.take_next(&incoming, sample)) {
     *taken = sample.valid_data;
   }
   rmw_request_id_t& id = request_header->request_id;

@@ -65,7 +65,7 @@ rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, const
   const auto own_prefix = subscription.reader->guid().guidPrefix;
   *taken = false;
   fdds::SampleInfo sample;
-  while (!*taken && subscription.reader->take_next_sample(&incoming, &sample) == ReturnCode_t::RETCODE_OK) {
+  while (!*taken && subscription.take_next(&incoming, sample)) {
     // Invalid samples tell of the end of a writer's data, not of a message.
     const bool ignored =
         handle->options.ignore_local_publications && sample.sample_identity.writer_guid().guidPrefix == own_prefix;
