@@ -9,6 +9,9 @@ namespace {
 // The first twelve bytes of a GUID name the participant.
 constexpr std::size_t kPrefixLength = 12;
 
+// Far more than can end between two messages of one of them.
+constexpr std::size_t kRemembered = 1000;
+
 bool same_participant(const Gid& a, const Gid& b) {
   return std::equal(a.begin(), a.begin() + kPrefixLength, b.begin());
 }
@@ -29,6 +32,7 @@ auto& endpoints_of(NodeInfo& node, GraphCache::Kind kind) {
 void GraphCache::add_participant(const Gid& gid, std::string enclave) {
   {
     std::lock_guard lock(mutex_);
+    std::erase(gone_, gid);
     participants_[gid].enclave = std::move(enclave);
   }
   on_change_();
@@ -38,15 +42,13 @@ void GraphCache::remove_participant(const Gid& gid) {
   {
     std::lock_guard lock(mutex_);
     participants_.erase(gid);
+    gone_.push_back(gid);
+    if (gone_.size() > kRemembered) {
+      gone_.pop_front();
+    }
     std::erase_if(endpoints_, [&](const auto& entry) { return same_participant(entry.first, gid); });
   }
-  participant_removed_.notify_all();
   on_change_();
-}
-
-bool GraphCache::wait_until_unknown(const Gid& gid, std::chrono::steady_clock::time_point deadline) {
-  std::unique_lock lock(mutex_);
-  return participant_removed_.wait_until(lock, deadline, [&] { return participants_.count(gid) == 0; });
 }
 
 void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
@@ -70,6 +72,9 @@ void GraphCache::update_nodes(const EntitiesInfo& info) {
   std::copy(info.gid.data.begin(), info.gid.data.end(), gid.begin());
   {
     std::lock_guard lock(mutex_);
+    if (std::find(gone_.begin(), gone_.end(), gid) != gone_.end()) {
+      return;
+    }
     auto& nodes = participants_[gid].nodes;
     nodes.assign(info.node_entities_info_seq.begin(), info.node_entities_info_seq.end());
   }

@@ -6,7 +6,6 @@
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -117,10 +116,11 @@ fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_pr
   return fdds::SYNCHRONOUS_PUBLISH_MODE;
 }
 
-// The participants of this process. The lock is held while one of them is created or taken apart.
+// The participants of this process. The lock is held while one of them is created.
 struct Siblings {
   std::mutex mutex;
-  std::vector<Participant*> all;
+  std::vector<rtps::GuidPrefix_t> prefixes;
+  std::uint16_t created = 0;
 };
 
 Siblings& siblings() {
@@ -129,8 +129,22 @@ Siblings& siblings() {
   return *siblings;
 }
 
-// How long a participant that goes waits for its siblings to notice. It takes them a millisecond.
-constexpr std::chrono::seconds kFarewell{1};
+// Makes a further participant of the process look like one of another process on this host.
+//
+// Fast DDS takes two participants for neighbours in one process when the first eight bytes of their GUIDs are equal
+// (two of the vendor, two of the host, four of the process), and then lets them write into each other's memory. Release
+// 2.9 does so even after the other is gone, until it hears of its end (mended later by its pull request 5034).
+void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, rtps::GuidPrefix_t& prefix) {
+  prefix = first;
+  const auto differ = [&](std::size_t byte) {
+    prefix.value[byte] = static_cast<rtps::octet>(prefix.value[byte] ^ (number >> 8));
+    prefix.value[byte + 1] = static_cast<rtps::octet>(prefix.value[byte + 1] ^ (number & 0xff));
+  };
+  constexpr std::size_t kRandomOfProcess = 6;
+  constexpr std::size_t kParticipant = 8;
+  differ(kRandomOfProcess);
+  differ(kParticipant);
+}
 
 }  // namespace
 
@@ -172,7 +186,7 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
 };
 
 Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
-    : graph_(graph), listener_(std::make_unique<DiscoveryListener>(graph)) {
+    : listener_(std::make_unique<DiscoveryListener>(graph)) {
   const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
   qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
 
@@ -194,6 +208,9 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   }
 
   std::lock_guard lock(siblings().mutex);
+  if (!siblings().prefixes.empty()) {
+    be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
+  }
   participant_ = factory->create_participant(domain_id, qos, listener_.get(), fdds::StatusMask::none());
   if (participant_ == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
@@ -203,25 +220,19 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   subscriber_ = participant_->create_subscriber(participant_->get_default_subscriber_qos());
   gid_ = to_gid(participant_->guid());
   graph.add_participant(gid_, enclave);
-  siblings().all.push_back(this);
+  siblings().prefixes.push_back(participant_->guid().guidPrefix);
 }
 
 Participant::~Participant() {
-  std::lock_guard lock(siblings().mutex);
-  std::erase(siblings().all, this);
+  {
+    std::lock_guard lock(siblings().mutex);
+    std::erase(siblings().prefixes, participant_->guid().guidPrefix);
+  }
   // No callback may come while, or after, the participant is taken apart.
   participant_->set_listener(nullptr);
   participant_->delete_publisher(publisher_);
   participant_->delete_subscriber(subscriber_);
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
-
-  // Participants of one process write into each other's built-in readers directly, and learn of each other's end over
-  // the transport. In between, the next endpoint that a sibling announces would be written into a reader that is gone
-  // (mended in later releases of Fast DDS by its pull request 5034).
-  const auto deadline = std::chrono::steady_clock::now() + kFarewell;
-  for (const Participant* sibling : siblings().all) {
-    sibling->graph_.wait_until_unknown(gid_, deadline);
-  }
 }
 
 fdds::Topic& Participant::acquire_topic(const std::string& dds_name,

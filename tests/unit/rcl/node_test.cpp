@@ -229,14 +229,6 @@ TEST_F(RclNode, SeesTheGraphOfAnotherContext) {
   rcl_wait_set_t wait_set = rcl_get_zero_initialized_wait_set();
   ASSERT_EQ(rcl_wait_set_init(&wait_set, 0, 1, 0, 0, 0, 0, &other_context.handle, rcl_get_default_allocator()),
             RCL_RET_OK);
-  const auto wait_until = [&](const std::function<bool()>& condition) {
-    while (!condition()) {
-      ASSERT_EQ(rcl_wait_set_clear(&wait_set), RCL_RET_OK);
-      ASSERT_EQ(rcl_wait_set_add_guard_condition(&wait_set, rcl_node_get_graph_guard_condition(&other.handle), nullptr),
-                RCL_RET_OK);
-      ASSERT_EQ(rcl_wait(&wait_set, kPatience), RCL_RET_OK);
-    }
-  };
   const auto publishers = [&] {
     size_t count = 0;
     EXPECT_EQ(rcl_count_publishers(&other.handle, "/ns/chatter", &count), RCL_RET_OK);
@@ -254,6 +246,15 @@ TEST_F(RclNode, SeesTheGraphOfAnotherContext) {
     EXPECT_EQ(rcutils_string_array_fini(&namespaces), RCUTILS_RET_OK);
     std::sort(result.begin(), result.end());
     return result;
+  };
+  const auto wait_until = [&](const std::function<bool()>& condition) {
+    while (!condition()) {
+      ASSERT_EQ(rcl_wait_set_clear(&wait_set), RCL_RET_OK);
+      ASSERT_EQ(rcl_wait_set_add_guard_condition(&wait_set, rcl_node_get_graph_guard_condition(&other.handle), nullptr),
+                RCL_RET_OK);
+      ASSERT_EQ(rcl_wait(&wait_set, kPatience), RCL_RET_OK)
+          << "the graph stays as it is: " << publishers() << " publishers, nodes " << testing::PrintToString(nodes());
+    }
   };
   wait_until([&] { return publishers() == 1 && nodes() == std::vector<std::string>{"/ observer", "/ns talker"}; });
 

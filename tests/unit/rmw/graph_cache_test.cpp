@@ -1,0 +1,78 @@
+// What the graph cache makes of discovery and of what participants tell, in any order.
+#include "graph_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using rmw_fastrtps::Gid;
+using rmw_fastrtps::GraphCache;
+
+Gid gid_of(unsigned char number) {
+  Gid gid{};
+  gid[0] = number;
+  return gid;
+}
+
+GraphCache::EntitiesInfo told_by(const Gid& participant, const std::string& node) {
+  GraphCache::EntitiesInfo info;
+  std::copy(participant.begin(), participant.end(), info.gid.data.begin());
+  info.node_entities_info_seq.resize(1);
+  info.node_entities_info_seq[0].node_namespace = "/";
+  info.node_entities_info_seq[0].node_name = node;
+  return info;
+}
+
+class Graph : public testing::Test {
+ protected:
+  std::vector<std::string> nodes() const {
+    std::vector<std::string> names;
+    for (const GraphCache::Node& node : graph_.nodes()) {
+      names.push_back(node.name);
+    }
+    return names;
+  }
+
+  int changes_ = 0;
+  GraphCache graph_{[this] { ++changes_; }};
+};
+
+TEST_F(Graph, KnowsNodesBeforeTheirParticipantIsDiscovered) {
+  graph_.update_nodes(told_by(gid_of(1), "talker"));
+  graph_.add_participant(gid_of(1), "/enclave");
+  ASSERT_EQ(graph_.nodes().size(), 1u);
+  EXPECT_EQ(graph_.nodes()[0].name, "talker");
+  EXPECT_EQ(graph_.nodes()[0].enclave, "/enclave");
+}
+
+TEST_F(Graph, IgnoresWhatAParticipantToldBeforeItsEnd) {
+  graph_.add_participant(gid_of(1), "/");
+  graph_.update_nodes(told_by(gid_of(1), "talker"));
+  graph_.remove_participant(gid_of(1));
+  const int changes = changes_;
+  graph_.update_nodes(told_by(gid_of(1), "talker"));
+  EXPECT_EQ(nodes(), std::vector<std::string>());
+  EXPECT_EQ(changes_, changes);
+}
+
+TEST_F(Graph, KnowsAParticipantAgainThatWasThoughtDead) {
+  graph_.add_participant(gid_of(1), "/");
+  graph_.remove_participant(gid_of(1));
+  graph_.add_participant(gid_of(1), "/");
+  graph_.update_nodes(told_by(gid_of(1), "talker"));
+  EXPECT_EQ(nodes(), std::vector<std::string>{"talker"});
+}
+
+TEST_F(Graph, ForgetsTheEndpointsOfAParticipantWithIt) {
+  Gid writer = gid_of(1);
+  writer[15] = 3;
+  graph_.add_participant(gid_of(1), "/");
+  graph_.add_endpoint(writer, {GraphCache::Kind::kWriter, "rt/chatter", "type"});
+  EXPECT_EQ(graph_.count(GraphCache::Kind::kWriter, "rt/chatter"), 1u);
+  graph_.remove_participant(gid_of(1));
+  EXPECT_EQ(graph_.count(GraphCache::Kind::kWriter, "rt/chatter"), 0u);
+}
+
+}  // namespace
