@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/run_command.hpp"
@@ -46,6 +47,15 @@ int main(int argc, char** argv) {
   }
   if (command == "trace") {
     return tracing::run_trace_command({argv + 2, argv + argc});
+  }
+  if (command == "check") {
+    return launch::check_command({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process());
+  }
+  if (command == "graph") {
+    return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process());
+  }
+  if (command == "schema") {
+    return launch::schema_command({argv + 2, argv + argc}, launch::builtin_actions());
   }
   if (command == "reference") {
     fmt::print("{}", launch::reference_page(launch::builtin_actions()));

@@ -12,14 +12,16 @@ namespace {
 constexpr std::string_view kOwnConfigurations[] = {"launch-prefix",   "launch-prefix-filter", "sigterm_timeout",
                                                    "sigkill_timeout", "emulate_tty",          "ros_namespace"};
 
-// A configuration may be read without being declared.
+}  // namespace
+
 bool is_read_in(const LaunchDescription& description, const std::string& name) {
+  if (description.file == nullptr) {
+    return false;
+  }
   const std::string& text = description.file->text();
   return text.find(fmt::format("$(var {})", name)) != std::string::npos ||
          text.find(fmt::format("$(var {} ", name)) != std::string::npos;
 }
-
-}  // namespace
 
 std::vector<Diagnostic> check_arguments(const std::vector<std::pair<std::string, std::string>>& arguments,
                                         const LaunchDescription& description, const ArgumentList& declared,

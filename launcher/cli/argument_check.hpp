@@ -17,4 +17,7 @@ std::vector<Diagnostic> check_arguments(const std::vector<std::pair<std::string,
                                         const LaunchDescription& description, const ArgumentList& declared,
                                         Severity severity);
 
+// Whether the text of a launch file reads a configuration. It may do so without declaring it.
+bool is_read_in(const LaunchDescription& description, const std::string& name);
+
 }  // namespace launch

@@ -19,6 +19,9 @@ constexpr const char* kFooter =
     "Other commands:\n"
     "  launch trace …    records a trace by hand (launch trace --help)\n"
     "  launch report DIR describes a recorded trace (launch report --help)\n"
+    "  launch check FILE finds errors without running anything (launch check --help)\n"
+    "  launch graph FILE draws nodes, namespaces, includes and remapped topics (launch graph --help)\n"
+    "  launch schema     prints a schema for editors (launch schema --help)\n"
     "  launch reference  prints the reference of the launch language\n"
     "\n"
     "Examples:\n"
@@ -39,15 +42,19 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   std::vector<std::string> words;
   std::string dry_run;
   bool show_arguments = false;
+  bool print = false;
   bool noninteractive = false;
 
   CLI::App app(kDescription, "launch");
   app.footer(kFooter);
   app.set_version_flag("--version", LAUNCH_VERSION);
-  app.add_option("words", words, "a launch file, or a package and a file of it; then arguments, name:=value")
-      ->type_name("FILE | PACKAGE FILE  [NAME:=VALUE ...]");
+  app.add_option("words", words,
+                 "launch files, - for standard input, or a package and a file of it; then arguments, name:=value")
+      ->type_name("FILE ... | PACKAGE FILE  [NAME:=VALUE ...]");
   app.add_flag("-s,--show-args,--show-arguments", show_arguments, "print the file's arguments, don't run it");
-  app.add_flag("--dry-run{text}", dry_run, "print what would run, don't run it; --dry-run=json for programs");
+  app.add_flag("-p,--print,--print-description", print, "print the actions of the file, don't run it");
+  app.add_flag("--dry-run{text}", dry_run,
+               "print what would run, don't run it; --dry-run=json for programs, --dry-run=shell as a script");
   app.add_flag("-d,--debug", command.debug, "show debug messages");
   app.add_flag("--trace", command.trace,
                "record a trace with the default settings, unless the file has a trace of its own");
@@ -74,7 +81,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
 
   for (const std::string& word : words) {
     const std::size_t separator = word.find(":=");
-    if (separator == std::string::npos && command.arguments.empty() && command.target.size() < 2) {
+    if (separator == std::string::npos && command.arguments.empty()) {
       command.target.push_back(word);
     } else if (separator == std::string::npos || separator == 0 || separator + 2 == word.size()) {
       return usage_error(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", word));
@@ -85,20 +92,24 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   if (command.target.empty()) {
     return usage_error("no launch file given, see launch --help");
   }
-  if (!dry_run.empty() && show_arguments) {
-    return usage_error("--dry-run and --show-args exclude each other");
+  if (int(!dry_run.empty()) + int(show_arguments) + int(print) > 1) {
+    return usage_error("--dry-run, --show-args and --print exclude each other");
   }
   if (!command.launch_prefix_filter.empty() && command.launch_prefix.empty()) {
     return usage_error("--launch-prefix-filter needs --launch-prefix");
   }
   if (show_arguments) {
     command.mode = CommandMode::kShowArguments;
+  } else if (print) {
+    command.mode = CommandMode::kPrint;
   } else if (dry_run == "text") {
     command.mode = CommandMode::kDryRunText;
   } else if (dry_run == "json") {
     command.mode = CommandMode::kDryRunJson;
+  } else if (dry_run == "shell") {
+    command.mode = CommandMode::kDryRunShell;
   } else if (!dry_run.empty()) {
-    return usage_error(fmt::format("--dry-run={} is unknown, expected text or json", dry_run));
+    return usage_error(fmt::format("--dry-run={} is unknown, expected text, json or shell", dry_run));
   }
   return command;
 }

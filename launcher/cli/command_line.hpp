@@ -8,11 +8,11 @@
 
 namespace launch {
 
-enum class CommandMode { kRun, kShowArguments, kDryRunText, kDryRunJson };
+enum class CommandMode { kRun, kShowArguments, kPrint, kDryRunText, kDryRunJson, kDryRunShell };
 
 struct CommandLine {
   CommandMode mode = CommandMode::kRun;
-  std::vector<std::string> target;                             // a path, or a package and a file name
+  std::vector<std::string> target;                             // paths, or a package and a file name
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value, in order
   bool debug = false;
   bool timing = false;

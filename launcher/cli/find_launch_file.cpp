@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
+#include <iterator>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/substitution/package_index.hpp"
@@ -14,6 +16,8 @@ namespace launch {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::string_view kStandardInput = "-";
 
 std::string find_in_package(const std::string& package, const std::string& name, const Scope& scope) {
   std::string share;
@@ -50,19 +54,43 @@ std::string find_in_package(const std::string& package, const std::string& name,
 
 }  // namespace
 
-std::string find_launch_file(const std::vector<std::string>& words, const Scope& scope) {
-  std::error_code ignored;
-  if (fs::exists(words.front(), ignored) && !fs::is_directory(words.front(), ignored)) {
-    if (words.size() > 1) {
-      throw LaunchError(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", words[1]), {});
-    }
-    return words.front();
+std::vector<std::string> find_launch_files(const std::vector<std::string>& words, const Scope& scope) {
+  const auto is_file = [](const std::string& word) {
+    std::error_code ignored;
+    return word == kStandardInput || (fs::exists(word, ignored) && !fs::is_directory(word, ignored));
+  };
+  if (words.size() == 2 && !is_file(words[0])) {
+    return {find_in_package(words[0], words[1], scope)};
   }
-  if (words.size() == 1) {
-    throw LaunchError(fmt::format("launch file '{}' does not exist", words.front()), {},
+  if (!is_file(words[0])) {
+    throw LaunchError(fmt::format("launch file '{}' does not exist", words[0]), {},
                       "a file of a package is named by two words: launch PACKAGE FILE");
   }
-  return find_in_package(words[0], words[1], scope);
+  for (const std::string& word : words) {
+    if (!is_file(word)) {
+      throw LaunchError(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", word), {},
+                        "nor is it a further launch file: no such file");
+    }
+  }
+  if (std::count(words.begin(), words.end(), kStandardInput) > 1) {
+    throw LaunchError("standard input can be read only once", {});
+  }
+  return words;
+}
+
+std::shared_ptr<const LaunchDescription> load_launch_files(const std::vector<std::string>& paths,
+                                                           const Registry& registry) {
+  std::vector<std::shared_ptr<const LaunchDescription>> descriptions;
+  for (const std::string& path : paths) {
+    if (path == kStandardInput) {
+      std::string text(std::istreambuf_iterator<char>(std::cin), {});
+      descriptions.push_back(
+          parse_launch_description(std::make_shared<SourceFile>("standard input", std::move(text)), registry));
+    } else {
+      descriptions.push_back(load_launch_description(path, registry));
+    }
+  }
+  return descriptions.size() == 1 ? descriptions.front() : join_launch_descriptions(std::move(descriptions));
 }
 
 }  // namespace launch

@@ -10,6 +10,7 @@
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/print_description.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
@@ -106,8 +107,10 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
 int dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
             const Environment& environment) {
   const LaunchPlan plan = plan_launch(context, description);
-  const bool as_json = command.mode == CommandMode::kDryRunJson;
-  fmt::print("{}", as_json ? plan_as_json(plan, environment) : plan_as_text(plan, environment));
+  const auto show = command.mode == CommandMode::kDryRunJson    ? plan_as_json
+                    : command.mode == CommandMode::kDryRunShell ? plan_as_shell_script
+                                                                : plan_as_text;
+  fmt::print("{}", show(plan, environment));
   return 0;
 }
 
@@ -131,7 +134,7 @@ int run_command(const CommandLine& command, Environment environment) {
     set_arguments(command, context.scope());
 
     const auto before = std::chrono::steady_clock::now();
-    auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    auto description = load_launch_files(find_launch_files(command.target, context.scope()), registry);
     if (!command.arguments.empty()) {
       report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
     }
@@ -143,8 +146,12 @@ int run_command(const CommandLine& command, Environment environment) {
       case CommandMode::kShowArguments:
         fmt::print("{}", show_arguments(find_arguments(*description, registry, context.scope())));
         return 0;
+      case CommandMode::kPrint:
+        fmt::print("{}", print_description(*description, registry, context.scope()));
+        return 0;
       case CommandMode::kDryRunText:
       case CommandMode::kDryRunJson:
+      case CommandMode::kDryRunShell:
         return dry_run(command, context, *description, environment);
       case CommandMode::kRun:
         return run(command, registry, environment, description, load);

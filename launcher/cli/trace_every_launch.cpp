@@ -43,8 +43,9 @@ std::string session_name_of(const std::string& path) {
 }  // namespace
 
 std::shared_ptr<const LaunchDescription> with_trace(const LaunchDescription& description, const Registry& registry) {
-  const std::string text = fmt::format("<launch><trace session-name=\"{}\" append-timestamp=\"true\"/></launch>",
-                                       session_name_of(description.file->path()));
+  const std::string text =
+      fmt::format("<launch><trace session-name=\"{}\" append-timestamp=\"true\"/></launch>",
+                  description.file == nullptr ? "launch" : session_name_of(description.file->path()));
   const auto trace = parse_launch_description(std::make_shared<SourceFile>("--trace", text), registry);
   auto traced = std::make_shared<LaunchDescription>(description);
   traced->actions.push_back(std::make_shared<UnlessTraced>(trace->actions.front()->where(), trace->actions));

@@ -7,6 +7,8 @@ namespace launch {
 void Action::visit(LaunchContext& context) const {
   if (condition_.holds(context.scope())) {
     execute(context);
+  } else {
+    context.visit_left_out([&] { execute(context); });
   }
 }
 

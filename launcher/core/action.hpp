@@ -17,6 +17,7 @@ namespace launch {
 
 class Action;
 class LaunchContext;
+struct LaunchDescription;
 
 using ActionPtr = std::shared_ptr<const Action>;
 
@@ -40,6 +41,7 @@ struct IncludeDeclaration {
 struct Introspection {
   const ArgumentDeclaration* argument = nullptr;
   const IncludeDeclaration* include = nullptr;
+  const std::shared_ptr<const LaunchDescription>* description = nullptr;  // a launch file that is already loaded
   const std::vector<ActionPtr>* children = nullptr;
   bool children_may_not_run = false;  // they wait for something, like those of a timer
 };

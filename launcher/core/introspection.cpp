@@ -46,6 +46,10 @@ class Walk {
       if (known.children != nullptr) {
         actions(*known.children, given, maybe || known.children_may_not_run, depth);
       }
+      if (known.description != nullptr) {
+        loaded_.push_back(*known.description);
+        description(**known.description, given, maybe, depth);
+      }
       if (known.include != nullptr && depth < kMaximumDepth) {
         include(*known.include, given, maybe, depth);
       }

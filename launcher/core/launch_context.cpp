@@ -44,7 +44,15 @@ void LaunchContext::cannot_run(const std::string& message, const SourceRange& wh
 
 void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
   for (const ActionPtr& action : actions) {
-    action->visit(*this);
+    if (!report_) {
+      action->visit(*this);
+      continue;
+    }
+    try {
+      action->visit(*this);
+    } catch (const LaunchError& error) {
+      report_(error, in_left_out_);
+    }
   }
 }
 
@@ -65,6 +73,28 @@ void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions)
   AtExit restore([this, outer = scope_]() mutable { scope_ = std::move(outer); });
   scope_ = std::move(scope);
   visit(actions);
+}
+
+void LaunchContext::visit_left_out(const std::function<void()>& visit) {
+  if (!report_ || in_left_out_) {
+    return;
+  }
+  AtExit restore([this, scope = scope_, requests = std::move(requests_), nodes = nodes_,
+                  messages = std::move(messages_)]() mutable {
+    scope_ = std::move(scope);
+    requests_ = std::move(requests);
+    nodes_ = std::move(nodes);
+    messages_ = std::move(messages);
+    in_left_out_ = false;
+  });
+  requests_ = Requests{};
+  messages_ = [](LogLevel, std::string_view, std::string_view) {};
+  in_left_out_ = true;
+  try {
+    visit();
+  } catch (const LaunchError& error) {
+    report_(error, true);
+  }
 }
 
 Requests LaunchContext::take_requests() {

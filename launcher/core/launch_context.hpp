@@ -89,6 +89,13 @@ class LaunchContext {
 
   void message(LogLevel level, std::string_view logger, std::string_view text) { messages_(level, logger, text); }
 
+  // From now on the visit goes on after an error with the next action, and visits, on the side, what conditions leave
+  // out: in a copy of the scope, without messages, and what it asks for is dropped. Nothing is left out inside what is
+  // itself visited on the side, so that a file that includes itself comes to an end. `report` hears of the errors.
+  void explore(std::function<void(const LaunchError&, bool left_out)> report) { report_ = std::move(report); }
+  // For Action: calls `visit`, which visits what a condition leaves out, when exploring.
+  void visit_left_out(const std::function<void()>& visit);
+
   // Counts a node by its fully qualified name and warns when there are several.
   void note_node(const std::string& fully_qualified_name);
 
@@ -100,6 +107,8 @@ class LaunchContext {
   Scope scope_;
   Requests requests_;
   bool plan_only_ = false;
+  std::function<void(const LaunchError&, bool)> report_;  // empty: not exploring
+  bool in_left_out_ = false;
   std::unordered_map<std::string, int> nodes_;
 };
 

@@ -3,9 +3,29 @@
 #include <filesystem>
 
 #include "launcher/core/action_parser.hpp"
+#include "launcher/core/launch_context.hpp"
 #include "launcher/frontend/frontend.hpp"
 
 namespace launch {
+
+namespace {
+
+// One of several launch files that were given together.
+class WholeFile : public Action {
+ public:
+  explicit WholeFile(std::shared_ptr<const LaunchDescription> description)
+      : Action({description->file, 0, 0}, Condition()), description_(std::move(description)) {}
+
+  Introspection introspect() const override { return {.description = &description_}; }
+
+ protected:
+  void execute(LaunchContext& context) const override { context.visit(*description_); }
+
+ private:
+  std::shared_ptr<const LaunchDescription> description_;
+};
+
+}  // namespace
 
 std::shared_ptr<const LaunchDescription> load_launch_description(const std::string& path, const Registry& registry,
                                                                  SourceRange included_from) {
@@ -24,6 +44,15 @@ std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_pt
   description->actions = ActionParser(registry).parse(root.children);
   description->file = std::move(file);
   return description;
+}
+
+std::shared_ptr<const LaunchDescription> join_launch_descriptions(
+    std::vector<std::shared_ptr<const LaunchDescription>> descriptions) {
+  auto joined = std::make_shared<LaunchDescription>();
+  for (auto& description : descriptions) {
+    joined->actions.push_back(std::make_shared<WholeFile>(std::move(description)));
+  }
+  return joined;
 }
 
 }  // namespace launch

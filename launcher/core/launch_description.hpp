@@ -11,7 +11,7 @@
 namespace launch {
 
 struct LaunchDescription {
-  std::shared_ptr<const SourceFile> file;
+  std::shared_ptr<const SourceFile> file;  // null for several files together
   std::vector<ActionPtr> actions;
   std::string deprecated;  // the text of the root's `deprecated`, empty when there is none
 };
@@ -24,5 +24,9 @@ std::shared_ptr<const LaunchDescription> load_launch_description(const std::stri
 // The same for text that is already read.
 std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_ptr<const SourceFile> file,
                                                                   const Registry& registry);
+
+// One description that visits several, one after another in one scope.
+std::shared_ptr<const LaunchDescription> join_launch_descriptions(
+    std::vector<std::shared_ptr<const LaunchDescription>> descriptions);
 
 }  // namespace launch

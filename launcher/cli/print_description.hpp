@@ -1,0 +1,14 @@
+// What `launch --print` prints: the actions of a launch file as they stand in it, included files in place.
+#pragma once
+
+#include <string>
+
+#include "launcher/core/launch_description.hpp"
+#include "launcher/substitution/scope.hpp"
+
+namespace launch {
+
+// A tree with a line per element. Includes are followed when their path can be known without visiting.
+std::string print_description(const LaunchDescription& description, const Registry& registry, const Scope& scope);
+
+}  // namespace launch

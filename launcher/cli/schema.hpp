@@ -1,0 +1,19 @@
+// Schemas of the launch language, made from the declarations of the actions, for editors to complete and check by.
+//
+// They say which elements and attributes there are, which are required, and what each is for. What a substitution may
+// give they can't say, so values of attributes are any text.
+#pragma once
+
+#include <string>
+
+#include "launcher/core/registry.hpp"
+
+namespace launch {
+
+// XML Schema 1.0 of XML launch files.
+std::string xml_schema(const Registry& registry);
+
+// JSON Schema, draft 7, of YAML launch files.
+std::string json_schema(const Registry& registry);
+
+}  // namespace launch
