@@ -16,6 +16,7 @@
 #include "launcher/core/launch_service.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
+#include "launcher/ros_client/ros_client_process.hpp"
 
 namespace launch {
 
@@ -92,7 +93,9 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context.scope());
 
+  RosClientProcess ros_client(*loop);
   LaunchService service(context, *loop, supervisor, print_error);
+  service.use_ros_client(ros_client);
   service.guard_scopes(guardian);
   const int exit_code = service.run(*description);
   if (command.timing) {

@@ -50,6 +50,7 @@ struct Requests {
   std::vector<ProcessSpec> processes;
   std::vector<NodeDescription> nodes;
   std::vector<LoadRequest> loads;
+  std::vector<TransitionRequest> transitions;
   std::vector<TimerRequest> timers;
   std::optional<ShutdownRequest> shutdown;
   std::vector<std::string> logs;             // messages of `log` actions
