@@ -222,6 +222,9 @@ void LaunchService::check_finished() {
   }
   ending_ = true;
   shutting_down_ = true;
+  if (ros_tasks_) {
+    ros_tasks_->shutdown();
+  }
   end_next_scope();
 }
 

@@ -260,10 +260,11 @@ EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Envi
       graph.emplace(name, value);
     }
   }
-  std::shared_ptr<Connection>& connection = connections_[graph];
+  auto found = connections_.find(graph);
   try {
-    if (!connection || !connection->is_open()) {
-      connection = std::make_shared<Connection>(loop_, program_, environment);
+    if (found == connections_.end() || !found->second->is_open()) {
+      auto connection = std::make_shared<Connection>(loop_, program_, environment);
+      found = connections_.insert_or_assign(std::move(graph), std::move(connection)).first;
     }
   } catch (const std::system_error& error) {
     RosAnswer lost;
@@ -271,8 +272,8 @@ EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Envi
     lost.error = error.what();
     return loop_.after(Duration(0), [done = std::move(done), lost = std::move(lost)] { done(lost); });
   }
-  const RosRequestId id = connection->send(request, timeout, std::move(done));
-  return std::make_unique<Ticket>(connection, id);
+  const RosRequestId id = found->second->send(request, timeout, std::move(done));
+  return std::make_unique<Ticket>(found->second, id);
 }
 
 void RosClientProcess::close() {

@@ -135,7 +135,7 @@ TEST_F(RosTasksTest, ALongWaitIsToldAndAShutdownEndsIt) {
       run(R"xml(<load_composable_node target="c"><composable_node pkg="p" plugin="A" name="a"/></load_composable_node>)xml"),
       0);
   EXPECT_THAT(messages_, ElementsAre("WARNING [launch_ros.actions.load_composable_nodes] still waiting for the "
-                                     "'/c/_container/load_node' service (/test/system.launch.xml:2:36)",
+                                     "'/c/_container/load_node' service (/test/system.launch.xml:2:35)",
                                      "WARNING [launch] user interrupted with ctrl-c (SIGINT)",
                                      "WARNING [launch_ros.actions.load_composable_nodes] Abandoning wait for the "
                                      "'/c/_container/load_node' service, due to shutdown."));
