@@ -86,6 +86,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   ProcessSupervisor supervisor(*loop, guarded_runner, output);
   supervisor.observe(process_messages(output));
 
+  RosClientProcess ros_client(*loop);
   LaunchContext context(registry, environment, own_install_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
@@ -93,7 +94,6 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context.scope());
 
-  RosClientProcess ros_client(*loop);
   LaunchService service(context, *loop, supervisor, print_error);
   service.use_ros_client(ros_client);
   service.guard_scopes(guardian);

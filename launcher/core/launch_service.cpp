@@ -14,6 +14,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
 }
 
 void LaunchService::use_ros_client(RosClient& client) {
+  context_.use_ros_client(client);
   ros_tasks_ = std::make_unique<RosTasks>(
       context_, loop_, client, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); });
 }
