@@ -107,8 +107,9 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
 
   std::vector<std::string> variables;
   for (const auto& [name, value] : environment) {
-    // Its libraries stand beside it; those of another installation of ROS 2 must not come before them.
-    if (name != "LD_LIBRARY_PATH" && name != "TRACETOOLS_RUNTIME_DISABLE") {
+    // Its libraries stand beside it; those of another installation of ROS 2 must not come before them. What is
+    // preloaded is meant for nodes.
+    if (name != "LD_LIBRARY_PATH" && name != "LD_PRELOAD" && name != "TRACETOOLS_RUNTIME_DISABLE") {
       variables.push_back(name + "=" + value);
     }
   }
