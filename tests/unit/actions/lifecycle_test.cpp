@@ -42,10 +42,10 @@ TEST(LifecycleTransition, MeansTheSameInYaml) {
 
 TEST(LifecycleTransition, UnknownTransitionsAndInvalidNamesAreErrors) {
   EXPECT_EQ(plan_actions(R"xml(<lifecycle_transition node="driver" transitions="configure actvate"/>)xml").error,
-            "/test/system.launch.xml:2:60: error: there is no transition 'actvate', expected configure, activate, "
+            "/test/system.launch.xml:2:50: error: there is no transition 'actvate', expected configure, activate, "
             "deactivate, cleanup or shutdown\n"
             "    2 | <lifecycle_transition node=\"driver\" transitions=\"configure actvate\"/>\n"
-            "      |                                                            ^~~~~~~\n"
+            "      |                                                  ^~~~~~~~~~~~~~~~~\n"
             "      = help: did you mean 'activate'?");
   EXPECT_EQ(plan_actions(R"xml(<lifecycle_transition node="2nd" transitions="configure"/>)xml").error,
             "/test/system.launch.xml:2:29: error: '2nd' is no valid name\n"
