@@ -76,8 +76,9 @@ TEST_F(Composition, AContainerThatIsKilledGetsItsNodesAgain) {
   ASSERT_TRUE(std::regex_search(out, match, std::regex("process started with pid \\[(\\d+)\\]")));
   ASSERT_EQ(::kill(std::stoi(match[1]), SIGKILL), 0);
   ASSERT_TRUE(run.wait_for_output("exit code -9"));
-  // The one that was killed is still in the graph: nobody has told DDS of its end.
-  for (int i = 0; i < 100 && count(run.out(), "Loaded node '/talker'") < 2; ++i) {
+  // The one that was killed is still in the graph: nobody has told DDS of its end, and that also delays discovery of
+  // its successor by some seconds.
+  for (int i = 0; i < 500 && count(run.out(), "Loaded node '/talker'") < 2; ++i) {
     run.wait_for_output("no such line", std::chrono::milliseconds(100));
   }
   EXPECT_EQ(count(run.out(), "Loaded node '/talker' in container '/c'"), 2U) << run.out();
