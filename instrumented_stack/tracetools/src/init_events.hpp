@@ -8,12 +8,14 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "object_state.hpp"
 #include "tracetools/events.h"
 #include "tracetools/events_ext.h"
+#include "tracetools/tracetools.h"
 
 /// Which events begin and end which objects, and how their arguments are kept for a state dump.
 namespace tracetools {
@@ -70,7 +72,6 @@ BEGINS(rclcpp_timer_callback_added, kCallback, 1)
 BEGINS(rclcpp_timer_link_node, kTimer, 0)
 BEGINS(rclcpp_callback_register, kCallback, 0)
 BEGINS(rcl_lifecycle_state_machine_init, kStateMachine, 1)
-BEGINS(rcl_lifecycle_state, kStateMachine, 0)
 BEGINS(rclcpp_ipb_to_subscription, kIntraProcessBuffer, 0)
 BEGINS(rclcpp_buffer_to_ipb, kRingBuffer, 0)
 BEGINS(rclcpp_construct_ring_buffer, kRingBuffer, 0)
@@ -106,9 +107,12 @@ inline constexpr bool is_message_link<event::message_link_partial_sync> = true;
 template <typename Event>
 inline constexpr bool is_init_event = Begins<Event>::value || is_message_link<Event>;
 
+template <typename Event>
+inline constexpr bool is_transition = std::is_same_v<Event, event::rcl_lifecycle_transition>;
+
 /// Events that change what is kept.
 template <typename Event>
-inline constexpr bool is_noted = is_init_event<Event> || Ends<Event>::value;
+inline constexpr bool is_noted = is_init_event<Event> || Ends<Event>::value || is_transition<Event>;
 
 /// An argument that outlives the call.
 template <typename Argument>
@@ -146,6 +150,14 @@ inline void keep_message_link(void (*record)(const void**, std::size_t, const vo
                                });
 }
 
+/// Keeps the state that a state machine is in now: no init event tells it.
+inline void keep_lifecycle_state(const void* state_machine, const char* /*start_label*/, const char* goal_label) {
+  ObjectState::instance().keep({{ObjectKind::kStateMachine, state_machine}}, "rcl_lifecycle_state",
+                               [state_machine, label = Kept<const char*>(goal_label)] {
+                                 ros_trace_ext_rcl_lifecycle_state(state_machine, label.get());
+                               });
+}
+
 /// Keeps an init event and forgets an object that ends; does nothing about other events. `record` writes the event with
 /// these arguments, if a session wants it.
 template <typename Event, typename Function, typename... Arguments>
@@ -160,6 +172,8 @@ void note(const char* name, Function record, Arguments... arguments) {
     keep_message_link(record, arguments...);
   } else if constexpr (Ends<Event>::value) {
     ObjectState::instance().forget({Ends<Event>::kind, arguments...});
+  } else if constexpr (is_transition<Event>) {
+    keep_lifecycle_state(arguments...);
   }
 }
 
