@@ -38,14 +38,14 @@ const Lines kInitEvents = {
     R"(ros2:rcl_timer_init: { timer_handle = 0x1, period = 500000000 })",
     R"(ros2:rclcpp_timer_callback_added: { timer_handle = 0x1, callback = 0x2 })",
     R"(ros2:rclcpp_timer_link_node: { timer_handle = 0x1, node_handle = 0x2 })",
-    R"(ros2:rclcpp_callback_register: { callback = 0x1, symbol = "(null)" })",
+    R"x(ros2:rclcpp_callback_register: { callback = 0x1, symbol = "(null)" })x",
     R"(ros2:rcl_lifecycle_state_machine_init: { node_handle = 0x1, state_machine = 0x2 })",
     R"(ros2_ext:rcl_lifecycle_state: { state_machine = 0x1, label = "configuring" })",
     R"(ros2:rclcpp_ipb_to_subscription: { ipb = 0x1, subscription = 0x2 })",
     R"(ros2:rclcpp_buffer_to_ipb: { buffer = 0x1, ipb = 0x2 })",
     R"(ros2:rclcpp_construct_ring_buffer: { buffer = 0x1, capacity = 18446744073709551615 })",
-    R"(ros2:message_link_periodic_async: { subs_length = 2, subs = [ [0] = 0x51, [1] = 0x52 ], pubs_length = 1, pubs = [ [0] = 0x61 ] })",
-    R"(ros2:message_link_partial_sync: { subs_length = 1, subs = [ [0] = 0x51 ], pubs_length = 0, pubs = [ ] })",
+    R"(ros2:message_link_periodic_async: { _subs_length = 2, subs = [ [0] = 0x51, [1] = 0x52 ], _pubs_length = 1, pubs = [ [0] = 0x61 ] })",
+    R"(ros2:message_link_partial_sync: { _subs_length = 1, subs = [ [0] = 0x51 ], _pubs_length = 0, pubs = [ ] })",
     R"(ros2_ext:rmw_service_init: { rmw_service_handle = 0x1, gid = GID })",
 };
 constexpr const char* kGid =
@@ -185,7 +185,9 @@ TEST_F(StateDump, AgreesWithObjectsThatComeAndGo) {
     if (begin == std::string::npos) continue;
     const std::string handle = event.substr(begin, event.find_first_of(", ", begin + 15) - begin);
     if (event.starts_with("ros2_ext:rcl_timer_fini")) ended.insert(handle);
-    if (event.starts_with("ros2:rcl_timer_init")) EXPECT_EQ(ended.count(handle), 0U) << event;
+    if (event.starts_with("ros2:rcl_timer_init")) {
+      EXPECT_EQ(ended.count(handle), 0U) << event;
+    }
   }
   EXPECT_FALSE(ended.empty());
 }
