@@ -159,7 +159,7 @@ void RequestLoop::wait() {
   for (const rcl_client_t* client : wake_ups.clients) {
     require_ok(rcl_wait_set_add_client(&wait.set(), client, nullptr));
   }
-  const rcl_ret_t ret = rcl_wait(&wait.set(), patience.count());
+  const rcl_ret_t ret = rcl_wait(&wait.set(), under_way_.empty() ? -1 : wake_ups.patience.count());
   if (ret == RCL_RET_TIMEOUT) {
     rcl_reset_error();
   } else {
