@@ -9,6 +9,7 @@
 #include "actions/builtin_actions.hpp"
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
+#include "launcher/cli/completion.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "tracing/session/trace_command.hpp"
@@ -53,6 +54,13 @@ int main(int argc, char** argv) {
   }
   if (command == "graph") {
     return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process());
+  }
+  if (command == "complete") {
+    for (const std::string& word :
+         launch::completions({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process())) {
+      fmt::print("{}\n", word);
+    }
+    return 0;
   }
   if (command == "schema") {
     return launch::schema_command({argv + 2, argv + argc}, launch::builtin_actions());

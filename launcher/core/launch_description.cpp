@@ -29,6 +29,9 @@ class WholeFile : public Action {
 
 std::shared_ptr<const LaunchDescription> load_launch_description(const std::string& path, const Registry& registry,
                                                                  SourceRange included_from) {
+  if (path.empty()) {
+    throw LaunchError("the path of the launch file is empty", included_from);
+  }
   const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
   return parse_launch_description(SourceFile::read(absolute, std::move(included_from)), registry);
 }

@@ -1,0 +1,143 @@
+#include "launcher/cli/completion.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/run_command.hpp"
+#include "launcher/core/introspection.hpp"
+#include "launcher/substitution/package_index.hpp"
+
+namespace launch {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Words = std::vector<std::string>;
+
+const Words kCommands = {"check", "graph", "reference", "report", "schema", "trace"};
+const Words kTraceVerbs = {"events", "list", "pause", "record_snapshot", "resume", "start", "status", "stop"};
+const Words kOptions = {"--debug",
+                        "--dry-run",
+                        "--dry-run=json",
+                        "--dry-run=shell",
+                        "--help",
+                        "--launch-prefix",
+                        "--launch-prefix-filter",
+                        "--print",
+                        "--show-args",
+                        "--strict-args",
+                        "--timing",
+                        "--trace",
+                        "--version"};
+const Words kCheckOptions = {"--format", "--help", "--strict-ros2"};
+const Words kGraphOptions = {"--format", "--help", "--output"};
+
+const Words kLaunchFileEnds = {"launch.xml", "launch.yaml", "launch.yml", "launch.py"};
+
+bool is_launch_file(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return std::any_of(kLaunchFileEnds.begin(), kLaunchFileEnds.end(),
+                     [&](const std::string& end) { return name.ends_with(end); });
+}
+
+class Completer {
+ public:
+  Completer(const Registry& registry, const Environment& environment) : registry_(registry) {
+    scope_.environment = environment;
+    scope_.packages = std::make_shared<PackageIndex>(own_install_prefix());
+  }
+
+  Words candidates(const Words& words) {
+    const std::string& current = words.back();
+    const std::string command = words.size() > 1 ? words.front() : "";
+    if (command == "trace") {
+      return words.size() == 2 ? kTraceVerbs : Words{};
+    }
+    if (command == "schema") {
+      return {"json", "xsd"};
+    }
+    if (command == "report" || command == "reference") {
+      return {};
+    }
+    const bool is_run = command != "check" && command != "graph";
+    if (current.starts_with("-")) {
+      return is_run ? kOptions : command == "check" ? kCheckOptions : kGraphOptions;
+    }
+    Words target;  // the words before the current one that name launch files
+    for (std::size_t i = is_run ? 0 : 1; i + 1 < words.size(); ++i) {
+      if (!words[i].starts_with("-") && words[i].find(":=") == std::string::npos) {
+        target.push_back(words[i]);
+      }
+    }
+    if (target.empty()) {
+      Words all = scope_.packages->packages(scope_.environment);
+      if (is_run) {
+        all.insert(all.end(), kCommands.begin(), kCommands.end());
+      }
+      return all;
+    }
+    std::error_code ignored;
+    if (target.size() == 1 && !fs::is_regular_file(target.front(), ignored)) {
+      return launch_files_of(target.front());
+    }
+    return arguments_of(target, current);
+  }
+
+ private:
+  Words launch_files_of(const std::string& package) {
+    std::set<std::string> names;
+    std::error_code unreadable;
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(scope_.packages->share(package, scope_.environment), unreadable)) {
+      if (is_launch_file(entry.path())) {
+        names.insert(entry.path().filename().string());
+      }
+    }
+    return {names.begin(), names.end()};
+  }
+
+  // "name:=", and after that the choices of the argument.
+  Words arguments_of(const Words& target, const std::string& current) {
+    const auto description = load_launch_files(find_launch_files(target, scope_), registry_);
+    Words words;
+    for (const ArgumentInfo& info : find_arguments(*description, registry_, scope_).arguments) {
+      const std::string begin = info.declaration->name + ":=";
+      if (!current.starts_with(begin)) {
+        words.push_back(begin);
+        continue;
+      }
+      for (const std::string& choice : info.declaration->choices) {
+        words.push_back(begin + choice);
+      }
+    }
+    return words;
+  }
+
+  const Registry& registry_;
+  Scope scope_;
+};
+
+}  // namespace
+
+std::vector<std::string> completions(const std::vector<std::string>& words, const Registry& registry,
+                                     const Environment& environment) {
+  if (words.empty()) {
+    return {};
+  }
+  Words candidates;
+  try {
+    candidates = Completer(registry, environment).candidates(words);
+  } catch (const std::runtime_error&) {
+    return {};  // the file has errors, or there is no such package: nothing to offer
+  }
+  std::erase_if(candidates, [&](const std::string& candidate) { return !candidate.starts_with(words.back()); });
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+}  // namespace launch

@@ -1,0 +1,2 @@
+# Completion of launch(1) for fish.
+complete -c launch -a '(launch complete (commandline -opc)[2..] (commandline -ct) 2>/dev/null)'

@@ -1,0 +1,343 @@
+// What can be said of launch files without running them: check, print, graph, schema, dry runs as scripts, completion.
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+class WithoutRunning : public testing::Test {
+ protected:
+  CommandResult launch(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), LAUNCH_PROGRAM);
+    return run_command({arguments, {}, sandbox_.directory()});
+  }
+
+  std::string file(const std::string& name, const std::string& text) {
+    const auto path = sandbox_.directory() / name;
+    write_file(path, text);
+    return path.string();
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(WithoutRunning, CheckFindsAllErrorsOfAVisit) {
+  const std::string path = file("system.launch.xml", R"xml(<launch>
+  <arg name="unread" default="1"/>
+  <node pkg="demo_nodes" exec="talkr"/>
+  <executable cmd="no_such_program"/>
+  <node pkg="demo_nodes" exec="talker" name="a"><remap from="x" to="x"/></node>
+  <node pkg="demo_nodes" exec="talker" name="a"><remap from="b:x" to="y"/></node>
+  <group if="false"><log message="$(var missing)"/></group>
+</launch>
+)xml");
+  const CommandResult result = launch({"check", path});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out,
+            path +
+                ":3:32: error: executable 'talkr' not found on the libexec directory '" BUILD_DIRECTORY
+                "/prefix/lib/demo_nodes'\n"
+                "    3 |   <node pkg=\"demo_nodes\" exec=\"talkr\"/>\n"
+                "      |                                ^~~~~\n"
+                "      = help: did you mean 'talker'?\n" +
+                path +
+                ":7:38: warning: launch configuration 'missing' does not exist\n"
+                "    7 |   <group if=\"false\"><log message=\"$(var missing)\"/></group>\n"
+                "      |                                   ^~~~~~~~~~~~~~\n"
+                "      = help: a condition leaves this out with the arguments given\n" +
+                path +
+                ":2:4: warning: argument 'unread' is never read\n"
+                "    2 |   <arg name=\"unread\" default=\"1\"/>\n"
+                "      |    ^~~\n" +
+                path +
+                ":6:4: warning: another node is named '/a'\n"
+                "    6 |   <node pkg=\"demo_nodes\" exec=\"talker\" name=\"a\"><remap from=\"b:x\" to=\"y\"/></node>\n"
+                "      |    ^~~~\n"
+                "      = help: the first is at " +
+                path + ":5:4\n" + path +
+                ":4:4: error: program 'no_such_program' can't be run: No such file or directory\n"
+                "    4 |   <executable cmd=\"no_such_program\"/>\n"
+                "      |    ^~~~~~~~~~\n" +
+                path +
+                ":5:4: warning: remap 'x:=x' changes nothing\n"
+                "    5 |   <node pkg=\"demo_nodes\" exec=\"talker\" name=\"a\"><remap from=\"x\" to=\"x\"/></node>\n"
+                "      |    ^~~~\n" +
+                path +
+                ":6:4: warning: remap 'b:x:=y' matches nothing: this node is named 'a'\n"
+                "    6 |   <node pkg=\"demo_nodes\" exec=\"talker\" name=\"a\"><remap from=\"b:x\" to=\"y\"/></node>\n"
+                "      |    ^~~~\n"
+                "1 file: 2 errors, 5 warnings\n");
+}
+
+TEST_F(WithoutRunning, CheckTellsAsJsonAndSarif) {
+  const std::string inner = file("inner.launch.xml", "<launch>\n  <log mesage=\"x\"/>\n</launch>\n");
+  const std::string outer = file("outer.launch.xml", "<launch><include file=\"inner.launch.xml\"/></launch>\n");
+  const CommandResult json = launch({"check", "--format", "json", outer});
+  EXPECT_EQ(json.exit_code, 1);
+  const Json list = Json::parse(json.out);
+  ASSERT_GE(list.size(), 1u) << json.out;
+  EXPECT_EQ(list[0]["severity"], "error");
+  EXPECT_EQ(list[0]["message"], "unknown attribute 'mesage' of <log>");
+  EXPECT_EQ(list[0]["help"], "did you mean 'message'?");
+  EXPECT_EQ(list[0]["file"], inner);
+  EXPECT_EQ(list[0]["line"], 2);
+  EXPECT_EQ(list[0]["column"], 8);
+  EXPECT_EQ(list[0]["end_column"], 14);
+  EXPECT_EQ(list[0]["included_from"], Json::array({outer + ":1:24"}));
+
+  const CommandResult sarif = launch({"check", "--format", "sarif", outer});
+  const Json log = Json::parse(sarif.out);
+  EXPECT_EQ(log["version"], "2.1.0");
+  const Json& first = log["runs"][0]["results"][0];
+  EXPECT_EQ(first["level"], "error");
+  EXPECT_EQ(first["message"]["text"], "unknown attribute 'mesage' of <log> (did you mean 'message'?)");
+  EXPECT_EQ(first["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "file://" + inner);
+  EXPECT_EQ(first["locations"][0]["physicalLocation"]["region"]["startLine"], 2);
+  EXPECT_EQ(first["relatedLocations"][0]["physicalLocation"]["artifactLocation"]["uri"], "file://" + outer);
+}
+
+TEST_F(WithoutRunning, CheckSaysWhatAFileNeedsToBeChecked) {
+  const std::string path =
+      file("a.launch.xml", "<launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n");
+  const CommandResult without = launch({"check", path});
+  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_EQ(without.out, path +
+                             ":1:10: warning: argument 'x' has no default, so nothing that is visited was checked\n"
+                             "    1 | <launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n"
+                             "      |          ^~~\n"
+                             "      = help: give x:=VALUE\n"
+                             "1 file: 0 errors, 1 warning\n");
+  const CommandResult with = launch({"check", path, "x:=1"});
+  EXPECT_EQ(with.exit_code, 1);
+  EXPECT_THAT(with.out, HasSubstr("launch configuration 'y' does not exist"));
+}
+
+TEST_F(WithoutRunning, StrictCheckRefusesExtensions) {
+  const std::string path = file("a.launch.xml", "<launch><trace fail-on-loss=\"true\"/></launch>\n");
+  EXPECT_EQ(launch({"check", path}).out, "1 file: 0 errors, 0 warnings\n");
+  const CommandResult strict = launch({"check", "--strict-ros2", path});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_EQ(strict.out, path +
+                            ":1:17: error: attribute 'fail-on-loss' of <trace> is not known to ros2 launch\n"
+                            "    1 | <launch><trace fail-on-loss=\"true\"/></launch>\n"
+                            "      |                ^~~~~~~~~~~~\n"
+                            "1 file: 1 error, 0 warnings\n");
+}
+
+TEST_F(WithoutRunning, CheckOfWrongUse) {
+  EXPECT_EQ(launch({"check"}).exit_code, 2);
+  EXPECT_EQ(launch({"check", "x:=1"}).err, "launch check: error: no launch file given\n");
+  EXPECT_EQ(launch({"check", "nowhere.launch.xml"}).exit_code, 1);
+  EXPECT_EQ(launch({"check", "--format", "html", "x"}).exit_code, 2);
+}
+
+TEST_F(WithoutRunning, EveryExampleIsWithoutErrors) {
+  for (const auto& entry : std::filesystem::directory_iterator(EXAMPLES_DIRECTORY)) {
+    const std::string path = entry.path().string();
+    if (path.ends_with(".launch.xml") || path.ends_with(".launch.yaml")) {
+      const CommandResult result = launch({"check", path});
+      EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+      EXPECT_THAT(result.out, HasSubstr("1 file: 0 errors, ")) << path;
+    }
+  }
+}
+
+TEST_F(WithoutRunning, PrintShowsTheTreeWithIncludedFiles) {
+  const std::string inner =
+      file("inner.launch.yaml", "launch:\n  - node: {pkg: p, exec: e, param: [{name: n, value: [1, 2]}]}\n");
+  const std::string outer =
+      file("outer.launch.xml",
+           "<launch><group><include file=\"$(dirname)/inner.launch.yaml\"/></group><shutdown/></launch>\n");
+  const CommandResult result = launch({"--print", outer});
+  EXPECT_EQ(result.out, outer +
+                            "\n"
+                            "├── group\n"
+                            "│   └── include file=\"$(dirname)/inner.launch.yaml\"\n"
+                            "│       └── " +
+                            inner +
+                            "\n"
+                            "│           └── node pkg=\"p\" exec=\"e\"\n"
+                            "│               └── param name=\"n\" value=\"[1, 2]\"\n"
+                            "└── shutdown\n");
+  EXPECT_EQ(launch({"--print", "--show-args", outer}).err,
+            "launch: error: --dry-run, --show-args and --print exclude each other\n");
+}
+
+TEST_F(WithoutRunning, SeveralFilesAreOneLaunch) {
+  const std::string first = file("first.launch.xml", "<launch><let name=\"x\" value=\"1\"/></launch>\n");
+  const std::string second = file("second.launch.yaml", "launch:\n  - log: {message: \"x is $(var x)\"}\n");
+  const CommandResult result = launch({first, second});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("x is 1"));
+  EXPECT_EQ(launch({first, "nowhere.launch.xml"}).err,
+            "error: malformed launch argument 'nowhere.launch.xml', expected format '<name>:=<value>'\n"
+            "      = help: nor is it a further launch file: no such file\n");
+}
+
+TEST_F(WithoutRunning, StandardInputIsALaunchFile) {
+  const std::string command =
+      "echo '<launch><log message=\"in $(dirname)\"/><log mesage=\"\"/></launch>' | '" LAUNCH_PROGRAM "' --dry-run -";
+  const CommandResult result = run_command({{"/bin/sh", "-c", command}, {}, sandbox_.directory()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, StartsWith("standard input:1:46: error: unknown attribute 'mesage' of <log>\n"));
+}
+
+TEST_F(WithoutRunning, DryRunAsAScriptRunsTheProcesses) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <set_env name="GREETING" value="it's"/>
+  <unset_env name="UNWANTED"/>
+  <executable cmd="/bin/sh -c 'echo $0 $GREETING ${UNWANTED-gone}; pwd' &quot;two words&quot;" cwd="/"/>
+  <executable cmd="echo $((1 + 1))" shell="true"/>
+</launch>
+)xml");
+  CommandResult script = run_command({{LAUNCH_PROGRAM, "--dry-run=shell", path}, {{"UNWANTED", "there"}}});
+  EXPECT_EQ(script.exit_code, 0) << script.err;
+  const std::string saved = file("run.sh", script.out);
+  const CommandResult result = run_command({{"/bin/sh", saved}, {{"UNWANTED", "there"}}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("two words it's gone\n/\n"));
+  EXPECT_THAT(result.out, HasSubstr("2\n"));
+}
+
+TEST_F(WithoutRunning, DryRunAsAScriptWritesParameterFiles) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <node pkg="demo_nodes" exec="talker" launch-prefix="/bin/echo"><param name="rate" value="20"/></node>
+</launch>
+)xml");
+  const CommandResult script = launch({"--dry-run=shell", path});
+  EXPECT_THAT(script.out, HasSubstr("rate: 20\n"));
+  EXPECT_THAT(script.out, HasSubstr("trap 'rm -rf \"$parameters\"' EXIT\n"));
+  const CommandResult result = run_command({{"/bin/sh", file("run.sh", script.out)}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("--params-file"));
+}
+
+TEST_F(WithoutRunning, GraphHasNodesFilesNamespacesAndRemaps) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <node pkg="demo_nodes" exec="talker" name="mouth" namespace="/head"><remap from="chatter" to="/words"/></node>
+  <executable cmd="sleep 1" name="nap"/>
+</launch>
+)xml");
+  const CommandResult result = launch({"graph", path});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "digraph launch {\n"
+            "  rankdir=LR;\n"
+            "  node [fontname=\"sans-serif\"];\n"
+            "  edge [fontname=\"sans-serif\"];\n"
+            "  \"file " +
+                path +
+                "\" [shape=note, color=gray, label=\"a.launch.xml\"];\n"
+                "  subgraph cluster_0 {\n"
+                "  label=\"/head\";\n"
+                "  \"/head/mouth\" [label=\"/head/mouth\\ndemo_nodes talker\"];\n"
+                "  }\n"
+                "  \"process 1\" [shape=box, label=\"nap\"];\n"
+                "  \"topic /words\" [shape=plaintext, label=\"/words\"];\n"
+                "  \"file " +
+                path +
+                "\" -> \"/head/mouth\" [color=gray];\n"
+                "  \"/head/mouth\" -> \"topic /words\" [dir=none, color=blue, label=\"chatter\"];\n"
+                "  \"file " +
+                path +
+                "\" -> \"process 1\" [color=gray];\n"
+                "}\n");
+  const CommandResult no_dot =
+      run_command({{LAUNCH_PROGRAM, "graph", "--format", "svg", path}, {{"PATH", "/nowhere"}}});
+  EXPECT_EQ(no_dot.exit_code, 1);
+  EXPECT_EQ(no_dot.err,
+            "error: the graph can't be drawn: Graphviz's dot can't be run\n"
+            "      = help: install the package graphviz, or take the DOT output\n");
+}
+
+// A fake of Graphviz's dot, which stands in for the real one.
+TEST_F(WithoutRunning, GraphIsDrawnByDot) {
+  const std::string path = file("a.launch.xml", "<launch/>\n");
+  const std::string dot = file("dot", "#!/bin/sh\necho \"<svg>$1 $(grep -c digraph \"$2\")</svg>\"\n");
+  std::filesystem::permissions(dot, std::filesystem::perms::owner_all);
+  const std::string search = sandbox_.directory().string() + ":" + ::getenv("PATH");
+  const CommandResult result = run_command(
+      {{LAUNCH_PROGRAM, "graph", "--format", "svg", "-o", "a.svg", path}, {{"PATH", search}}, sandbox_.directory()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_file(sandbox_.directory() / "a.svg"), "<svg>-Tsvg 1</svg>\n");
+}
+
+TEST_F(WithoutRunning, SchemasAcceptTheExamplesAndRefuseErrors) {
+  const std::string xsd = file("launch.xsd", launch({"schema", "xsd"}).out);
+  const std::string wrong = file("wrong.launch.xml", "<launch><node pkg=\"p\" exce=\"e\"/></launch>\n");
+  const CommandResult refused = run_command({{"xmllint", "--noout", "--schema", xsd, wrong}});
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_THAT(refused.err, HasSubstr("The attribute 'exce' is not allowed"));
+
+  const std::string json = file("launch.json", launch({"schema", "json"}).out);
+  const std::string validate = file("validate.py",
+                                    "import json, sys, yaml, jsonschema\n"
+                                    "schema = json.load(open(sys.argv[1]))\n"
+                                    "jsonschema.Draft7Validator.check_schema(schema)\n"
+                                    "jsonschema.validate(yaml.safe_load(open(sys.argv[2])), schema)\n");
+  const std::string wrong_yaml = file("wrong.launch.yaml", "launch:\n  - node: {pkg: p, exce: e}\n");
+  const CommandResult refused_yaml = run_command({{"/usr/bin/python3", validate, json, wrong_yaml}});
+  EXPECT_NE(refused_yaml.exit_code, 0);
+  EXPECT_THAT(refused_yaml.err, HasSubstr("'exce' was unexpected"));
+
+  for (const auto& entry : std::filesystem::directory_iterator(EXAMPLES_DIRECTORY)) {
+    const std::string path = entry.path().string();
+    if (path.ends_with(".launch.xml")) {
+      const CommandResult result = run_command({{"xmllint", "--noout", "--schema", xsd, path}});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+    } else if (path.ends_with(".launch.yaml")) {
+      const CommandResult result = run_command({{"/usr/bin/python3", validate, json, path}});
+      EXPECT_EQ(result.exit_code, 0) << path << result.err;
+    }
+  }
+}
+
+TEST_F(WithoutRunning, SchemasOfTheDocumentationAreUpToDate) {
+  EXPECT_EQ(launch({"schema", "xsd"}).out, read_file(DOCS_DIRECTORY "/schema/launch.xsd"))
+      << "./dev launch schema xsd > docs/schema/launch.xsd";
+  EXPECT_EQ(launch({"schema", "json"}).out, read_file(DOCS_DIRECTORY "/schema/launch.schema.json"))
+      << "./dev launch schema json > docs/schema/launch.schema.json";
+}
+
+TEST_F(WithoutRunning, CompletionKnowsCommandsPackagesFilesAndArguments) {
+  EXPECT_EQ(launch({"complete", "che"}).out, "check\n");
+  EXPECT_THAT(launch({"complete", ""}).out, HasSubstr("demo_nodes\n"));
+  EXPECT_THAT(launch({"complete", "launch_examples", "01"}).out, "01_ping_pong.launch.xml\n01_ping_pong.launch.yaml\n");
+  EXPECT_EQ(launch({"complete", "launch_examples", "01_ping_pong.launch.xml", ""}).out, "count:=\nperiod_ms:=\n");
+  EXPECT_EQ(launch({"complete", "check", "launch_examples", "01_ping_pong.launch.xml", "c"}).out, "count:=\n");
+  EXPECT_EQ(launch({"complete", "trace", "re"}).out, "record_snapshot\nresume\n");
+  EXPECT_EQ(launch({"complete", "no_such_package", ""}).out, "");
+  const std::string path =
+      file("a.launch.xml",
+           "<launch><arg name=\"mode\" default=\"a\"><choice value=\"a\"/><choice value=\"b\"/></arg></launch>\n");
+  EXPECT_EQ(launch({"complete", path, "mode:="}).out, "mode:=a\nmode:=b\n");
+}
+
+TEST_F(WithoutRunning, BashCompletesArguments) {
+  const std::string script =
+      file("complete.bash", "launch() { '" LAUNCH_PROGRAM
+                            "' \"$@\"; }\n"
+                            "source '" COMPLETION_SCRIPT
+                            "'\n"
+                            "COMP_LINE='launch launch_examples 01_ping_pong.launch.xml count:='\n"
+                            "COMP_LINE=\"${COMP_LINE%:=}\"; COMP_POINT=${#COMP_LINE}; _launch\n"
+                            "echo \"${COMPREPLY[@]}\"\n"
+                            "COMP_LINE='launch launch_examples 0'; COMP_POINT=${#COMP_LINE}; _launch\n"
+                            "echo \"${#COMPREPLY[@]} ${COMPREPLY[0]}\"\n");
+  const CommandResult result = run_command({{"/bin/bash", script}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("count:=\n"));
+  EXPECT_THAT(result.out, HasSubstr(" 01_ping_pong.launch.xml\n"));
+}
+
+}  // namespace
