@@ -72,9 +72,9 @@ struct DefaultMap {
     for (rcl_lifecycle_state_t& state : states) {
       const auto starts_here = [&](const auto& transition) { return transition.start == &state; };
       const auto first = std::find_if(by_state.begin(), by_state.end(), starts_here);
-      const auto size = std::count_if(by_state.begin(), by_state.end(), starts_here);
-      state.valid_transitions = size == 0 ? nullptr : &*first;
-      state.valid_transition_size = static_cast<unsigned int>(size);
+      const auto count = std::count_if(by_state.begin(), by_state.end(), starts_here);
+      state.valid_transitions = count == 0 ? nullptr : &*first;
+      state.valid_transition_size = static_cast<unsigned int>(count);
     }
   }
 

@@ -35,31 +35,25 @@ void to_messages(const std::vector<Transition>& transitions, GetAvailableTransit
   }
 }
 
-// A service of the state machine with a callback that gets the request and fills in the response.
+// A service with a callback that gets the states and the request and fills in the response.
 template <typename ServiceT, typename AnswerT>
-typename rclcpp::Service<ServiceT>::SharedPtr make_service(rclcpp::Node& node,
-                                                           const std::shared_ptr<StateManager>& states,
-                                                           rcl_service_t& handle, AnswerT answer) {
+typename rclcpp::Service<ServiceT>::SharedPtr make_service(rclcpp::Node& node, std::shared_ptr<StateManager> states,
+                                                           const char* name, AnswerT answer) {
   using Request = typename ServiceT::Request;
   using Response = typename ServiceT::Response;
-  // Raw: the handle, which the service keeps alive, is part of the states.
-  StateManager& manager = *states;
-  auto service = std::make_shared<rclcpp::Service<ServiceT>>(
-      node.get_node_base_interface()->get_shared_rcl_node_handle(), std::shared_ptr<rcl_service_t>(states, &handle),
-      rclcpp::AnyServiceCallback<ServiceT>(
-          [&manager, answer](const std::shared_ptr<Request> request, std::shared_ptr<Response> response) {
-            answer(manager, *request, *response);
-          }));
-  node.get_node_services_interface()->add_service(service, nullptr);
-  return service;
+  // An executor may keep a service for longer than the node: the states stay with it.
+  return node.create_service<ServiceT>(
+      name,
+      [states = std::move(states), answer](const std::shared_ptr<Request> request, std::shared_ptr<Response> response) {
+        answer(*states, *request, *response);
+      });
 }
 
 }  // namespace
 
 LifecycleServices::LifecycleServices(rclcpp::Node& node, const std::shared_ptr<StateManager>& states) {
-  rcl_lifecycle_com_interface_t& handles = *states->com_interface();
   change_state_ = make_service<ChangeState>(
-      node, states, handles.srv_change_state,
+      node, states, "~/change_state",
       [](StateManager& manager, const ChangeState::Request& request, ChangeState::Response& response) {
         // A label wins: whoever gives one may leave out the id, which then is 0.
         StateManager::CallbackReturn result = StateManager::CallbackReturn::ERROR;
@@ -70,25 +64,24 @@ LifecycleServices::LifecycleServices(rclcpp::Node& node, const std::shared_ptr<S
         }
         response.success = result == StateManager::CallbackReturn::SUCCESS;
       });
-  get_state_ =
-      make_service<GetState>(node, states, handles.srv_get_state,
-                             [](StateManager& manager, const GetState::Request&, GetState::Response& response) {
-                               response.current_state = to_message(manager.current_state());
-                             });
+  get_state_ = make_service<GetState>(
+      node, states, "~/get_state", [](StateManager& manager, const GetState::Request&, GetState::Response& response) {
+        response.current_state = to_message(manager.current_state());
+      });
   get_available_states_ = make_service<GetAvailableStates>(
-      node, states, handles.srv_get_available_states,
+      node, states, "~/get_available_states",
       [](StateManager& manager, const GetAvailableStates::Request&, GetAvailableStates::Response& response) {
         for (const State& state : manager.states()) {
           response.available_states.push_back(to_message(state));
         }
       });
   get_available_transitions_ = make_service<GetAvailableTransitions>(
-      node, states, handles.srv_get_available_transitions,
+      node, states, "~/get_available_transitions",
       [](StateManager& manager, const GetAvailableTransitions::Request&, GetAvailableTransitions::Response& response) {
         to_messages(manager.transitions_of_current_state(), response);
       });
   get_transition_graph_ = make_service<GetAvailableTransitions>(
-      node, states, handles.srv_get_transition_graph,
+      node, states, "~/get_transition_graph",
       [](StateManager& manager, const GetAvailableTransitions::Request&, GetAvailableTransitions::Response& response) {
         to_messages(manager.transitions(), response);
       });

@@ -1,11 +1,6 @@
 #include "state_manager.hpp"
 
 #include <lifecycle_msgs/msg/state.hpp>
-#include <lifecycle_msgs/srv/change_state.hpp>
-#include <lifecycle_msgs/srv/get_available_states.hpp>
-#include <lifecycle_msgs/srv/get_available_transitions.hpp>
-#include <lifecycle_msgs/srv/get_state.hpp>
-#include <rosidl_typesupport_cpp/service_type_support.hpp>
 
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -13,8 +8,6 @@
 namespace rclcpp_lifecycle {
 
 namespace {
-
-using rosidl_typesupport_cpp::get_service_type_support_handle;
 
 // One object per state, so that a reference to the current one stays good when the state changes.
 const State& constant_state(const rcl_lifecycle_state_t* state) {
@@ -55,20 +48,17 @@ const char* end_label(StateManager::CallbackReturn result) {
 
 }  // namespace
 
-StateManager::StateManager(rclcpp::node_interfaces::NodeBaseInterface& node_base, rclcpp::Logger logger,
-                           bool enable_communication_interface)
-    : node_handle_(node_base.get_shared_rcl_node_handle()), logger_(std::move(logger)) {
+StateManager::StateManager(rclcpp::node_interfaces::NodeBaseInterface& node_base, rclcpp::Logger logger)
+    : node_handle_(node_base.get_shared_rcl_node_handle()), logger_(std::move(logger)) {}
+
+void StateManager::init(bool enable_communication_interface) {
+  const std::lock_guard lock(mutex_);
   rcl_lifecycle_state_machine_options_t options = rcl_lifecycle_get_default_state_machine_options();
   options.enable_com_interface = enable_communication_interface;
-  const rcl_ret_t ret = rcl_lifecycle_state_machine_init(
-      &state_machine_, node_handle_.get(), get_service_type_support_handle<lifecycle_msgs::srv::ChangeState>(),
-      get_service_type_support_handle<lifecycle_msgs::srv::GetState>(),
-      get_service_type_support_handle<lifecycle_msgs::srv::GetAvailableStates>(),
-      get_service_type_support_handle<lifecycle_msgs::srv::GetAvailableTransitions>(),
-      get_service_type_support_handle<lifecycle_msgs::srv::GetAvailableTransitions>(), &options);
+  const rcl_ret_t ret = rcl_lifecycle_state_machine_init(&state_machine_, node_handle_.get(), &options);
   if (ret != RCL_RET_OK) {
     rclcpp::exceptions::throw_from_rcl_error(
-        ret, "Couldn't initialize state machine for node " + std::string(node_base.get_name()));
+        ret, "Couldn't initialize state machine for node " + std::string(rcl_node_get_name(node_handle_.get())));
   }
   update_current_state();
 }
@@ -187,10 +177,6 @@ StateManager::CallbackReturn StateManager::run_callback(const State& previous_st
 
 void StateManager::update_current_state() {
   current_state_ = &constant_state(state_machine_.current_state);
-}
-
-rcl_lifecycle_com_interface_t* StateManager::com_interface() {
-  return state_machine_.options.enable_com_interface ? &state_machine_.com_interface : nullptr;
 }
 
 }  // namespace rclcpp_lifecycle

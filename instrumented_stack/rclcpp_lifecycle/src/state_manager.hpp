@@ -19,18 +19,19 @@
 
 namespace rclcpp_lifecycle {
 
-// Thread safe. The services of the state machine share its ownership: they are part of it.
+// Thread safe, once init() has returned.
 class StateManager {
  public:
   using CallbackReturn = node_interfaces::LifecycleNodeInterface::CallbackReturn;
   using Callback = std::function<CallbackReturn(const State&)>;
 
-  // Throws rclcpp::exceptions::RCLError.
-  StateManager(rclcpp::node_interfaces::NodeBaseInterface& node_base, rclcpp::Logger logger,
-               bool enable_communication_interface);
+  StateManager(rclcpp::node_interfaces::NodeBaseInterface& node_base, rclcpp::Logger logger);
   ~StateManager();
   StateManager(const StateManager&) = delete;
   StateManager& operator=(const StateManager&) = delete;
+
+  // Starts in `unconfigured`, with or without the topic of transitions. Throws rclcpp::exceptions::RCLError.
+  void init(bool enable_communication_interface);
 
   // The callback of a transition state, TRANSITION_STATE_… of lifecycle_msgs/msg/State. Replaces an earlier one.
   void set_callback(uint8_t transition_state, Callback callback);
@@ -48,9 +49,6 @@ class StateManager {
   bool change_state(uint8_t transition_id, CallbackReturn& result);
   // By label. False, without logging, if the current state has no such transition.
   bool change_state(const std::string& transition_label, CallbackReturn& result);
-
-  // For rclcpp::Service. Null without communication interface.
-  rcl_lifecycle_com_interface_t* com_interface();
 
  private:
   // Triggers a transition that the current state has. Under the lock.

@@ -5,7 +5,6 @@
 
 #include "rcl/node.h"
 #include "rcl/publisher.h"
-#include "rcl/service.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -37,24 +36,14 @@ typedef struct rcl_lifecycle_transition_map_s {
   unsigned int transitions_size;
 } rcl_lifecycle_transition_map_t;
 
-typedef struct rcl_lifecycle_com_interface_s {
-  rcl_node_t* node_handle;
-  rcl_publisher_t pub_transition_event;
-  rcl_service_t srv_change_state;
-  rcl_service_t srv_get_state;
-  rcl_service_t srv_get_available_states;
-  rcl_service_t srv_get_available_transitions;
-  rcl_service_t srv_get_transition_graph;
-} rcl_lifecycle_com_interface_t;
-
 typedef struct rcl_lifecycle_state_machine_options_s {
-  bool enable_com_interface;  // with the topic and the services
+  bool enable_com_interface;  // with the topic
 } rcl_lifecycle_state_machine_options_t;
 
 typedef struct rcl_lifecycle_state_machine_s {
   const rcl_lifecycle_state_t* current_state;  // null when not initialized
   rcl_lifecycle_transition_map_t transition_map;
-  rcl_lifecycle_com_interface_t com_interface;
+  rcl_publisher_t pub_transition_event;
   rcl_lifecycle_state_machine_options_t options;
 } rcl_lifecycle_state_machine_t;
 

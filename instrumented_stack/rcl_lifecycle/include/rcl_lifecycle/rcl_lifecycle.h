@@ -1,7 +1,6 @@
-// A state machine that tells of its transitions and has services to be asked and driven.
+// A state machine that tells of its transitions.
 //
-// Whoever owns it takes requests from the services of com_interface and answers them: rclcpp_lifecycle does. Not thread
-// safe.
+// Unlike in ROS 2 its services are made where they are answered, in rclcpp_lifecycle. Not thread safe.
 #pragma once
 
 #include "rcl_lifecycle/data_types.h"
@@ -12,19 +11,12 @@ extern "C" {
 #endif
 
 rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(void);
-// With the communication interface.
+// With the topic.
 rcl_lifecycle_state_machine_options_t rcl_lifecycle_get_default_state_machine_options(void);
 
-// Creates topic ~/transition_event and services ~/change_state, ~/get_state, ~/get_available_states,
-// ~/get_available_transitions and ~/get_transition_graph, unless the options leave them out, and starts in
-// `unconfigured`. Fires rcl_lifecycle_state_machine_init. The type supports of the services are the caller's, who
-// answers them. RCL_RET_INVALID_ARGUMENT, RCL_RET_ALREADY_INIT, RCL_RET_NODE_INVALID, and what rcl gives for names.
+// Creates topic ~/transition_event, unless the options leave it out, and starts in `unconfigured`. Fires
+// rcl_lifecycle_state_machine_init. RCL_RET_INVALID_ARGUMENT, RCL_RET_ALREADY_INIT, RCL_RET_NODE_INVALID.
 rcl_ret_t rcl_lifecycle_state_machine_init(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle,
-                                           const rosidl_service_type_support_t* ts_srv_change_state,
-                                           const rosidl_service_type_support_t* ts_srv_get_state,
-                                           const rosidl_service_type_support_t* ts_srv_get_available_states,
-                                           const rosidl_service_type_support_t* ts_srv_get_available_transitions,
-                                           const rosidl_service_type_support_t* ts_srv_get_transition_graph,
                                            const rcl_lifecycle_state_machine_options_t* options);
 rcl_ret_t rcl_lifecycle_state_machine_fini(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle);
 rcl_ret_t rcl_lifecycle_state_machine_is_initialized(const rcl_lifecycle_state_machine_t* state_machine);

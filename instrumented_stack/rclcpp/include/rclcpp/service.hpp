@@ -24,13 +24,6 @@ class Service : public ServiceBase, public std::enable_shared_from_this<Service<
     trace_creation(any_callback_);
   }
 
-  // Shares a service that rcl has made already, of this type.
-  Service(const std::shared_ptr<rcl_node_t>&, std::shared_ptr<rcl_service_t> service_handle,
-          AnyServiceCallback<ServiceT> any_callback)
-      : ServiceBase(std::move(service_handle)), any_callback_(std::move(any_callback)) {
-    trace_creation(any_callback_);
-  }
-
   // The next request, without the callback. False if there is none.
   bool take_request(Request& request_out, rmw_request_id_t& request_id_out) {
     return take_type_erased_request(&request_out, request_id_out);

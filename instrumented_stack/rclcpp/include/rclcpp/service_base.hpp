@@ -22,8 +22,6 @@ class ServiceBase {
   // Throws exceptions::InvalidServiceNameError or exceptions::RCLError.
   ServiceBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
               const std::string& service_name, const QoS& qos);
-  // Shares a service that rcl has made already.
-  explicit ServiceBase(std::shared_ptr<rcl_service_t> service_handle) : service_handle_(std::move(service_handle)) {}
   virtual ~ServiceBase();
   RCLCPP_DISABLE_COPY(ServiceBase)
 
