@@ -90,6 +90,9 @@ rcl_ret_t rcl_lifecycle_state_machine_init(rcl_lifecycle_state_machine_t* state_
 
 rcl_ret_t rcl_lifecycle_state_machine_fini(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(state_machine, RCL_RET_INVALID_ARGUMENT);
+  if (state_machine->current_state != nullptr) {
+    TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state_machine_fini, static_cast<const void*>(state_machine));
+  }
   rcl_ret_t ret = RCL_RET_OK;
   if (state_machine->pub_transition_event.impl != nullptr) {
     ret = rcl_publisher_fini(&state_machine->pub_transition_event, node_handle);
