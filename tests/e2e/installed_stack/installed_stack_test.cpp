@@ -15,7 +15,7 @@ using test_support::CommandResult;
 using test_support::run_command;
 using test_support::RunningCommand;
 
-constexpr std::chrono::seconds kBuildTimeout{120};
+constexpr std::chrono::seconds kBuildTimeout{300};
 
 CommandResult run(std::vector<std::string> argv) {
   const CommandResult result = run_command(Command{std::move(argv)}, kBuildTimeout);
