@@ -19,10 +19,9 @@ using Events = std::vector<RecordedEvent>;
 constexpr const char* kLaunchFile = R"(<launch>
   <trace session-name="lifecycle" context-fields="procname vpid vtid" subbuffer-size-ust="1048576"/>
   <node pkg="lifecycle" exec="lifecycle_talker" name="led" namespace="/here"/>
-  <node pkg="lifecycle" exec="lifecycle_service_client">
+  <node pkg="lifecycle" exec="lifecycle_service_client" on_exit="shutdown">
     <param name="node" value="/here/led"/>
     <param name="period_ms" value="0"/>
-    <on_exit><shutdown/></on_exit>
   </node>
 </launch>
 )";
