@@ -58,7 +58,7 @@ function(rclcpp_components_register_node target)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/rclcpp_components/${program}.cpp)
   configure_file(${template} ${source} @ONLY)
   add_executable(${program} ${source})
-  set_target_properties(${program} PROPERTIES OUTPUT_NAME ${ARG_EXECUTABLE} INSTALL_RPATH_USE_LINK_PATH ON)
+  set_target_properties(${program} PROPERTIES OUTPUT_NAME ${ARG_EXECUTABLE})
   _stack_place(${program} lib/${pkg} "$ORIGIN/..")
   # The program calls nothing of the library: it is there for what it registers.
   target_link_libraries(${program} PRIVATE
