@@ -40,15 +40,18 @@ struct WaitSet {
 class Entities {
  public:
   Entities(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions, rmw_services_t* services,
-           rmw_clients_t* clients) {
+           rmw_clients_t* clients, rmw_events_t* events) {
     if (subscriptions != nullptr) {
-      readers_[0] = {subscriptions->subscribers, subscriptions->subscriber_count};
+      level_triggered_[0] = {subscriptions->subscribers, subscriptions->subscriber_count};
     }
     if (services != nullptr) {
-      readers_[1] = {services->services, services->service_count};
+      level_triggered_[1] = {services->services, services->service_count};
     }
     if (clients != nullptr) {
-      readers_[2] = {clients->clients, clients->client_count};
+      level_triggered_[2] = {clients->clients, clients->client_count};
+    }
+    if (events != nullptr) {
+      level_triggered_[3] = {events->events, events->event_count};
     }
     if (guard_conditions != nullptr) {
       guard_conditions_ = {guard_conditions->guard_conditions, guard_conditions->guard_condition_count};
@@ -64,16 +67,22 @@ class Entities {
         }
       }
     };
-    std::for_each(readers_.begin(), readers_.end(), append);
+    std::for_each(level_triggered_.begin(), level_triggered_.end(), append);
     append(guard_conditions_);
   }
 
-  // Nulls what is not ready and resets guard conditions. False if nothing is left.
-  bool keep_ready() const {
+  // Nulls what is not ready and resets guard conditions, but asks nobody before the first one of collect()'s list that
+  // is known to be ready. False if nothing is left.
+  bool keep_ready(std::size_t first_ready) const {
     bool any = false;
-    for (std::span<void*> list : readers_) {
+    std::size_t index = 0;
+    for (std::span<void*> list : level_triggered_) {
       for (void*& entity : list) {
-        if (entity != nullptr && !static_cast<Waitable*>(entity)->is_ready()) {
+        if (entity == nullptr) {
+          continue;
+        }
+        const std::size_t i = index++;
+        if (i < first_ready || (i > first_ready && !static_cast<Waitable*>(entity)->is_ready())) {
           entity = nullptr;
         }
         any |= entity != nullptr;
@@ -89,12 +98,15 @@ class Entities {
   }
 
  private:
-  std::array<std::span<void*>, 3> readers_;  // of subscriptions, services and clients
+  std::array<std::span<void*>, 4> level_triggered_;  // of subscriptions, services, clients and events
   std::span<void*> guard_conditions_;
 };
 
-bool any_ready(const std::vector<Waitable*>& waitables) {
-  return std::any_of(waitables.begin(), waitables.end(), [](Waitable* waitable) { return waitable->is_ready(); });
+// The index of the first one that is ready, the size if there is none.
+std::size_t first_ready(const std::vector<Waitable*>& waitables) {
+  const auto found =
+      std::find_if(waitables.begin(), waitables.end(), [](Waitable* waitable) { return waitable->is_ready(); });
+  return static_cast<std::size_t>(found - waitables.begin());
 }
 
 }  // namespace
@@ -148,20 +160,25 @@ rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set) {
 }
 
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
-                   rmw_services_t* services, rmw_clients_t* clients, rmw_wait_set_t* wait_set,
+                   rmw_services_t* services, rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set,
                    const rmw_time_t* wait_timeout) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
-  const Entities entities(subscriptions, guard_conditions, services, clients);
+  const Entities entities(subscriptions, guard_conditions, services, clients, events);
+  auto& [waiter, waitables] = *static_cast<WaitSet*>(wait_set->data);
+  entities.collect(waitables);
   const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
+  std::size_t ready = 0;
   if (may_block) {
     const auto deadline = deadline_after(wait_timeout);
-    auto& [waiter, waitables] = *static_cast<WaitSet*>(wait_set->data);
-    entities.collect(waitables);
     waiter.reset();
     waiter.watch(waitables);
+    ready = first_ready(waitables);
     // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-    while (!any_ready(waitables) && waiter.wait_until(deadline)) {
+    while (ready == waitables.size() && waiter.wait_until(deadline)) {
+      ready = first_ready(waitables);
     }
+  } else {
+    ready = first_ready(waitables);
   }
-  return entities.keep_ready() ? RMW_RET_OK : RMW_RET_TIMEOUT;
+  return entities.keep_ready(ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }

@@ -12,6 +12,16 @@ std::mutex& attachments() {
   return mutex;
 }
 
+bool is_subsequence(const std::vector<Waitable*>& part, const std::vector<Waitable*>& whole) {
+  auto next = part.begin();
+  for (auto it = whole.begin(); it != whole.end() && next != part.end(); ++it) {
+    if (*it == *next) {
+      ++next;
+    }
+  }
+  return next == part.end();
+}
+
 }  // namespace
 
 Waiter::~Waiter() {
@@ -22,7 +32,7 @@ Waiter::~Waiter() {
 }
 
 void Waiter::watch(const std::vector<Waitable*>& waitables) {
-  if (waitables == wanted_ && !stale_.load(std::memory_order_acquire)) {
+  if (!stale_.load(std::memory_order_acquire) && is_subsequence(waitables, wanted_)) {
     return;
   }
   std::lock_guard lock(attachments());

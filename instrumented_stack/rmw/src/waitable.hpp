@@ -26,8 +26,9 @@ class Waiter {
   Waiter(const Waiter&) = delete;
   Waiter& operator=(const Waiter&) = delete;
 
-  // From now on these, and no others, wake the waiter. They may be destroyed at any time before the next call, but not
-  // while the waiter sleeps.
+  // From now on these wake the waiter. If they are some of those of the last call, in the same order, the others go on
+  // waking it too: what an executor leaves out for the moment costs no lock, only a look more when it wakes. They may
+  // be destroyed at any time before the next call, but not while the waiter sleeps.
   void watch(const std::vector<Waitable*>& waitables);
 
   // Forgets earlier calls of wake().
@@ -43,7 +44,7 @@ class Waiter {
  private:
   friend class Waitable;
 
-  // The arguments of the last watch(), to be compared only. Of the waiting thread.
+  // The arguments of the last watch() that changed something, to be compared only. Of the waiting thread.
   std::vector<Waitable*> wanted_;
   std::atomic<bool> stale_{false};  // one of them was destroyed: its address may be another's now
   std::vector<Waitable*> watched_;  // those of them that live; under the lock of attachments

@@ -10,7 +10,8 @@
 //   parameter.hpp        Parameter                             parameter_value.hpp
 //   parameter_client.hpp SyncParametersClient                  AsyncParametersClient
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
-//   executors.hpp        spin, SingleThreadedExecutor          executor.hpp, callback_group.hpp, guard_condition.hpp
+//   executors.hpp        spin, the executors                   executor.hpp, executors/, callback_group.hpp,
+//                                                              waitable.hpp, guard_condition.hpp
 //   logging.hpp          RCLCPP_INFO and its like              logger.hpp
 //   exceptions.hpp       what all of this throws
 //
