@@ -50,6 +50,14 @@ bool choose(ClientBase::SharedPtr client, AnyExecutable& any_executable) {
   any_executable.client = std::move(client);
   return any_executable.client != nullptr;
 }
+bool choose(Waitable::SharedPtr waitable, AnyExecutable& any_executable) {
+  if (!waitable) {
+    return false;
+  }
+  any_executable.data = waitable->take_data();
+  any_executable.waitable = std::move(waitable);
+  return true;
+}
 
 }  // namespace
 
@@ -252,12 +260,15 @@ void Executor::execute_any_executable(AnyExecutable& any_executable) {
                           static_cast<const void*>(any_executable.subscription->get_subscription_handle().get()));
     any_executable.subscription->execute();
   }
-  // These two have no rclcpp_executor_execute.
+  // These have no rclcpp_executor_execute.
   if (any_executable.service) {
     any_executable.service->execute();
   }
   if (any_executable.client) {
     any_executable.client->execute();
+  }
+  if (any_executable.waitable) {
+    any_executable.waitable->execute(any_executable.data);
   }
 }
 

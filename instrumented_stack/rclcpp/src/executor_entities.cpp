@@ -171,19 +171,23 @@ void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail
       exceptions::throw_from_rcl_error(ret, "rcl_wait() failed");
     }
     rcl_reset_error();
-  } catch (...) {
-    failure = std::current_exception();
-  }
-
-  Owners owners;
-  const std::lock_guard lock(mutex_);
-  waiting_ = false;
-  if (!failure) {
     append_ready(waitables_.timers, wait_set_.timers, ready);
     append_ready(waitables_.subscriptions, wait_set_.subscriptions, ready);
     append_ready(waitables_.services, wait_set_.services, ready);
     append_ready(waitables_.clients, wait_set_.clients, ready);
+    for (const rclcpp::Waitable::SharedPtr& waitable : held_) {
+      if (waitable->is_ready(wait_set_)) {
+        ready.emplace_back(rclcpp::Waitable::WeakPtr(waitable));
+      }
+    }
+  } catch (...) {
+    failure = std::current_exception();
   }
+  held_.clear();
+
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  waiting_ = false;
   if (changed_) {
     mark_changed(owners);
   }
@@ -208,6 +212,12 @@ void ExecutorEntities::fill_wait_set() {
   }
   for (const auto& client : waitables_.clients) {
     require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
+  }
+  for (const rclcpp::Waitable::WeakPtr& other : waitables_.others) {  // last: those before are found by their index
+    if (rclcpp::Waitable::SharedPtr waitable = other.lock()) {
+      waitable->add_to_wait_set(wait_set_);
+      held_.push_back(std::move(waitable));
+    }
   }
 }
 
@@ -264,8 +274,22 @@ void ExecutorEntities::rebuild(Owners& owners) {
   for (const ClientBase::SharedPtr& client : owners.entities.clients) {
     waitables_.clients.push_back({client->get_client_handle(), client});
   }
-  require_ok(rcl_wait_set_resize(&wait_set_, waitables_.subscriptions.size(), 1, waitables_.timers.size(),
-                                 waitables_.clients.size(), waitables_.services.size(), 0),
+  size_t subscriptions = waitables_.subscriptions.size();
+  size_t guard_conditions = 1;
+  size_t timers = waitables_.timers.size();
+  size_t clients = waitables_.clients.size();
+  size_t services = waitables_.services.size();
+  size_t events = 0;
+  for (const rclcpp::Waitable::SharedPtr& waitable : owners.entities.waitables) {
+    subscriptions += waitable->get_number_of_ready_subscriptions();
+    guard_conditions += waitable->get_number_of_ready_guard_conditions();
+    timers += waitable->get_number_of_ready_timers();
+    clients += waitable->get_number_of_ready_clients();
+    services += waitable->get_number_of_ready_services();
+    events += waitable->get_number_of_ready_events();
+    waitables_.others.push_back(waitable);
+  }
+  require_ok(rcl_wait_set_resize(&wait_set_, subscriptions, guard_conditions, timers, clients, services, events),
              "couldn't resize the wait set");
   changed_ = false;
 }

@@ -2,7 +2,8 @@
 //
 // The list of entities is rebuilt only after something changed. It holds the rcl handles, so that a wait never looks at
 // a dead one, and the rclcpp objects weakly, so that a user's reset() destroys a subscription at once. Its handle
-// follows at once too if nobody waits, else as soon as the wait, which the change interrupts, has returned.
+// follows at once too if nobody waits, else as soon as the wait, which the change interrupts, has returned. Waitables
+// have no handle apart from themselves: a wait holds them as long as it lasts.
 #pragma once
 
 #include <rcl/wait.h>
@@ -23,6 +24,7 @@
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
 
@@ -66,6 +68,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
     std::vector<Waitable<rcl_subscription_t, SubscriptionBase>> subscriptions;
     std::vector<Waitable<rcl_service_t, ServiceBase>> services;
     std::vector<Waitable<rcl_client_t, ClientBase>> clients;
+    std::vector<rclcpp::Waitable::WeakPtr> others;
   };
   // Owners that a locked section met on its way. They may be the last ones, and destructors report back here: the
   // caller lets go of them after the lock.
@@ -97,6 +100,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   bool waiting_ = false;
   // While waiting_, of the waiting thread alone.
   Waitables waitables_;
+  std::vector<rclcpp::Waitable::SharedPtr> held_;  // of waitables_.others, by a wait
 };
 
 }  // namespace rclcpp

@@ -7,6 +7,7 @@
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
 
@@ -15,6 +16,8 @@ struct AnyExecutable {
   SubscriptionBase::SharedPtr subscription;
   ServiceBase::SharedPtr service;
   ClientBase::SharedPtr client;
+  Waitable::SharedPtr waitable;
+  std::shared_ptr<void> data;  // what the waitable's take_data() gave
 };
 
 }  // namespace rclcpp

@@ -1,4 +1,4 @@
-// The entities (timers, subscriptions, services, clients) whose callbacks belong together, and the unit that an
+// The entities (timers, subscriptions, services, clients, waitables) whose callbacks belong together, and the unit that an
 // executor serves.
 #pragma once
 
@@ -17,6 +17,7 @@ class ClientBase;
 class ServiceBase;
 class SubscriptionBase;
 class TimerBase;
+class Waitable;
 
 enum class CallbackGroupType {
   MutuallyExclusive,  // one callback at a time
@@ -41,12 +42,15 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   void add_timer(const std::shared_ptr<TimerBase>& timer);
   void add_service(const std::shared_ptr<ServiceBase>& service);
   void add_client(const std::shared_ptr<ClientBase>& client);
+  void add_waitable(const std::shared_ptr<Waitable>& waitable);
+  void remove_waitable(const std::shared_ptr<Waitable>& waitable) noexcept;
 
   struct Entities {
     std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
     std::vector<std::shared_ptr<TimerBase>> timers;
     std::vector<std::shared_ptr<ServiceBase>> services;
     std::vector<std::shared_ptr<ClientBase>> clients;
+    std::vector<std::shared_ptr<Waitable>> waitables;
   };
   // Appends the living entities. Release them outside of every lock: they may be the last owners.
   void collect(Entities& entities) const;
@@ -74,6 +78,7 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   std::vector<std::weak_ptr<TimerBase>> timers_;
   std::vector<std::weak_ptr<ServiceBase>> services_;
   std::vector<std::weak_ptr<ClientBase>> clients_;
+  std::vector<std::weak_ptr<Waitable>> waitables_;
   std::function<void()> on_change_;
 };
 

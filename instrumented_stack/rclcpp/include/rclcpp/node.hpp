@@ -25,6 +25,7 @@
 #include "rclcpp/node_interfaces/node_timers.hpp"
 #include "rclcpp/node_interfaces/node_topics.hpp"
 #include "rclcpp/node_interfaces/node_type_descriptions.hpp"
+#include "rclcpp/node_interfaces/node_waitables.hpp"
 #include "rclcpp/node_options.hpp"
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/publisher.hpp"
@@ -210,6 +211,7 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr get_node_type_descriptions_interface() {
     return node_type_descriptions_;
   }
+  node_interfaces::NodeWaitablesInterface::SharedPtr get_node_waitables_interface() { return node_waitables_; }
 
  private:
   Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
@@ -222,6 +224,7 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeTimersInterface::SharedPtr node_timers_;
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
   node_interfaces::NodeServicesInterface::SharedPtr node_services_;
+  node_interfaces::NodeWaitablesInterface::SharedPtr node_waitables_;
   Clock::SharedPtr clock_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr node_type_descriptions_;

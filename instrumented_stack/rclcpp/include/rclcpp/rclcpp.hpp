@@ -11,6 +11,7 @@
 //   parameter_client.hpp SyncParametersClient                  AsyncParametersClient
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
 //   executors.hpp        spin, SingleThreadedExecutor          executor.hpp, callback_group.hpp, guard_condition.hpp
+//   waitable.hpp         Waitable                              node_interfaces/node_waitables.hpp
 //   logging.hpp          RCLCPP_INFO and its like              logger.hpp
 //   exceptions.hpp       what all of this throws
 //
@@ -28,3 +29,4 @@
 #include "rclcpp/serialization.hpp"
 #include "rclcpp/time.hpp"
 #include "rclcpp/utilities.hpp"
+#include "rclcpp/waitable.hpp"

@@ -7,10 +7,11 @@
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp::detail {
 
-using ReadyEntity =
-    std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr>;
+using ReadyEntity = std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr,
+                                 ClientBase::WeakPtr, Waitable::WeakPtr>;
 
 }  // namespace rclcpp::detail
