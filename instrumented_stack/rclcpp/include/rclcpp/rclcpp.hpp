@@ -10,8 +10,8 @@
 //   parameter.hpp        Parameter                             parameter_value.hpp
 //   parameter_client.hpp SyncParametersClient                  AsyncParametersClient
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
-//   executors.hpp        spin, the executors                   executor.hpp, executors/, callback_group.hpp,
-//                                                              waitable.hpp, guard_condition.hpp
+//   executors.hpp        spin, the executors                   executor.hpp, executors/, callback_group.hpp
+//   waitable.hpp         Waitable                              guard_condition.hpp, node_interfaces/node_waitables.hpp
 //   logging.hpp          RCLCPP_INFO and its like              logger.hpp
 //   exceptions.hpp       what all of this throws
 //
@@ -29,3 +29,4 @@
 #include "rclcpp/serialization.hpp"
 #include "rclcpp/time.hpp"
 #include "rclcpp/utilities.hpp"
+#include "rclcpp/waitable.hpp"
