@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "rclcpp/event_handler.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -211,6 +212,7 @@ void ExecutorEntities::fill_wait_set(std::vector<HeldWaitable>& waitables) {
     subscriptions += group.subscriptions.size();
     services += group.services.size();
     clients += group.clients.size();
+    events += group.events.size();
     for (const Waitable::WeakPtr& weak : group.waitables) {
       if (Waitable::SharedPtr waitable = weak.lock()) {
         timers += waitable->get_number_of_ready_timers();
@@ -245,6 +247,9 @@ void ExecutorEntities::fill_wait_set(std::vector<HeldWaitable>& waitables) {
     for (const auto& client : group.clients) {
       require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
     }
+    for (const auto& event : group.events) {
+      require_ok(rcl_wait_set_add_event(&wait_set_, event.handle.get(), nullptr), "couldn't add event to wait set");
+    }
   }
   // Last, so that the indices of the others are known without asking.
   for (const HeldWaitable& held : waitables) {
@@ -270,6 +275,7 @@ void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
   append(wait_set_.subscriptions, &WaitedGroup::subscriptions);
   append(wait_set_.services, &WaitedGroup::services);
   append(wait_set_.clients, &WaitedGroup::clients);
+  append(wait_set_.events, &WaitedGroup::events);
   for (const HeldWaitable& held : waitables) {
     if (held.waitable->is_ready(wait_set_)) {
       ready.push_back({Waitable::WeakPtr(held.waitable), held.group});
@@ -364,7 +370,14 @@ void ExecutorEntities::rebuild(Owners& owners) {
     for (const ClientBase::SharedPtr& client : entities.clients) {
       waited.clients.push_back({client->get_client_handle(), client});
     }
-    waited.waitables.assign(entities.waitables.begin(), entities.waitables.end());
+    for (const Waitable::SharedPtr& waitable : entities.waitables) {
+      // There can be thousands of event handlers, one per publisher and subscription at least.
+      if (const auto* handler = dynamic_cast<const EventHandlerBase*>(waitable.get())) {
+        waited.events.push_back({handler->get_event_handle(), waitable});
+      } else {
+        waited.waitables.push_back(waitable);
+      }
+    }
     owners.groups.push_back(std::move(group));
   }
   changed_ = false;

@@ -83,6 +83,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
     std::vector<Waited<rcl_subscription_t, SubscriptionBase>> subscriptions;
     std::vector<Waited<rcl_service_t, ServiceBase>> services;
     std::vector<Waited<rcl_client_t, ClientBase>> clients;
+    std::vector<Waited<const rcl_event_t, Waitable>> events;  // of event handlers, which need no care of their own
     std::vector<Waitable::WeakPtr> waitables;
     bool in_wait_set = false;
   };

@@ -35,10 +35,13 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
     }
     delete handle;
   });
+  bind_event_callbacks(options.event_callbacks, options.use_default_callbacks,
+                       rcl_node_get_logger_name(node_handle.get()));
 }
 
 SubscriptionBase::~SubscriptionBase() {
   clear_on_new_message_callback();
+  event_handlers_.clear();  // an executor that looks again must not find them
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
   }

@@ -72,8 +72,9 @@ class Node : public std::enable_shared_from_this<Node> {
   // Throw exceptions::InvalidTopicNameError or exceptions::RCLError. Publisher, subscription and timer live as long as
   // the pointer.
   template <typename MessageT>
-  std::shared_ptr<Publisher<MessageT>> create_publisher(const std::string& topic_name, const QoS& qos) {
-    return rclcpp::create_publisher<MessageT>(*this, topic_name, qos);
+  std::shared_ptr<Publisher<MessageT>> create_publisher(const std::string& topic_name, const QoS& qos,
+                                                        const PublisherOptions& options = PublisherOptions()) {
+    return rclcpp::create_publisher<MessageT>(*this, topic_name, qos, options);
   }
 
   // For the forms of the callback see any_subscription_callback.hpp.

@@ -9,10 +9,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 
 #include "rclcpp/any_subscription_callback.hpp"
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
+#include "rclcpp/event_handler.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/message_info.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
@@ -46,6 +48,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // What an executor does with a subscription that is ready: one message, from the middleware to the callback.
   void execute();
 
+  // Of the callbacks in the options, and the default one.
+  using EventHandlers = std::unordered_map<rcl_subscription_event_type_t, std::shared_ptr<EventHandlerBase>>;
+  const EventHandlers& get_event_handlers() const { return event_handlers_; }
+
   std::shared_ptr<rcl_subscription_t> get_subscription_handle() { return subscription_handle_; }
   std::shared_ptr<const rcl_subscription_t> get_subscription_handle() const { return subscription_handle_; }
 
@@ -69,6 +75,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
  private:
   bool check_taken(rcl_ret_t ret) const;
+  void bind_event_callbacks(const SubscriptionEventCallbacks& callbacks, bool use_default_callbacks,
+                            const std::string& logger_name);
+  template <typename EventCallbackT>
+  void add_event_handler(const EventCallbackT& callback, rcl_subscription_event_type_t event_type);
   // A message, or serialized message, for the callback, and after the callback the way back.
   std::shared_ptr<void> borrow_message();
   void return_message(std::shared_ptr<void> message);
@@ -76,6 +86,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;
   CallbackGroup::WeakPtr callback_group_;
+  EventHandlers event_handlers_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
   // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
