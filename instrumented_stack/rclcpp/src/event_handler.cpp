@@ -4,9 +4,9 @@
 
 namespace rclcpp {
 
-UnsupportedEventTypeException::UnsupportedEventTypeException(rcl_ret_t ret, const rcl_error_state_t* error_state,
+UnsupportedEventTypeException::UnsupportedEventTypeException(rcl_ret_t result, const rcl_error_state_t* error_state,
                                                              const std::string& prefix)
-    : exceptions::RCLErrorBase(ret, error_state),
+    : exceptions::RCLErrorBase(result, error_state),
       std::runtime_error(prefix + (prefix.empty() ? "" : ": ") + formatted_message) {}
 
 EventHandlerBase::EventHandlerBase(std::shared_ptr<const void> parent,
