@@ -245,8 +245,8 @@ void EventsExecutor::update(Served<EntityT>& served, Served<EntityT> found, Star
   }
   for (auto& [key, weak] : found) {
     if (const std::shared_ptr<EntityT> entity = weak.lock(); entity && served.count(key) == 0) {
-      served.emplace(key, weak);
       start(*entity);
+      served.emplace(key, weak);
     }
   }
 }
