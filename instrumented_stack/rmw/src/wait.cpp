@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <span>
@@ -33,7 +34,9 @@ std::optional<Waiter::TimePoint> deadline_after(const rmw_time_t* timeout) {
 // The state behind rmw_wait_set_t.
 struct WaitSet {
   Waiter waiter;
-  std::vector<Waitable*> waitables;  // room for the entities of a wait
+  // Room for the entities of a wait.
+  std::vector<Waitable*> waitables;
+  std::vector<Waitable*> ready;
 };
 
 // The entities of one call of rmw_wait(), null entries left out by each function.
@@ -71,25 +74,26 @@ class Entities {
     append(guard_conditions_);
   }
 
-  // Nulls what is not ready and resets guard conditions, but asks nobody before the first one of collect()'s list that
-  // is known to be ready. False if nothing is left.
-  bool keep_ready(std::size_t first_ready) const {
+  // Nulls what is not in `ready`, a part of collect()'s list in its order, and resets guard conditions. False if
+  // nothing is left.
+  bool keep(const std::vector<Waitable*>& ready) const {
     bool any = false;
-    std::size_t index = 0;
+    auto next = ready.begin();
+    const auto keep_entry = [&](void*& entity) {
+      if (next != ready.end() && entity == *next) {
+        ++next;
+      } else {
+        entity = nullptr;
+      }
+      return entity != nullptr;
+    };
     for (std::span<void*> list : level_triggered_) {
       for (void*& entity : list) {
-        if (entity == nullptr) {
-          continue;
-        }
-        const std::size_t i = index++;
-        if (i < first_ready || (i > first_ready && !static_cast<Waitable*>(entity)->is_ready())) {
-          entity = nullptr;
-        }
-        any |= entity != nullptr;
+        any |= keep_entry(entity);
       }
     }
     for (void*& entity : guard_conditions_) {
-      if (entity != nullptr && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
+      if (keep_entry(entity) && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
         entity = nullptr;
       }
       any |= entity != nullptr;
@@ -101,13 +105,6 @@ class Entities {
   std::array<std::span<void*>, 4> level_triggered_;  // of subscriptions, services, clients and events
   std::span<void*> guard_conditions_;
 };
-
-// The index of the first one that is ready, the size if there is none.
-std::size_t first_ready(const std::vector<Waitable*>& waitables) {
-  const auto found =
-      std::find_if(waitables.begin(), waitables.end(), [](Waitable* waitable) { return waitable->is_ready(); });
-  return static_cast<std::size_t>(found - waitables.begin());
-}
 
 }  // namespace
 
@@ -164,21 +161,23 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
                    const rmw_time_t* wait_timeout) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
   const Entities entities(subscriptions, guard_conditions, services, clients, events);
-  auto& [waiter, waitables] = *static_cast<WaitSet*>(wait_set->data);
+  auto& [waiter, waitables, ready] = *static_cast<WaitSet*>(wait_set->data);
   entities.collect(waitables);
+  ready.clear();
   const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
-  std::size_t ready = 0;
   if (may_block) {
     const auto deadline = deadline_after(wait_timeout);
-    waiter.reset();
     waiter.watch(waitables);
-    ready = first_ready(waitables);
+    waiter.find_ready(waitables, ready);
     // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-    while (ready == waitables.size() && waiter.wait_until(deadline)) {
-      ready = first_ready(waitables);
+    while (ready.empty() && waiter.wait_until(deadline)) {
+      waiter.find_ready(waitables, ready);
     }
+  } else if (waiter.watches(waitables)) {
+    waiter.find_ready(waitables, ready);
   } else {
-    ready = first_ready(waitables);
+    std::copy_if(waitables.begin(), waitables.end(), std::back_inserter(ready),
+                 [](Waitable* waitable) { return waitable->is_ready(); });
   }
-  return entities.keep_ready(ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
+  return entities.keep(ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }

@@ -179,7 +179,9 @@ TEST_F(WaitSetTest, EventsOfASubscriptionAreWaitedForUnlessTheMaskLeavesThemOut)
       "a", 10, [](const UInt64&) {}, options);
   rclcpp::SubscriptionWaitSetMask mask;
   mask.include_events = false;
-  rclcpp::WaitSet wait_set({{with_events}, {without_events, mask}});
+  rclcpp::WaitSet wait_set;
+  wait_set.add_subscription(with_events);
+  wait_set.add_subscription(without_events, mask);
   auto publisher = node_->create_publisher<UInt64>("a", 10);
   auto result = wait_set.wait(kPatience);
   ASSERT_EQ(result.kind(), WaitResultKind::Ready);
