@@ -68,6 +68,7 @@ class ServiceBase {
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  const void* traced_callback_ = nullptr;  // as trace_creation() told it
 };
 
 }  // namespace rclcpp

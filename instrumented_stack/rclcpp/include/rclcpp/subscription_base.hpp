@@ -89,6 +89,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   EventHandlers event_handlers_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  const void* traced_callback_ = nullptr;  // as trace_creation() told it
   // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
   // run such a callback several times at once.
   std::mutex spare_mutex_;
