@@ -56,9 +56,12 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
 
   // A publisher that is on only while the node is active.
   template <typename MessageT>
-  std::shared_ptr<LifecyclePublisher<MessageT>> create_publisher(const std::string& topic_name,
-                                                                 const rclcpp::QoS& qos) {
-    auto publisher = std::make_shared<LifecyclePublisher<MessageT>>(get_node_base_interface().get(), topic_name, qos);
+  std::shared_ptr<LifecyclePublisher<MessageT>> create_publisher(
+      const std::string& topic_name, const rclcpp::QoS& qos,
+      const rclcpp::PublisherOptions& options = rclcpp::PublisherOptions()) {
+    auto publisher =
+        std::make_shared<LifecyclePublisher<MessageT>>(get_node_base_interface().get(), topic_name, qos, options);
+    get_node_topics_interface()->add_publisher(publisher, options.callback_group);
     add_managed_entity(publisher);
     return publisher;
   }
