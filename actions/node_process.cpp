@@ -95,7 +95,11 @@ std::string NodeProcess::request(LaunchContext& context) const {
     remap("__ns:=" + *node.name_space);
   }
   const std::string full_name = node.name && node.name_space ? qualified_name(*node.name_space, *node.name) : "";
+  if (node.name) {
+    spec.other_names.push_back(*node.name);
+  }
   if (!full_name.empty()) {
+    spec.other_names.push_back(full_name);
     context.note_node(full_name);
   }
   append_global_parameters(spec, scope);

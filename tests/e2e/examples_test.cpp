@@ -56,7 +56,12 @@ INSTANTIATE_TEST_SUITE_P(
                         Example{"07_services",
                                 {},
                                 {"the client will ask 3 times", "[add_two_ints_server]: 2 + 3 = 5",
-                                 "[add_two_ints_client]: 2 + 3 = 5"}}),
+                                 "[add_two_ints_client]: 2 + 3 = 5"}},
+                        Example{"09_events",
+                                {},
+                                {"[calibrate-1] calibrated", "[server-2] listening", "[client-3] asking",
+                                 "client-3 is done, the server may go", "sending signal 'SIGINT' to process[server-2]",
+                                 "[park-4] parked"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -1,0 +1,16 @@
+#include "launcher/core/farewell.hpp"
+
+namespace launch {
+
+void check_farewell(const Requests& requests) {
+  if (!requests.scopes.empty()) {
+    throw LaunchError("a trace can't begin when the system ends", requests.scopes.front()->origin(),
+                      "put it outside of on_shutdown");
+  }
+  if (!requests.dependencies.empty()) {
+    throw LaunchError("a process can't wait for others when the system ends", requests.dependencies.front().where,
+                      "leave depends_on out inside of on_shutdown");
+  }
+}
+
+}  // namespace launch
