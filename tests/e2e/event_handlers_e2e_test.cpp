@@ -54,7 +54,7 @@ TEST_F(EventHandlers, ATraceInAHandlerRecordsWhatTheHandlerStarts) {
 
 TEST_F(EventHandlers, OnShutdownRunsWhileTheOthersAreStillThere) {
   const std::string file = write(R"xml(
-    <executable name="robot" shell="true" output="screen" cmd="touch up; trap 'rm up; exit' INT; echo ready; while :; do read x; done"/>
+    <executable name="robot" shell="true" output="screen" cmd="touch up; end() { rm up; exit; }; trap end INT; echo ready; while :; do read x; done"/>
     <on_shutdown><executable name="park" shell="true" output="screen" cmd="test -e up &amp;&amp; echo still up"/></on_shutdown>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}, .directory = sandbox_.directory()});
   ASSERT_TRUE(run.wait_for_output("[robot-1] ready")) << run.out() << run.err();
