@@ -96,10 +96,9 @@ std::string NodeProcess::request(LaunchContext& context) const {
   }
   const std::string full_name = node.name && node.name_space ? qualified_name(*node.name_space, *node.name) : "";
   if (node.name) {
-    spec.other_names.push_back(*node.name);
+    spec.other_names = {*node.name, qualified_name(node.name_space.value_or("/"), *node.name)};
   }
   if (!full_name.empty()) {
-    spec.other_names.push_back(full_name);
     context.note_node(full_name);
   }
   append_global_parameters(spec, scope);

@@ -93,6 +93,9 @@ Json load_request_as_json(const LoadRequest& request) {
     }
     node["remaps"] = std::move(remaps);
     node["extra_arguments"] = named(component.extra_arguments);
+    if (component.autostart) {
+      node["autostart"] = true;
+    }
     nodes.push_back(std::move(node));
   }
   return {{"target", request.target}, {"nodes", std::move(nodes)}};
@@ -191,6 +194,9 @@ std::string load_request_as_text(const LoadRequest& request) {
     for (const auto& [from, to] : node.remaps) {
       text += fmt::format("    {}:={}\n", from, to);
     }
+    if (node.autostart) {
+      text += "    then configure, activate\n";
+    }
   }
   return text;
 }
@@ -210,6 +216,10 @@ std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_
   }
   for (const LoadRequest& request : plan.loads) {
     text += load_request_as_text(request) + "\n";
+  }
+  for (const TransitionRequest& request : plan.transitions) {
+    text += fmt::format("change state of {} ({})\n  {}\n\n", request.node, to_string(request.origin),
+                        fmt::join(request.transitions, ", "));
   }
   for (const PlannedHandler& planned : plan.handlers) {
     text += fmt::format("{} ({})\n", describe(planned.handler), to_string(planned.handler.where));
@@ -277,6 +287,10 @@ Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_en
   for (const LoadRequest& request : plan.loads) {
     loads.push_back(load_request_as_json(request));
   }
+  Json transitions = Json::array();
+  for (const TransitionRequest& request : plan.transitions) {
+    transitions.push_back({{"node", request.node}, {"transitions", request.transitions}});
+  }
   Json traces = Json::array();
   for (const auto& scope : plan.scopes) {
     Json trace;
@@ -289,6 +303,9 @@ Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_en
   Json root;
   root["processes"] = std::move(processes);
   root["composable"] = std::move(loads);
+  if (!transitions.empty()) {
+    root["transitions"] = std::move(transitions);
+  }
   root["traces"] = std::move(traces);
   root["logs"] = plan.logs;
   root["python_includes"] = plan.python_includes;

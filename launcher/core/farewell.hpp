@@ -5,7 +5,8 @@
 
 namespace launch {
 
-// Throws LaunchError for a trace, which could not begin any more, and for processes that wait for others.
+// Throws LaunchError for a trace, which could not begin any more, for what needs services of nodes, and for processes
+// that wait for others.
 void check_farewell(const Requests& requests);
 
 }  // namespace launch

@@ -85,6 +85,7 @@ class Planner {
     }
     append(plan.commands, requests.commands);
     append(plan.loads, requests.loads);
+    append(plan.transitions, requests.transitions);
     append(plan.logs, requests.logs);
     append(plan.python_includes, requests.python_includes);
     plan.includes += requests.includes;

@@ -34,6 +34,12 @@ LaunchService::~LaunchService() {
   }
 }
 
+void LaunchService::use_ros_client(RosClient& client) {
+  context_.use_ros_client(client);
+  ros_tasks_ = std::make_unique<RosTasks>(
+      context_, loop_, client, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); });
+}
+
 int LaunchService::run(const LaunchDescription& description) {
   const EventLoop::SourcePtr signals =
       loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
@@ -91,17 +97,14 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
     }
     shutdown(fmt::format("process[{}] was required", event.label));
   }
+  if (ros_tasks_) {
+    ros_tasks_->on_process_event(event);
+  }
   if (std::holds_alternative<ProcessDone>(event.what)) {
     if (last_processes_.erase(event.id) != 0 && last_processes_.empty()) {
       loop_.post([this] { end_farewell(); });
     }
-    if (!check_posted_) {
-      check_posted_ = true;
-      loop_.post([this] {
-        check_posted_ = false;
-        check_finished();
-      });
-    }
+    post_check();
   }
 }
 
@@ -245,6 +248,7 @@ void LaunchService::start(Round round) {
     }
   }
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
+  start_ros_tasks(requests);
   if (requests.shutdown) {
     shutdown(requests.shutdown->reason);
   }
@@ -256,6 +260,11 @@ void LaunchService::start_process(ProcessSpec spec, TrackedProcess& process) {
   }
   const ProcessId id = supervisor_.next_id();
   table_.bind(process, id, fmt::format("{}-{}", spec.name, id));
+  for (const std::string& name : spec.other_names) {
+    if (ros_tasks_ && name.starts_with('/')) {
+      ros_tasks_->name_process(id, name);
+    }
+  }
   supervisor_.start(std::move(spec));
 }
 
@@ -263,6 +272,20 @@ void LaunchService::start_timer(TimerRequest request) {
   timers_.push_back({std::move(request), nullptr});
   const auto timer = std::prev(timers_.end());
   timer->source = loop_.after(timer->request.period, [this, timer] { on_timer(timer); });
+}
+
+void LaunchService::start_ros_tasks(Requests& requests) {
+  if (!ros_tasks_ && !(requests.loads.empty() && requests.transitions.empty())) {
+    fail(LaunchError("there is no ROS client to load components and change states",
+                     requests.loads.empty() ? requests.transitions.front().origin : requests.loads.front().origin));
+    return;
+  }
+  for (LoadRequest& request : requests.loads) {
+    ros_tasks_->load(std::move(request));
+  }
+  for (TransitionRequest& request : requests.transitions) {
+    ros_tasks_->change_state(std::move(request));
+  }
 }
 
 void LaunchService::execute(const ProcessCommand& command) {

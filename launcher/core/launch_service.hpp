@@ -21,6 +21,7 @@
 #include "launcher/core/event_handlers.hpp"
 #include "launcher/core/launch_context.hpp"
 #include "launcher/core/process_table.hpp"
+#include "launcher/core/ros_tasks.hpp"
 #include "launcher/core/start_order.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
@@ -40,6 +41,10 @@ class LaunchService {
 
   // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
   void guard_scopes(Guardian& guardian) { guardian_ = &guardian; }
+
+  // Who loads components and changes states. Without a client a launch that asks for either fails. It must outlive the
+  // service.
+  void use_ros_client(RosClient& client);
 
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
   // the launch itself, a process that could not be started included, else that of the `required` process that has ended
@@ -79,6 +84,7 @@ class LaunchService {
   void start(Round round);
   void start_process(ProcessSpec spec, TrackedProcess& process);
   void start_timer(TimerRequest request);
+  void start_ros_tasks(Requests& requests);
   void execute(const ProcessCommand& command);
   void fail(const LaunchError& error);
   void shutdown(const std::string& reason);
@@ -86,6 +92,7 @@ class LaunchService {
   void visit_farewell(const Invocation& invocation);
   void end_farewell();
   void check_finished();
+  void post_check();
   void end_next_scope();
   void guard(const RunScope& scope);
   void unguard(const RunScope& scope);
@@ -96,6 +103,7 @@ class LaunchService {
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
   Guardian* guardian_ = nullptr;
+  std::unique_ptr<RosTasks> ros_tasks_;                // null without a client
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
   ProcessTable table_;

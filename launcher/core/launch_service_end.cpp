@@ -23,6 +23,9 @@ void LaunchService::shutdown(const std::string& reason) {
     }
     timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
     start_order_.clear();
+    if (ros_tasks_) {
+      ros_tasks_->shutdown();
+    }
     last_invocations_ = handlers_.on_shutdown(reason);
     if (last_invocations_.empty()) {
       supervisor_.shutdown();
@@ -89,9 +92,20 @@ void LaunchService::end_farewell() {
   }
 }
 
+// Later, for whoever tells of an end may still be at work.
+void LaunchService::post_check() {
+  if (!check_posted_) {
+    check_posted_ = true;
+    loop_.post([this] {
+      check_posted_ = false;
+      check_finished();
+    });
+  }
+}
+
 void LaunchService::check_finished() {
   if (ending_ || scope_is_beginning_ || farewell_ || !waiting_.empty() || !timers_.empty() || !invocations_.empty() ||
-      !start_order_.empty() || supervisor_.active() != 0) {
+      !start_order_.empty() || supervisor_.active() != 0 || (ros_tasks_ && !ros_tasks_->idle())) {
     return;
   }
   if (!shutting_down_ && handlers_.has_on_shutdown()) {
@@ -100,6 +114,9 @@ void LaunchService::check_finished() {
   }
   ending_ = true;
   shutting_down_ = true;
+  if (ros_tasks_) {
+    ros_tasks_->shutdown();
+  }
   end_next_scope();
 }
 
