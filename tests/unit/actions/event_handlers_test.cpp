@@ -119,10 +119,10 @@ TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
             "/test/system.launch.xml:2:23: error: expected a number that is not negative, got '-1'\n"
             "    2 | <on_shutdown timeout=\"-1\"/>\n"
             "      |                       ^~");
-  EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exit\"/></executable>"),
-            "/test/system.launch.xml:2:56: error: condition can be started, exited or output, got 'exit'\n"
-            "    2 | <executable cmd=\"a\"><depends_on process=\"b\" condition=\"exit\"/></executable>\n"
-            "      |                                                        ^~~~\n"
+  EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>"),
+            "/test/system.launch.xml:2:56: error: condition can be started, exited or output, got 'exite'\n"
+            "    2 | <executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>\n"
+            "      |                                                        ^~~~~\n"
             "      = help: did you mean 'exited'?");
   EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" pattern=\"x\"/></executable>"),
             "/test/system.launch.xml:2:54: error: pattern goes with condition=\"output\" only\n"
