@@ -56,7 +56,12 @@ INSTANTIATE_TEST_SUITE_P(
                         Example{"07_services",
                                 {},
                                 {"the client will ask 3 times", "[add_two_ints_server]: 2 + 3 = 5",
-                                 "[add_two_ints_client]: 2 + 3 = 5"}}),
+                                 "[add_two_ints_client]: 2 + 3 = 5"}},
+                        Example{"10_action",
+                                {"cancel_after:=2"},
+                                {"[fibonacci_action_server]: Received goal request with order 8",
+                                 "[fibonacci_action_client]: Feedback: 0 1 1",
+                                 "[fibonacci_action_client]: Goal was canceled: 0 1 1 2", "trace written to: "}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 
