@@ -3,6 +3,7 @@
 #include <string>
 
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
 
 namespace rclcpp_action {
 
@@ -34,6 +35,10 @@ void ServerGoalHandleBase::update(rcl_action_goal_event_t event, const char* wha
   if (ret != RCL_RET_OK) {
     rclcpp::exceptions::throw_from_rcl_error(ret, std::string("the goal could not ") + what);
   }
+}
+
+void ServerGoalHandleBase::note_untold_end(const std::exception& error) {
+  RCLCPP_DEBUG(rclcpp::get_logger("rclcpp_action"), "could not tell that a goal was given up: %s", error.what());
 }
 
 bool ServerGoalHandleBase::try_canceling() noexcept {

@@ -224,6 +224,13 @@ TEST_F(ActionTest, GoalOutlivesItsServer) {
   EXPECT_FALSE(goals_[0]->is_active());
 }
 
+TEST_F(ActionTest, GoalMayBeGivenUpAfterTheShutdown) {
+  start_server();
+  (void)send(3);
+  rclcpp::shutdown();
+  goals_.clear();
+}
+
 TEST_F(ActionTest, StoppedCallbacksAreNotCalled) {
   start_server();
   int calls = 0;

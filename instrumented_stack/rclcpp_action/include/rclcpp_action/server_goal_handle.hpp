@@ -3,6 +3,7 @@
 
 #include <rcl_action/goal_handle.h>
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -31,6 +32,7 @@ class ServerGoalHandleBase {
   void update(rcl_action_goal_event_t event, const char* what);
   // Whether a goal that nobody will bring to its end was canceled.
   bool try_canceling() noexcept;
+  static void note_untold_end(const std::exception& error);
 
  private:
   rcl_action_goal_state_t state() const;
@@ -49,7 +51,11 @@ class ServerGoalHandle : public ServerGoalHandleBase {
     if (try_canceling()) {
       auto result = std::make_shared<typename ActionT::Impl::GetResultService::Response>();
       result->status = GoalStatus::STATUS_CANCELED;
-      on_terminal_state_(uuid_, result);
+      try {
+        on_terminal_state_(uuid_, result);
+      } catch (const std::exception& error) {  // nobody can be told after the shutdown
+        note_untold_end(error);
+      }
     }
   }
 
