@@ -39,14 +39,16 @@ class MultiThreadedExecutorTest : public RosTest {
  protected:
   MultiThreadedExecutorTest() { executor_.add_node(node_); }
 
-  // A timer that runs once.
+  // A timer that runs once, though a reentrant group lets a second thread in before it is cancelled.
   template <typename CallbackT>
   rclcpp::TimerBase::SharedPtr once(CallbackT callback, const rclcpp::CallbackGroup::SharedPtr& group = nullptr) {
     return node_->create_wall_timer(
         milliseconds(0),
-        [callback](rclcpp::TimerBase& self) mutable {
+        [callback, has_run = std::make_shared<std::atomic_bool>(false)](rclcpp::TimerBase& self) mutable {
           self.cancel();
-          callback();
+          if (!has_run->exchange(true)) {
+            callback();
+          }
         },
         group);
   }

@@ -162,7 +162,8 @@ TEST_F(WaitSetTest, ForgetsWhatWasDestroyed) {
   auto subscription = subscribe("a");
   auto bell = std::make_shared<Bell>();
   auto owner = std::make_shared<int>();
-  rclcpp::WaitSet wait_set({{subscription}});
+  rclcpp::WaitSet wait_set;
+  wait_set.add_subscription(subscription);
   wait_set.add_waitable(bell, owner);
   subscription.reset();
   owner.reset();

@@ -14,6 +14,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "bytes_type.hpp"
@@ -119,6 +120,16 @@ class LostSample : public testing::Test {
     return publisher->create_datawriter(topic_, qos, &matches_);
   }
 
+  // Both ends know each other.
+  void wait_for_match(const Subscription<String>& subscription) {
+    matches_.wait();
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(rmw_test::kPatience.sec);
+    while (subscription.matched() == 0) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the endpoints do not match";
+      std::this_thread::yield();
+    }
+  }
+
   static void write(fdds::DataWriter& writer, const char* text) {
     String message;
     message.data = text;
@@ -144,7 +155,7 @@ TEST_F(LostSample, LeavesAReliableSubscriptionNotReadyUntilItIsResent) {
   Node node(context);
   Subscription<String> subscription(node, "/chatter");
   fdds::DataWriter* writer = create_writer(fdds::RELIABLE_RELIABILITY_QOS);
-  matches_.wait();
+  wait_for_match(subscription);
 
   loss_.lose(1);
   write(*writer, "first");
@@ -172,7 +183,7 @@ TEST_F(LostSample, IsToldOnceByABestEffortSubscriptionThatGoesOn) {
   rmw_event_t lost = rmw_get_zero_initialized_event();
   ASSERT_EQ(rmw_subscription_event_init(&lost, subscription.handle, RMW_EVENT_MESSAGE_LOST), RMW_RET_OK);
   fdds::DataWriter* writer = create_writer(fdds::BEST_EFFORT_RELIABILITY_QOS);
-  matches_.wait();
+  wait_for_match(subscription);
 
   write(*writer, "first");
   EXPECT_EQ(subscription.next().data, "first");
