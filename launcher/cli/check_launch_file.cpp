@@ -87,10 +87,17 @@ class Checker {
     const LaunchPlan plan = plan_launch(context, description);
     check_unused(description, list, plan);
     check_nodes(plan);
+    check_processes(plan);
+  }
+
+  void check_processes(const LaunchPlan& plan) {
     for (const ProcessSpec& spec : plan.processes) {
       check_program(spec);
       check_parameter_files(spec);
       check_remaps(spec);
+    }
+    for (const PlannedHandler& planned : plan.handlers) {
+      check_processes(planned.plan);
     }
   }
 

@@ -11,10 +11,6 @@ namespace launch {
 // For people: each trace and each process with its command line, as a shell would read it.
 std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_environment);
 
-// For a shell: a script that starts the processes, in order and all at once, and waits for them. It starts no traces
-// and supervises nothing; what it leaves out stands in comments.
-std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment);
-
 // For programs: an object with
 //   processes        name, argv, cwd, env, shell, source; for ROS nodes also `node`; `params` are the contents of
 //   generated

@@ -47,7 +47,12 @@ std::vector<std::pair<std::string, std::string>> remaps_of(const std::vector<std
 
 class Drawing {
  public:
-  explicit Drawing(const LaunchPlan& plan) {
+  explicit Drawing(const LaunchPlan& plan) { add(plan); }
+
+  std::string text() const;
+
+ private:
+  void add(const LaunchPlan& plan) {
     std::set<std::size_t> nodes;
     for (const NodeDescription& node : plan.nodes) {
       nodes.insert(node.process);
@@ -58,7 +63,7 @@ class Drawing {
     }
     for (std::size_t i = 0; i < plan.processes.size(); ++i) {
       if (!nodes.contains(i)) {
-        const std::string id = fmt::format("process {}", i);
+        const std::string id = fmt::format("process {}", processes_++);
         outside_ += fmt::format("  {} [shape=box, label={}];\n", as_id(id), as_id(plan.processes[i].name));
         asked_by(plan.processes[i].origin, id);
       }
@@ -68,34 +73,12 @@ class Drawing {
         const std::string id = add_node(
             joined(component.name_space, component.name), component.name_space.empty() ? "/" : component.name_space,
             fmt::format("{} in {}", component.plugin, request.target), component.origin, component.remaps);
-        edges_ += fmt::format("  {} -> {} [style=dotted, label=\"loads\"];\n", as_id(joined("", request.target)),
-                              as_id(id));
+        edges_ +=
+            fmt::format("  {} -> {} [style=dotted, label=\"loads\"];\n", as_id(joined("", request.target)), as_id(id));
       }
     }
   }
 
-  std::string text() const {
-    std::string text =
-        "digraph launch {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\"];\n";
-    for (const auto& [path, line] : files_) {
-      text += line;
-    }
-    std::size_t number = 0;
-    for (const auto& [name_space, lines] : namespaces_) {
-      if (name_space == "/") {
-        text += lines;
-      } else {
-        text += fmt::format("  subgraph cluster_{} {{\n  label={};\n{}  }}\n", number++, as_id(name_space), lines);
-      }
-    }
-    text += outside_;
-    for (const std::string& topic : topics_) {
-      text += fmt::format("  {} [shape=plaintext, label={}];\n", as_id("topic " + topic), as_id(topic));
-    }
-    return text + edges_ + "}\n";
-  }
-
- private:
   std::string add_node(const std::string& full_name, std::string name_space, const std::string& program,
                        const SourceRange& origin, const std::vector<std::pair<std::string, std::string>>& remaps) {
     // Several nodes of one name are drawn as several: that is what one wants to see.
@@ -110,8 +93,8 @@ class Drawing {
     asked_by(origin, id);
     for (const auto& [from, to] : remaps) {
       topics_.insert(to);
-      edges_ += fmt::format("  {} -> {} [dir=none, color=blue, label={}];\n", as_id(id), as_id("topic " + to),
-                            as_id(from));
+      edges_ +=
+          fmt::format("  {} -> {} [dir=none, color=blue, label={}];\n", as_id(id), as_id("topic " + to), as_id(from));
     }
     return id;
   }
@@ -142,12 +125,34 @@ class Drawing {
 
   std::map<std::string, std::string> files_;       // path, its line
   std::map<std::string, std::string> namespaces_;  // name, the lines of its nodes
+  std::size_t processes_ = 0;
   std::string outside_;
   std::set<std::string> topics_;
   std::set<std::string> ids_;
   std::set<std::pair<std::string, std::string>> includes_;
   std::string edges_;
 };
+
+std::string Drawing::text() const {
+  std::string text =
+      "digraph launch {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\"];\n";
+  for (const auto& [path, line] : files_) {
+    text += line;
+  }
+  std::size_t number = 0;
+  for (const auto& [name_space, lines] : namespaces_) {
+    if (name_space == "/") {
+      text += lines;
+    } else {
+      text += fmt::format("  subgraph cluster_{} {{\n  label={};\n{}  }}\n", number++, as_id(name_space), lines);
+    }
+  }
+  text += outside_;
+  for (const std::string& topic : topics_) {
+    text += fmt::format("  {} [shape=plaintext, label={}];\n", as_id("topic " + topic), as_id(topic));
+  }
+  return text + edges_ + "}\n";
+}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/print_description.hpp"
+#include "launcher/cli/shell_script.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"

@@ -242,7 +242,7 @@ TEST_F(WithoutRunning, GraphHasNodesFilesNamespacesAndRemaps) {
                 "  label=\"/head\";\n"
                 "  \"/head/mouth\" [label=\"/head/mouth\\ndemo_nodes talker\"];\n"
                 "  }\n"
-                "  \"process 1\" [shape=box, label=\"nap\"];\n"
+                "  \"process 0\" [shape=box, label=\"nap\"];\n"
                 "  \"topic /words\" [shape=plaintext, label=\"/words\"];\n"
                 "  \"file " +
                 path +
@@ -250,7 +250,7 @@ TEST_F(WithoutRunning, GraphHasNodesFilesNamespacesAndRemaps) {
                 "  \"/head/mouth\" -> \"topic /words\" [dir=none, color=blue, label=\"chatter\"];\n"
                 "  \"file " +
                 path +
-                "\" -> \"process 1\" [color=gray];\n"
+                "\" -> \"process 0\" [color=gray];\n"
                 "}\n");
   const CommandResult no_dot =
       run_command({{LAUNCH_PROGRAM, "graph", "--format", "svg", path}, {{"PATH", "/nowhere"}}});

@@ -2,10 +2,23 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "rcl/error_handling.h"
+#include "rcl/wait_restore.h"
 #include "rmw/rmw.h"
+
+namespace {
+
+// The entities of one kind that were kept, and what rmw knows them by.
+template <typename Entity>
+struct Kept {
+  std::vector<const Entity*> entities;
+  std::vector<void*> rmw_entities;
+};
+
+}  // namespace
 
 struct rcl_wait_set_impl_s {
   rmw_wait_set_t* rmw_wait_set = nullptr;
@@ -15,17 +28,28 @@ struct rcl_wait_set_impl_s {
   std::vector<const rcl_timer_t*> timers;
   std::vector<const rcl_client_t*> clients;
   std::vector<const rcl_service_t*> services;
+  std::vector<const rcl_event_t*> events;
   // How many entries of each are in use.
   size_t subscription_count = 0;
   size_t guard_condition_count = 0;
   size_t timer_count = 0;
   size_t client_count = 0;
   size_t service_count = 0;
+  size_t event_count = 0;
   // What rmw waits for: the same entities, then the guard conditions of the timers.
   std::vector<void*> rmw_subscriptions;
   std::vector<void*> rmw_guard_conditions;
   std::vector<void*> rmw_clients;
   std::vector<void*> rmw_services;
+  std::vector<void*> rmw_events;
+  // Of rcl_wait_set_keep(): the first ones of each kind, whenever they are in use.
+  bool has_kept = false;
+  Kept<rcl_subscription_t> kept_subscriptions;
+  Kept<rcl_guard_condition_t> kept_guard_conditions;
+  Kept<rcl_timer_t> kept_timers;  // rmw does not know them
+  Kept<rcl_client_t> kept_clients;
+  Kept<rcl_service_t> kept_services;
+  Kept<rcl_event_t> kept_events;
 };
 
 namespace {
@@ -75,28 +99,64 @@ rcl_ret_t time_until_first_timer(const rcl_wait_set_impl_t& impl, int64_t& time)
   return RCL_RET_OK;
 }
 
+void* rmw_entity_of(const rcl_subscription_t* subscription) {
+  return rcl_subscription_get_rmw_handle(subscription)->data;
+}
+void* rmw_entity_of(const rcl_guard_condition_t* guard_condition) {
+  return rcl_guard_condition_get_rmw_handle(guard_condition)->data;
+}
+void* rmw_entity_of(const rcl_client_t* client) {
+  return rcl_client_get_rmw_handle(client)->data;
+}
+void* rmw_entity_of(const rcl_service_t* service) {
+  return rcl_service_get_rmw_handle(service)->data;
+}
+void* rmw_entity_of(const rcl_event_t* event) {
+  return rcl_event_get_rmw_handle(event)->data;
+}
+
+template <typename Entity>
+void collect(const std::vector<const Entity*>& entities, size_t count, const Kept<Entity>& kept,
+             std::vector<void*>& rmw_entities) {
+  rmw_entities = kept.rmw_entities;
+  for (size_t i = kept.rmw_entities.size(); i < count; ++i) {
+    rmw_entities.push_back(rmw_entity_of(entities[i]));
+  }
+}
+
 void collect_rmw_entities(rcl_wait_set_impl_t& impl) {
-  impl.rmw_subscriptions.clear();
-  for (size_t i = 0; i < impl.subscription_count; ++i) {
-    impl.rmw_subscriptions.push_back(rcl_subscription_get_rmw_handle(impl.subscriptions[i])->data);
-  }
-  impl.rmw_guard_conditions.clear();
-  for (size_t i = 0; i < impl.guard_condition_count; ++i) {
-    impl.rmw_guard_conditions.push_back(rcl_guard_condition_get_rmw_handle(impl.guard_conditions[i])->data);
-  }
+  collect(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions, impl.rmw_subscriptions);
+  collect(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions, impl.rmw_guard_conditions);
   // A timer that is reset from another thread, or whose clock jumps, ends the wait.
   for (size_t i = 0; i < impl.timer_count; ++i) {
-    impl.rmw_guard_conditions.push_back(
-        rcl_guard_condition_get_rmw_handle(rcl_timer_get_guard_condition(impl.timers[i]))->data);
+    impl.rmw_guard_conditions.push_back(rmw_entity_of(rcl_timer_get_guard_condition(impl.timers[i])));
   }
-  impl.rmw_clients.clear();
-  for (size_t i = 0; i < impl.client_count; ++i) {
-    impl.rmw_clients.push_back(rcl_client_get_rmw_handle(impl.clients[i])->data);
+  collect(impl.clients, impl.client_count, impl.kept_clients, impl.rmw_clients);
+  collect(impl.services, impl.service_count, impl.kept_services, impl.rmw_services);
+  collect(impl.events, impl.event_count, impl.kept_events, impl.rmw_events);
+}
+
+template <typename Entity>
+void keep(const std::vector<const Entity*>& entities, size_t count, Kept<Entity>& kept) {
+  kept.entities.assign(entities.begin(), entities.begin() + static_cast<std::ptrdiff_t>(count));
+  kept.rmw_entities.clear();
+  if constexpr (!std::is_same_v<Entity, rcl_timer_t>) {
+    for (const Entity* entity : kept.entities) {
+      kept.rmw_entities.push_back(rmw_entity_of(entity));
+    }
   }
-  impl.rmw_services.clear();
-  for (size_t i = 0; i < impl.service_count; ++i) {
-    impl.rmw_services.push_back(rcl_service_get_rmw_handle(impl.services[i])->data);
-  }
+}
+
+template <typename Entity>
+void restore(std::vector<const Entity*>& entities, size_t& count, const Kept<Entity>& kept) {
+  std::fill(std::copy(kept.entities.begin(), kept.entities.end(), entities.begin()), entities.end(), nullptr);
+  count = kept.entities.size();
+}
+
+template <typename Entity>
+void forget(Kept<Entity>& kept) {
+  kept.entities.clear();
+  kept.rmw_entities.clear();
 }
 
 // Nulls the entries for which rmw has nulled its own.
@@ -115,6 +175,7 @@ rcl_ret_t keep_ready(rcl_wait_set_impl_t& impl, bool& any_timer) {
   keep_ready(impl.guard_conditions, impl.guard_condition_count, impl.rmw_guard_conditions);
   keep_ready(impl.clients, impl.client_count, impl.rmw_clients);
   keep_ready(impl.services, impl.service_count, impl.rmw_services);
+  keep_ready(impl.events, impl.event_count, impl.rmw_events);
   any_timer = false;
   for (size_t i = 0; i < impl.timer_count; ++i) {
     bool is_ready = false;
@@ -148,9 +209,9 @@ rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscript
     RCL_SET_ERROR_MSG("a wait set needs a context that is initialized and not shut down");
     return RCL_RET_NOT_INIT;
   }
-  rmw_wait_set_t* handle = rmw_create_wait_set(
-      rcl_context_get_rmw_context(context),
-      number_of_subscriptions + number_of_guard_conditions + number_of_timers + number_of_clients + number_of_services);
+  rmw_wait_set_t* handle = rmw_create_wait_set(rcl_context_get_rmw_context(context),
+                                               number_of_subscriptions + number_of_guard_conditions + number_of_timers +
+                                                   number_of_clients + number_of_services + number_of_events);
   if (handle == nullptr) {
     return RCL_RET_ERROR;
   }
@@ -190,8 +251,49 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   std::fill(impl.timers.begin(), impl.timers.end(), nullptr);
   std::fill(impl.clients.begin(), impl.clients.end(), nullptr);
   std::fill(impl.services.begin(), impl.services.end(), nullptr);
+  std::fill(impl.events.begin(), impl.events.end(), nullptr);
   impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
-  impl.client_count = impl.service_count = 0;
+  impl.client_count = impl.service_count = impl.event_count = 0;
+  impl.has_kept = false;
+  forget(impl.kept_subscriptions);
+  forget(impl.kept_guard_conditions);
+  forget(impl.kept_timers);
+  forget(impl.kept_clients);
+  forget(impl.kept_services);
+  forget(impl.kept_events);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  keep(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
+  keep(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
+  keep(impl.timers, impl.timer_count, impl.kept_timers);
+  keep(impl.clients, impl.client_count, impl.kept_clients);
+  keep(impl.services, impl.service_count, impl.kept_services);
+  keep(impl.events, impl.event_count, impl.kept_events);
+  impl.has_kept = true;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  if (!impl.has_kept) {
+    RCL_SET_ERROR_MSG("the wait set has kept nothing");
+    return RCL_RET_WAIT_SET_EMPTY;
+  }
+  restore(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
+  restore(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
+  restore(impl.timers, impl.timer_count, impl.kept_timers);
+  restore(impl.clients, impl.client_count, impl.kept_clients);
+  restore(impl.services, impl.service_count, impl.kept_services);
+  restore(impl.events, impl.event_count, impl.kept_events);
   return RCL_RET_OK;
 }
 
@@ -199,10 +301,6 @@ rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_siz
                               size_t timers_size, size_t clients_size, size_t services_size, size_t events_size) {
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
-  }
-  if (events_size != 0) {
-    RCL_SET_ERROR_MSG("a wait set cannot wait for events");
-    return RCL_RET_UNSUPPORTED;
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
   impl.subscriptions.resize(subscriptions_size);
@@ -220,6 +318,9 @@ rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_siz
   impl.services.resize(services_size);
   wait_set->services = impl.services.data();
   wait_set->size_of_services = services_size;
+  impl.events.resize(events_size);
+  wait_set->events = impl.events.data();
+  wait_set->size_of_events = events_size;
   return rcl_wait_set_clear(wait_set);
 }
 
@@ -247,13 +348,17 @@ rcl_ret_t rcl_wait_set_add_service(rcl_wait_set_t* wait_set, const rcl_service_t
   return add(wait_set, &rcl_wait_set_impl_s::services, &rcl_wait_set_impl_s::service_count, service, index);
 }
 
+rcl_ret_t rcl_wait_set_add_event(rcl_wait_set_t* wait_set, const rcl_event_t* event, size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::events, &rcl_wait_set_impl_s::event_count, event, index);
+}
+
 rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
-  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count + impl.client_count +
-          impl.service_count ==
+  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count + impl.client_count + impl.service_count +
+          impl.event_count ==
       0) {
     RCL_SET_ERROR_MSG("there is nothing to wait for in the wait set");
     return RCL_RET_WAIT_SET_EMPTY;
@@ -271,7 +376,8 @@ rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   rmw_guard_conditions_t guard_conditions{impl.rmw_guard_conditions.size(), impl.rmw_guard_conditions.data()};
   rmw_services_t services{impl.rmw_services.size(), impl.rmw_services.data()};
   rmw_clients_t clients{impl.rmw_clients.size(), impl.rmw_clients.data()};
-  const rmw_ret_t result = rmw_wait(&subscriptions, &guard_conditions, &services, &clients, impl.rmw_wait_set,
+  rmw_events_t events{impl.rmw_events.size(), impl.rmw_events.data()};
+  const rmw_ret_t result = rmw_wait(&subscriptions, &guard_conditions, &services, &clients, &events, impl.rmw_wait_set,
                                     wait_time == kForever ? nullptr : &rmw_timeout);
   if (result != RMW_RET_OK && result != RMW_RET_TIMEOUT) {
     return result;

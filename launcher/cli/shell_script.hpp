@@ -1,0 +1,23 @@
+// What `launch --dry-run=shell` prints, and how a shell writes words and environments.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "launcher/core/launch_plan.hpp"
+#include "launcher/substitution/scope.hpp"
+
+namespace launch {
+
+// A script that starts the processes, in order and all at once, and waits for them. It starts no traces and supervises
+// nothing; what it leaves out stands in comments.
+std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment);
+
+// A word as a shell has to read it to get the same word.
+std::string shell_quoted(const std::string& word);
+
+// What has to change in `to` to get `of`; nullopt: the variable is removed.
+std::map<std::string, std::optional<std::string>> environment_difference(const Environment& of, const Environment& to);
+
+}  // namespace launch
