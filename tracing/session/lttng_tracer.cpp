@@ -13,6 +13,7 @@
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_listing.hpp"
+#include "tracing/session/session_store.hpp"
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/tracer.hpp"
@@ -77,9 +78,7 @@ std::string recording_directory(const TraceConfig& config) {
 class NewSession {
  public:
   explicit NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
-    const int result = config.records_snapshots()
-                           ? lttng_create_session_snapshot(name_.c_str(), nullptr)
-                           : lttng_create_session(name_.c_str(), recording_directory(config).c_str());
+    const int result = create(config);
     if (result == -LTTNG_ERR_EXIST_SESS) {
       throw TraceError(fmt::format("trace session '{}' exists already", name_),
                        fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
@@ -95,6 +94,15 @@ class NewSession {
   void keep() { kept_ = true; }
 
  private:
+  int create(const TraceConfig& config) const {
+    if (config.records_snapshots()) return lttng_create_session_snapshot(name_.c_str(), nullptr);
+    if (config.live_timer != 0) {
+      return lttng_create_session_live(name_.c_str(), config.destination().c_str(), config.live_timer);
+    }
+    const std::string destination = config.over_network() ? config.destination() : recording_directory(config);
+    return lttng_create_session(name_.c_str(), destination.c_str());
+  }
+
   std::string name_;
   bool kept_ = false;
 };
@@ -145,20 +153,28 @@ class LttngTracer : public Tracer {
   std::vector<SessionSummary> sessions() override { return list_sessions(); }
   SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
   TraceableEvents traceable_events() override { return list_traceable_events(); }
+  void save(const std::string& lttng_session_name, const std::string& directory) override {
+    save_session(lttng_session_name, directory);
+  }
+  void load(const std::string& lttng_session_name, const std::string& directory) override {
+    ensure_session_daemon();
+    load_session(lttng_session_name, directory);
+  }
 };
 
 SetupReport LttngTracer::start(const TraceConfig& config) {
-  SetupReport report{.trace_directory = config.trace_directory(), .steps = {}, .warnings = {}};
+  SetupReport report{.trace_directory = config.destination(), .steps = {}, .warnings = {}};
   StepTimer timer(report.steps);
 
   check_config(config);
-  const std::vector<DomainPlan> domains = plan_domains(config, report.warnings);
+  const std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
   for (std::string& warning : perf_warnings(config.context_fields_ust)) report.warnings.push_back(std::move(warning));
   timer.finished("checks");
 
   report.started_daemon = ensure_session_daemon();
   timer.finished("session daemon");
-  if (!config.events_kernel.empty() || !config.syscalls.empty()) {
+  if (std::any_of(channels.begin(), channels.end(),
+                  [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; })) {
     check_kernel_tracer();
     timer.finished("kernel tracer");
   }
@@ -169,13 +185,13 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
     add_snapshot_output(config);
   }
   timer.finished("create session");
-  for (const DomainPlan& domain : domains) {
-    enable_channel(session_name, domain);
-    timer.finished("channel " + domain.channel);
-    enable_events(session_name, domain);
-    timer.finished("events " + domain.channel);
-    add_contexts(session_name, domain);
-    timer.finished("context fields " + domain.channel);
+  for (const ChannelPlan& channel : channels) {
+    enable_channel(session_name, channel);
+    timer.finished("channel " + channel.channel);
+    enable_events(session_name, channel);
+    timer.finished("events " + channel.channel);
+    add_contexts(session_name, channel);
+    timer.finished("context fields " + channel.channel);
   }
   check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
   timer.finished("start");
@@ -191,7 +207,8 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
     if (give_up && give_up()) break;
   }
-  if (session && !session->snapshot && !session->path.empty()) judge(losses, name, session->path);
+  const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
+  if (local && !session->snapshot) judge(losses, name, session->path);
   return losses;
 }
 

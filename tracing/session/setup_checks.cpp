@@ -16,6 +16,21 @@
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
+namespace {
+
+void check_relay_daemon(const TraceConfig& config) {
+  if (!config.url.empty() && !config.url.starts_with("net://") && !config.url.starts_with("net6://")) {
+    throw TraceError(fmt::format("'{}' is no address of a relay daemon", config.url),
+                     "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path");
+  }
+  if (config.live_timer != 0 && config.records_snapshots()) {
+    throw TraceError(fmt::format("trace session '{}' is both live and a snapshot session", config.session_name),
+                     "leave live-timer or snapshot-mode out");
+  }
+}
+
+}  // namespace
+
 void check_config(const TraceConfig& config) {
   if (config.session_name.empty()) throw TraceError("the trace session's name is empty", "give it a session-name");
   const std::string session = config.lttng_session_name();
@@ -26,9 +41,14 @@ void check_config(const TraceConfig& config) {
   if (session.size() >= LTTNG_NAME_MAX) {
     throw TraceError(fmt::format("trace session name '{}' is longer than {} characters", session, LTTNG_NAME_MAX - 1));
   }
-  if (config.events_ust.empty() && config.events_kernel.empty() && config.syscalls.empty()) {
+  if (config.events_ust.empty() && config.events_kernel.empty() && config.syscalls.empty() &&
+      config.channels.empty()) {
     throw TraceError(fmt::format("no events enabled for trace session '{}'", session),
                      "name some in events-ust, events-kernel or syscalls");
+  }
+  if (config.over_network()) {
+    check_relay_daemon(config);
+    return;
   }
   std::error_code ignored;
   if (const std::string directory = config.trace_directory();

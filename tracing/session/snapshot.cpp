@@ -21,9 +21,13 @@ void add_snapshot_output(const TraceConfig& config) {
   const std::unique_ptr<lttng_snapshot_output, decltype(&lttng_snapshot_output_destroy)> output(
       lttng_snapshot_output_create(), &lttng_snapshot_output_destroy);
   if (!output) throw lttng_error(LTTNG_ERR_NOMEM, doing);
-  const std::string url = "file://" + config.trace_directory();
   check_lttng(lttng_snapshot_output_set_name(kOutputName, output.get()), doing);
-  check_lttng(lttng_snapshot_output_set_local_path(url.c_str(), output.get()), doing);
+  if (config.over_network()) {
+    check_lttng(lttng_snapshot_output_set_network_url(config.url.c_str(), output.get()), doing);
+  } else {
+    const std::string url = "file://" + config.trace_directory();
+    check_lttng(lttng_snapshot_output_set_local_path(url.c_str(), output.get()), doing);
+  }
   check_lttng(lttng_snapshot_output_set_size(kLargestSnapshot * config.subbuffer_size_ust, output.get()), doing);
   check_lttng(lttng_snapshot_add_output(config.lttng_session_name().c_str(), output.get()), doing);
 }
