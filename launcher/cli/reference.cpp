@@ -39,21 +39,27 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+// What `ros2 launch` does not know is marked.
+std::string_view mark(bool extension) {
+  return extension ? " \\*" : "";
+}
+
 std::string attribute_table(const std::vector<AttributeSpec>& attributes) {
   if (attributes.empty()) {
     return "";
   }
   std::string text = "| attribute | type | default | meaning |\n| --- | --- | --- | --- |\n";
   for (const AttributeSpec& attribute : attributes) {
-    text += fmt::format("| `{}` | {} | {} | {} |\n", attribute.name, type_text(attribute.type),
-                        attribute.required ? "required" : escaped(attribute.default_value), escaped(attribute.help));
+    text +=
+        fmt::format("| `{}`{} | {} | {} | {} |\n", attribute.name, mark(attribute.extension), type_text(attribute.type),
+                    attribute.required ? "required" : escaped(attribute.default_value), escaped(attribute.help));
   }
   return text + "\n";
 }
 
 std::string item_section(const ItemSpec& item, const std::string& kind) {
-  return fmt::format("{} `{}`: {}{}{}.\n\n", kind, item.tag, item.help, item.recursive ? "; may be nested" : "",
-                     item.has_condition ? "; takes `if` and `unless`" : "") +
+  return fmt::format("{} `{}`{}: {}{}{}.\n\n", kind, item.tag, mark(item.extension), item.help,
+                     item.recursive ? "; may be nested" : "", item.has_condition ? "; takes `if` and `unless`" : "") +
          attribute_table(item.attributes);
 }
 
@@ -69,12 +75,13 @@ std::string reference_page(const Registry& registry) {
       "**boolean**, "
       "**float** and **integer** as a literal or substitutions that give one, **words** split as a shell does, **any** "
       "scalar "
-      "or list.\n"
+      "or list. `ros2 launch` does not know what is marked with \\*: `docs/extensions.md` explains it.\n"
       "\n"
       "## Actions\n"
       "\n";
   for (const auto& [tag, type] : registry.types()) {
-    text += fmt::format("### `{}`\n\n{}{}\n\n", tag, type.help, type.holds_actions ? " Holds actions." : "");
+    text += fmt::format("### `{}`{}\n\n{}{}\n\n", tag, mark(type.extension), type.help,
+                        type.holds_actions ? " Holds actions." : "");
     text += attribute_table(type.attributes);
     for (const ItemSpec& item : type.items) {
       text += item_section(item, "Item");

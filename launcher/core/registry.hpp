@@ -31,6 +31,7 @@ struct AttributeSpec {
   bool required = false;
   std::string default_value;  // as the reference page shows it
   std::string help;
+  bool extension = false;  // `ros2 launch` does not know it (docs/extensions.md)
 };
 
 // A structured item of an action: <param>, <remap>, <choice> …
@@ -41,6 +42,7 @@ struct ItemSpec {
   bool recursive = false;       // may hold items of its own tag
   std::vector<ItemSpec> items;  // that it may hold besides
   bool has_condition = false;   // takes `if` and `unless`
+  bool extension = false;       // as that of an attribute
 };
 
 struct ActionType {
@@ -49,6 +51,7 @@ struct ActionType {
   std::vector<AttributeSpec> attributes;  // without `if` and `unless`, which every action has
   std::vector<ItemSpec> items;
   bool holds_actions = false;
+  bool extension = false;  // as that of an attribute
   // Makes the action from fields that agree with this declaration. May throw LaunchError for what it doesn't say.
   std::function<ActionPtr(const Fields&)> make;
 };
