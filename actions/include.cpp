@@ -48,6 +48,7 @@ class IncludeLaunchDescription : public Action {
       note_python_include(path, context);
       return;
     }
+    const std::int64_t begin = monotonic_time();
     const auto included = load_launch_description(path, context.registry(), declaration_.file.where());
 
     std::vector<std::string> given;
@@ -58,6 +59,11 @@ class IncludeLaunchDescription : public Action {
     ++context.requests().includes;
     // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
     context.visit(*included, [&] { set_arguments(context.scope()); });
+    context.requests().records.push_back({.kind = LaunchRecord::Kind::kInclude,
+                                          .name = path,
+                                          .where = where(),
+                                          .time = begin,
+                                          .duration = monotonic_time() - begin});
   }
 
  private:

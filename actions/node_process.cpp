@@ -109,6 +109,7 @@ std::string NodeProcess::request(LaunchContext& context) const {
     remap(from.perform(scope) + ":=" + to.perform(scope));
   }
 
+  spec.node = node.name.value_or("");
   if (exec_name_) {
     spec.name = exec_name_->perform(scope);
   }

@@ -2,8 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <spawn.h>
 #include <sys/wait.h>
+
+#include <algorithm>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/unique_fd.hpp"
@@ -58,11 +61,35 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? output : std::string();
 }
 
+// By the name that the launch file gives the node, or by the process's label.
+bool matches(const std::string& pattern, const ProcessSpec& spec) {
+  return ::fnmatch(pattern.c_str(), spec.name.c_str(), 0) == 0 ||
+         (!spec.node.empty() && ::fnmatch(pattern.c_str(), spec.node.c_str(), 0) == 0);
+}
+
+std::vector<std::string> channel_names(const tracing::TraceConfig& config) {
+  std::vector<std::string> names;
+  for (const tracing::ChannelConfig& channel : config.channels) {
+    names.push_back(channel.name);
+  }
+  return names;
+}
+
+bool may_block(const tracing::TraceConfig& config) {
+  return config.blocking_timeout_ust != 0 ||
+         std::any_of(config.channels.begin(), config.channels.end(),
+                     [](const tracing::ChannelConfig& channel) { return channel.blocking_timeout != 0; });
+}
+
 }  // namespace
 
 TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
-                       SourceRange origin)
-    : config_(std::move(config)), tracer_(std::move(tracer)), prefix_(std::move(prefix)), origin_(std::move(origin)) {
+                       SourceRange origin, std::optional<std::vector<std::string>> nodes)
+    : config_(std::move(config)),
+      tracer_(std::move(tracer)),
+      prefix_(std::move(prefix)),
+      origin_(std::move(origin)),
+      nodes_(std::move(nodes)) {
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
@@ -88,6 +115,16 @@ void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
     }
     loop.post([finished, error] { finished(error); });
   });
+}
+
+void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
+  for (const std::string& pattern : nodes_.value_or(std::vector<std::string>())) {
+    if (std::none_of(processes.begin(), processes.end(),
+                     [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
+      setup_.warnings.push_back(
+          fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
+    }
+  }
 }
 
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
@@ -124,7 +161,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
               fmt::format("tracing session '{}' could not be finished: {}", config_.lttng_session_name(), error.what()),
               origin_, error.remedy());
         }
-        if (!config_.snapshot_mode && !config_.dual_session && !hurry_) {
+        if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
           summary_ = output_of(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
         }
       },
@@ -143,7 +180,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
 
 void TraceScope::tell_result(const Tell& tell) const {
   tell(false,
-       fmt::format("trace written to: {}{}", config_.trace_directory(), summary_.empty() ? "" : " (" + summary_ + ")"));
+       fmt::format("trace written to: {}{}", config_.destination(), summary_.empty() ? "" : " (" + summary_ + ")"));
   if (!config_.records_snapshots()) {
     tell(!losses_.complete(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
                                           tracing::describe_losses(losses_)));
@@ -157,12 +194,29 @@ std::vector<std::string> TraceScope::clean_up_command() const {
   return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
 }
 
+bool TraceScope::traces(const ProcessSpec& spec) const {
+  return spec.traced && (!nodes_ || std::any_of(nodes_->begin(), nodes_->end(),
+                                                [&](const std::string& pattern) { return matches(pattern, spec); }));
+}
+
 void TraceScope::prepare(ProcessSpec& spec) const {
-  if (preload_.empty()) {
+  if (!traces(spec)) {
+    std::string& variable = spec.environment["LD_PRELOAD"];
+    const std::string library = prefix_ + "/lib/launch/liblaunch_untraced.so";
+    if (variable.find(library) == std::string::npos) {
+      variable = tracing::append_preload(variable, {library});
+    }
+    // There is nothing to wait for.
+    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
     return;
   }
-  std::string& variable = spec.environment["LD_PRELOAD"];
-  variable = tracing::append_preload(variable, preload_);
+  if (!preload_.empty()) {
+    std::string& variable = spec.environment["LD_PRELOAD"];
+    variable = tracing::append_preload(variable, preload_);
+  }
+  if (may_block(config_)) {
+    spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");
+  }
 }
 
 std::vector<ScopeSetting> TraceScope::describe() const {
@@ -173,6 +227,7 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"events-ust", config_.events_ust},
           {"events-kernel", config_.events_kernel},
           {"syscalls", config_.syscalls},
+          {"channels", channel_names(config_)},
           {"context-fields", config_.context_fields_ust},
           {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
           {"init-channel", config_.init_channel},
@@ -181,6 +236,14 @@ std::vector<ScopeSetting> TraceScope::describe() const {
                                                                       : config_.default_subbuffer_count())},
           {"read-timer-ust", static_cast<std::int64_t>(config_.read_timer_ust)},
           {"switch-timer-ust", static_cast<std::int64_t>(config_.switch_timer_ust)},
+          {"overwrite-ust", config_.overwrite_ust.value_or(config_.records_snapshots())},
+          {"blocking-timeout-ust", config_.blocking_timeout_ust},
+          {"buffers-ust", std::string(config_.buffers_ust == tracing::BufferOwner::kProcess ? "pid" : "uid")},
+          {"tracefile-size", static_cast<std::int64_t>(config_.tracefile_size)},
+          {"tracefile-count", static_cast<std::int64_t>(config_.tracefile_count)},
+          {"url", config_.over_network() ? config_.destination() : std::string()},
+          {"live-timer", static_cast<std::int64_t>(config_.live_timer)},
+          {"launch-events", config_.launch_events},
           {"subbuffer-size-kernel", static_cast<std::int64_t>(config_.subbuffer_size_kernel)},
           {"snapshot-mode", config_.snapshot_mode},
           {"dual-session", config_.dual_session}};

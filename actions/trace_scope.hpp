@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,15 +17,18 @@ class TraceScope : public RunScope {
  public:
   // Below `prefix` stand bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report, which
   // describes a finished trace in one line.
+  // `nodes`: the patterns of the nodes and processes that alone are recorded, all when not given.
   TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
-             SourceRange origin);
+             SourceRange origin, std::optional<std::vector<std::string>> nodes = {});
   ~TraceScope() override;
 
+  void expect(const std::vector<ProcessSpec>& processes) override;
   void begin(EventLoop& loop, Tell tell, Completion done) override;
   void end(EventLoop& loop, Tell tell, Completion done) override;
   void hurry() override { hurry_ = true; }
   std::vector<std::string> clean_up_command() const override;
   void prepare(ProcessSpec& spec) const override;
+  bool wants_records() const override { return config_.launch_events; }
   std::string kind() const override { return "trace"; }
   std::vector<ScopeSetting> describe() const override;
   std::vector<TimedStep> timing() const override;
@@ -34,11 +38,13 @@ class TraceScope : public RunScope {
   // Runs `work` on a thread of its own, then `finished` on the loop's. The tracer's calls block.
   void in_background(EventLoop& loop, std::function<void()> work, std::function<void(std::exception_ptr)> finished);
   void tell_result(const Tell& tell) const;
+  bool traces(const ProcessSpec& spec) const;
 
   tracing::TraceConfig config_;
   std::unique_ptr<tracing::Tracer> tracer_;
   std::string prefix_;
   SourceRange origin_;
+  std::optional<std::vector<std::string>> nodes_;
   std::vector<std::string> preload_;
   tracing::SetupReport setup_;
   tracing::LossAccount losses_;

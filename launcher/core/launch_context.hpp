@@ -16,6 +16,7 @@
 #include "launcher/core/action.hpp"
 #include "launcher/core/composable_node.hpp"
 #include "launcher/core/launch_description.hpp"
+#include "launcher/core/launch_record.hpp"
 #include "launcher/core/registry.hpp"
 #include "launcher/core/run_scope.hpp"
 #include "launcher/process/output_router.hpp"
@@ -55,6 +56,7 @@ struct Requests {
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
   int includes = 0;                          // other launch files that were included
+  std::vector<LaunchRecord> records;         // what the visit did
 };
 
 class LaunchContext {

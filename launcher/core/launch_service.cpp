@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace launch {
 
@@ -18,6 +19,7 @@ int LaunchService::run(const LaunchDescription& description) {
       loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
   loop_.post([this, &description] {
     const Duration before = loop_.now();
+    const std::int64_t begin = monotonic_time();
     try {
       context_.visit(description);
     } catch (const LaunchError& error) {
@@ -26,7 +28,9 @@ int LaunchService::run(const LaunchDescription& description) {
       return;
     }
     timing_.push_back({"visit", loop_.now() - before});
-    carry_out(context_.take_requests());
+    Requests requests = context_.take_requests();
+    record_visit(begin, {description.file, 0, 0}, requests);
+    carry_out(std::move(requests));
   });
   loop_.run();
   return exit_code_;
@@ -48,6 +52,7 @@ void LaunchService::on_signal(int signal) {
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
+  record(event);
   const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
   if (failed_to_start) {
     exit_code_ = 1;
@@ -70,6 +75,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
 void LaunchService::on_timer(std::list<Timer>::iterator timer) {
   TimerRequest request = std::move(timer->request);
   timers_.erase(timer);
+  const std::int64_t begin = monotonic_time();
   try {
     context_.visit_in(std::move(request.scope), request.actions);
   } catch (const LaunchError& error) {
@@ -77,7 +83,9 @@ void LaunchService::on_timer(std::list<Timer>::iterator timer) {
     fail(error);
     return;
   }
-  carry_out(context_.take_requests());
+  Requests requests = context_.take_requests();
+  record_visit(begin, request.actions.empty() ? SourceRange() : request.actions.front()->where(), requests);
+  carry_out(std::move(requests));
 }
 
 void LaunchService::carry_out(Requests requests) {
@@ -96,6 +104,7 @@ void LaunchService::begin_next() {
     if (next_scope_ < waiting_.front().scopes.size()) {
       scope_is_beginning_ = true;
       guard(*waiting_.front().scopes[next_scope_]);
+      waiting_.front().scopes[next_scope_]->expect(waiting_.front().processes);
       waiting_.front().scopes[next_scope_]->begin(loop_, teller(),
                                                   [this](std::exception_ptr error) { on_begun(std::move(error)); });
       return;
@@ -137,6 +146,7 @@ void LaunchService::on_begun(std::exception_ptr error) {
 
 void LaunchService::start(Requests requests) {
   const Duration before = loop_.now();
+  begin_recording();
   for (TimerRequest& request : requests.timers) {
     timers_.push_back({std::move(request), nullptr});
     const auto timer = std::prev(timers_.end());
@@ -146,6 +156,7 @@ void LaunchService::start(Requests requests) {
     for (const auto& scope : active_scopes_) {
       scope->prepare(spec);
     }
+    record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
     supervisor_.start(std::move(spec));
   }
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
@@ -183,6 +194,9 @@ void LaunchService::check_finished() {
 }
 
 void LaunchService::end_next_scope() {
+  if (std::exchange(recording_, false)) {
+    recorder_->end();
+  }
   if (active_scopes_.empty()) {
     loop_.quit();
     return;
@@ -217,6 +231,63 @@ void LaunchService::unguard(const RunScope& scope) {
   if (const auto found = clean_ups_.find(&scope); found != clean_ups_.end()) {
     guardian_->remove_clean_up(found->second);
     clean_ups_.erase(found);
+  }
+}
+
+void LaunchService::record(const LaunchRecord& record) {
+  if (recorder_ == nullptr) {
+    return;
+  }
+  recorder_->record(record);
+  for (const auto& scope : active_scopes_) {
+    if (scope->wants_records()) {
+      scope->record(record);
+    }
+  }
+}
+
+void LaunchService::record(const ProcessEvent& event) {
+  using Kind = LaunchRecord::Kind;
+  LaunchRecord what{.name = event.label, .where = event.spec.origin, .time = monotonic_time()};
+  if (const auto* const started = std::get_if<ProcessStarted>(&event.what)) {
+    what.kind = Kind::kExec;
+    what.pid = started->pid;
+  } else if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
+    what.kind = Kind::kExit;
+    what.pid = exited->pid;
+    what.value = exited->exit.code;
+    record(what);
+    if (!exited->will_respawn) {
+      return;
+    }
+    what.kind = Kind::kRespawn;
+  } else if (const auto* const sent = std::get_if<SignalSent>(&event.what)) {
+    what.kind = Kind::kSignal;
+    what.value = sent->signal;
+  } else {
+    return;
+  }
+  record(what);
+}
+
+void LaunchService::record_visit(std::int64_t begin, const SourceRange& where, Requests& requests) {
+  for (const LaunchRecord& step : requests.records) {
+    record(step);
+  }
+  record({.kind = LaunchRecord::Kind::kVisit, .where = where, .time = begin, .duration = monotonic_time() - begin});
+}
+
+// Called when the scopes of some requests have begun, before their processes start.
+void LaunchService::begin_recording() {
+  if (recorder_ == nullptr || recording_) {
+    return;
+  }
+  recording_ = std::any_of(active_scopes_.begin(), active_scopes_.end(),
+                           [](const auto& scope) { return scope->wants_records(); });
+  if (recording_) {
+    recorder_->begin();
+  } else {
+    recorder_->drop();
   }
 }
 

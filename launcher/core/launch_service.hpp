@@ -31,6 +31,11 @@ class LaunchService {
   // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
   void guard_scopes(Guardian& guardian) { guardian_ = &guardian; }
 
+  // Has a trace tell what the launcher does. The recorder must outlive the service.
+  void record_to(LaunchRecorder& recorder) { recorder_ = &recorder; }
+  // Tells the recorder and the scopes that want to know.
+  void record(const LaunchRecord& record);
+
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
   // the launch itself, a process that could not be started included. How processes ended doesn't count.
   // SIGINT, SIGTERM, SIGHUP and SIGQUIT shut down; a second one kills what is left and ends at once.
@@ -60,12 +65,17 @@ class LaunchService {
   void guard(const RunScope& scope);
   void unguard(const RunScope& scope);
   RunScope::Tell teller();
+  void record(const ProcessEvent& event);
+  void record_visit(std::int64_t begin, const SourceRange& where, Requests& requests);
+  void begin_recording();
 
   LaunchContext& context_;
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
   Guardian* guardian_ = nullptr;
+  LaunchRecorder* recorder_ = nullptr;
+  bool recording_ = false;
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
   std::deque<Requests> waiting_;  // the first one may be beginning its scopes

@@ -66,6 +66,8 @@ struct ProcessSpec {
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
+  std::string node;    // the node that it is asked to be, as the launch file names it; may be empty
+  bool traced = true;  // for RunScopes: may be recorded
   SourceRange origin;  // the launch-file line that asked for it
 };
 

@@ -19,6 +19,7 @@ namespace {
 constexpr const char* kUserspaceChannel = "ros2";
 constexpr const char* kInitialisationChannel = "ros2_init";
 constexpr const char* kAllRosEvents = "ros2:*";
+constexpr const char* kLaunchEvents = "launch:*";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint32_t kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
 constexpr std::uint64_t kFewestSubbuffers = 2;
@@ -87,9 +88,11 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   plan.buffers = config.buffers_ust;
   plan.channel = kUserspaceChannel;
   plan.events = rules(main_events(config));
+  if (config.launch_events && !plan.events.empty()) plan.events.push_back({.pattern = kLaunchEvents});
   plan.context_fields = config.context_fields_ust;
   plan.subbuffer_size = config.subbuffer_size_ust;
-  plan.subbuffer_count = config.subbuffer_count_ust != 0 ? config.subbuffer_count_ust : config.default_subbuffer_count();
+  plan.subbuffer_count =
+      config.subbuffer_count_ust != 0 ? config.subbuffer_count_ust : config.default_subbuffer_count();
   plan.read_timer = config.read_timer_ust;
   plan.switch_timer = config.switch_timer_ust;
   plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
@@ -141,7 +144,8 @@ ChannelPlan further_plan(const ChannelConfig& channel, const TraceConfig& config
 // "ros2:*", or a rule with conditions, stays where it is: an event that two rules match would be recorded twice.
 void split_initialisation_events(std::vector<ChannelPlan>& plans, std::size_t main) {
   const std::vector<std::string>& all = initialisation_ros_events();
-  const std::set<std::string> initialisation(all.begin(), all.end());
+  std::set<std::string> initialisation(all.begin(), all.end());
+  initialisation.insert(kLaunchEvents);  // few, and as worth keeping
   ChannelPlan first = plans[main];
   first.channel = kInitialisationChannel;
   std::vector<std::string> moved;
@@ -184,8 +188,9 @@ void make_usable(ChannelPlan& plan, const TraceConfig& config, std::vector<std::
                      "leave the overwrite attribute out: a snapshot is of the newest events");
   }
   if (plan.blocking_timeout < kWaitForEver) {
-    throw TraceError(fmt::format("blocking timeout of {} microseconds for channel '{}'", plan.blocking_timeout, plan.channel),
-                     "-1 waits for ever, 0 never");
+    throw TraceError(
+        fmt::format("blocking timeout of {} microseconds for channel '{}'", plan.blocking_timeout, plan.channel),
+        "-1 waits for ever, 0 never");
   }
   if (plan.blocking_timeout != 0 && plan.overwrite) {
     throw TraceError(fmt::format("channel '{}' both overwrites and blocks", plan.channel),

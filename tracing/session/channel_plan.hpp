@@ -33,10 +33,10 @@ struct ChannelPlan {
   std::uint64_t tracefile_count = 0;
 };
 
-// The channels into which `config` records something: `ros2` and `kchan`, with `init_channel` also `ros2_init`, and those
-// of `config.channels`. What occurs twice is taken once, and a default event that a channel of `config.channels` takes
-// is taken there only. Warnings (a sub-buffer size that had to be rounded up) are appended. Throws TraceError for what
-// can't be had: a context field, an event rule, or attributes that exclude each other.
+// The channels into which `config` records something: `ros2` and `kchan`, with `init_channel` also `ros2_init`, and
+// those of `config.channels`. What occurs twice is taken once, and a default event that a channel of `config.channels`
+// takes is taken there only. Warnings (a sub-buffer size that had to be rounded up) are appended. Throws TraceError for
+// what can't be had: a context field, an event rule, or attributes that exclude each other.
 std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
 
 }  // namespace tracing

@@ -21,7 +21,7 @@ lttng_domain make_domain(lttng_domain_type type, BufferOwner owner) {
   return domain;
 }
 
-DomainHandle domain_handle(const std::string& lttng_session_name, const ChannelPlan& plan) {
+DomainHandle domain_of(const std::string& lttng_session_name, const ChannelPlan& plan) {
   return domain_handle(lttng_session_name, make_domain(plan.domain, plan.buffers));
 }
 
@@ -96,18 +96,18 @@ void enable_channel(const std::string& lttng_session_name, const ChannelPlan& pl
   if (plan.blocking_timeout != 0) {
     check_lttng(lttng_channel_set_blocking_timeout(channel.get(), plan.blocking_timeout), doing);
   }
-  const DomainHandle handle = domain_handle(lttng_session_name, plan);
+  const DomainHandle handle = domain_of(lttng_session_name, plan);
   check_lttng(lttng_enable_channel(handle.get(), channel.get()), doing);
 }
 
 void enable_events(const std::string& lttng_session_name, const ChannelPlan& plan) {
-  const DomainHandle handle = domain_handle(lttng_session_name, plan);
+  const DomainHandle handle = domain_of(lttng_session_name, plan);
   for (const EventRule& rule : plan.events) enable_event(handle.get(), rule, plan.channel);
   for (const std::string& name : plan.syscalls) enable_syscall(handle.get(), name, plan.channel);
 }
 
 void add_contexts(const std::string& lttng_session_name, const ChannelPlan& plan) {
-  const DomainHandle handle = domain_handle(lttng_session_name, plan);
+  const DomainHandle handle = domain_of(lttng_session_name, plan);
   for (const std::string& name : plan.context_fields) {
     ContextField field(name, plan.domain);
     check_lttng(lttng_add_context(handle.get(), field.get(), nullptr, plan.channel.c_str()),

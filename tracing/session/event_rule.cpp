@@ -63,8 +63,8 @@ std::vector<std::string> parts(std::string_view list) {
 }
 
 int log_level(std::string_view name, const std::string& rule) {
-  const auto found = std::find_if(kLogLevels.begin(), kLogLevels.end(),
-                                  [name](const LogLevel& level) { return level.name == name; });
+  const auto found =
+      std::find_if(kLogLevels.begin(), kLogLevels.end(), [name](const LogLevel& level) { return level.name == name; });
   if (found != kLogLevels.end()) return found->value;
   std::string known;
   for (const LogLevel& level : kLogLevels) known += fmt::format("{}{}", known.empty() ? "" : ", ", level.name);
@@ -86,7 +86,8 @@ EventRule parse_event_rule(const std::string& text) {
     if (word == "if") {
       rule.filter = trimmed(rest);
       rest = {};
-      if (rule.filter.empty()) throw TraceError(fmt::format("event '{}' ends where its filter is expected", text), kForm);
+      if (rule.filter.empty())
+        throw TraceError(fmt::format("event '{}' ends where its filter is expected", text), kForm);
     } else if (word == "except") {
       rule.exclusions = parts(next_word(rest));
       if (rule.exclusions.empty()) {

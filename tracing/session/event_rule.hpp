@@ -18,8 +18,8 @@ namespace tracing {
 struct EventRule {
   std::string pattern;
   std::vector<std::string> exclusions;
-  std::optional<int> log_level;       // enum lttng_loglevel
-  bool exactly_that_level = false;    // else: or more severe
+  std::optional<int> log_level;     // enum lttng_loglevel
+  bool exactly_that_level = false;  // else: or more severe
   std::string filter;
 
   bool plain() const { return exclusions.empty() && !log_level && filter.empty(); }

@@ -60,6 +60,7 @@ struct TraceConfig {
   std::uint64_t tracefile_size = 0;   // bytes after which a stream goes on in a further file; 0: one file
   std::uint64_t tracefile_count = 0;  // files of a stream that are kept, the oldest is overwritten; 0: all
   std::vector<ChannelConfig> channels;
+  bool launch_events = false;    // those of provider `launch`, beside other userspace events
   std::string url;               // of a relay daemon, net://HOST[:CONTROL[:DATA]]; empty: recorded below base_path
   std::uint32_t live_timer = 0;  // µs between two deliveries to the viewers of a live session; 0: not a live session
   bool snapshot_mode = false;

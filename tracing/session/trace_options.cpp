@@ -56,16 +56,14 @@ void add_buffer_options(CLI::App& command, TraceConfig& config) {
          fmt::format("how many for each processor (default: {})", config.default_subbuffer_count()));
   number("--read-timer-ust", config.read_timer_ust, "MICROSECONDS",
          fmt::format("time between two reads of the buffers (default: {})", config.read_timer_ust));
-  number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS",
-         "time until a part-full sub-buffer is written");
+  number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS", "time until a part-full sub-buffer is written");
   number("--subbuffer-size-kernel", config.subbuffer_size_kernel, "BYTES", "sub-buffers of the kernel channel");
   command.add_option("--overwrite-ust", config.overwrite_ust,
                      "when buffers are full lose the oldest events, not the newest (default: in snapshot mode only)");
   number("--blocking-timeout-ust", config.blocking_timeout_ust, "MICROSECONDS",
          "time that a traced thread waits for room before it loses an event; -1: for ever; its process needs "
          "LTTNG_UST_ALLOW_BLOCKING=1 (default: 0)");
-  command
-      .add_option("--buffers-ust", config.buffers_ust, "whose the userspace buffers are: uid (default) or pid")
+  command.add_option("--buffers-ust", config.buffers_ust, "whose the userspace buffers are: uid (default) or pid")
       ->transform(CLI::Transformer(
           std::map<std::string, BufferOwner>{{"uid", BufferOwner::kUser}, {"pid", BufferOwner::kProcess}}))
       ->option_text("OWNER");
