@@ -25,6 +25,7 @@ struct LaunchRecord {
   SourceRange where = {};  // the line that asked for it; may be empty
   std::int32_t pid = 0;
   std::int32_t value = 0;
+  bool asked_for = false;     // exit: a signal of the launcher or its shutdown came before
   std::int64_t time = 0;      // CLOCK_MONOTONIC in nanoseconds, of the beginning where it took a while
   std::int64_t duration = 0;  // nanoseconds: load, include, visit
 };

@@ -235,14 +235,11 @@ void LaunchService::unguard(const RunScope& scope) {
 }
 
 void LaunchService::record(const LaunchRecord& record) {
-  if (recorder_ == nullptr) {
-    return;
+  if (recorder_ != nullptr) {
+    recorder_->record(record);
   }
-  recorder_->record(record);
   for (const auto& scope : active_scopes_) {
-    if (scope->wants_records()) {
-      scope->record(record);
-    }
+    scope->record(record);
   }
 }
 
@@ -256,6 +253,7 @@ void LaunchService::record(const ProcessEvent& event) {
     what.kind = Kind::kExit;
     what.pid = exited->pid;
     what.value = exited->exit.code;
+    what.asked_for = exited->expected;
     record(what);
     if (!exited->will_respawn) {
       return;

@@ -55,8 +55,8 @@ class RunScope {
   // Changes what every process that starts while the scope is active is given, such as LD_PRELOAD.
   virtual void prepare(ProcessSpec& spec) const = 0;
 
-  // True when what the launcher does shall be in the scope's own record; record() is then told of it, too, from begin()
-  // to end(), on the loop's thread.
+  // What the launcher does from begin() to end(), on the loop's thread. The first returns true when the recorder of the
+  // launch shall have it, too: the scope's trace then holds it.
   virtual bool wants_records() const { return false; }
   virtual void record(const LaunchRecord&) {}
 

@@ -20,6 +20,8 @@ constexpr std::size_t kLongestEntry = 4096;  // bytes; later versions may append
 // The 32-bit words at the beginning of a file, and the 64-bit words at the beginning of each entry.
 enum HeaderWord { kMagicWord, kMajorWord, kMinorWord, kEntryLengthWord, kHeaderWords };
 enum EntryWord { kOffset, kPacketBits, kContentBits, kBegin, kEnd, kDiscarded, kEntryWords };
+// Since version 1.1 of the format: after the stream's id and its instance id.
+constexpr std::size_t kSequenceNumberWord = 8;
 
 std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -38,6 +40,10 @@ std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
                        .end = be64toh(words[kEnd]),
                        .bytes = be64toh(words[kContentBits]) / 8,
                        .discarded_events = be64toh(words[kDiscarded])});
+    if (length < (kSequenceNumberWord + 1) * sizeof(std::uint64_t)) continue;
+    std::uint64_t number = 0;
+    std::memcpy(&number, entry.data() + kSequenceNumberWord * sizeof number, sizeof number);
+    packets.back().sequence_number = be64toh(number);
   }
   return packets;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace tracing {
 struct Packet {
   std::uint64_t begin = 0;  // trace clock, ns
   std::uint64_t end = 0;
-  std::uint64_t bytes = 0;             // of events and header, without padding
-  std::uint64_t discarded_events = 0;  // of the stream since its beginning
+  std::uint64_t bytes = 0;                            // of events and header, without padding
+  std::uint64_t discarded_events = 0;                 // of the stream since its beginning
+  std::optional<std::uint64_t> sequence_number = {};  // of the packets of its stream
 };
 
 // What one processor recorded into one channel.

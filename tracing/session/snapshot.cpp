@@ -10,7 +10,6 @@
 namespace tracing {
 namespace {
 
-constexpr const char* kOutputName = "snapshot";
 constexpr std::uint64_t kLargestSnapshot = 10;  // in sub-buffers of the userspace channel
 constexpr int kWaitForever = -1;
 
@@ -21,19 +20,25 @@ void add_snapshot_output(const TraceConfig& config) {
   const std::unique_ptr<lttng_snapshot_output, decltype(&lttng_snapshot_output_destroy)> output(
       lttng_snapshot_output_create(), &lttng_snapshot_output_destroy);
   if (!output) throw lttng_error(LTTNG_ERR_NOMEM, doing);
-  check_lttng(lttng_snapshot_output_set_name(kOutputName, output.get()), doing);
+  check_lttng(lttng_snapshot_output_set_name(kSnapshotName, output.get()), doing);
   if (config.over_network()) {
     check_lttng(lttng_snapshot_output_set_network_url(config.url.c_str(), output.get()), doing);
   } else {
     const std::string url = "file://" + config.trace_directory();
     check_lttng(lttng_snapshot_output_set_local_path(url.c_str(), output.get()), doing);
   }
-  check_lttng(lttng_snapshot_output_set_size(kLargestSnapshot * config.subbuffer_size_ust, output.get()), doing);
+  const std::uint64_t size =
+      config.snapshot_size != 0 ? config.snapshot_size : kLargestSnapshot * config.subbuffer_size_ust;
+  check_lttng(lttng_snapshot_output_set_size(size, output.get()), doing);
   check_lttng(lttng_snapshot_add_output(config.lttng_session_name().c_str(), output.get()), doing);
 }
 
-void record_and_clear(const std::string& name) {
+void record_snapshot(const std::string& name) {
   check_lttng(lttng_snapshot_record(name.c_str(), nullptr, 0), fmt::format("record a snapshot of session '{}'", name));
+}
+
+void record_and_clear(const std::string& name) {
+  record_snapshot(name);
 
   const std::string doing = fmt::format("clear session '{}' after its snapshot", name);
   lttng_clear_handle* started = nullptr;

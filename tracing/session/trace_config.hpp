@@ -64,8 +64,10 @@ struct TraceConfig {
   std::string url;               // of a relay daemon, net://HOST[:CONTROL[:DATA]]; empty: recorded below base_path
   std::uint32_t live_timer = 0;  // µs between two deliveries to the viewers of a live session; 0: not a live session
   bool snapshot_mode = false;
-  bool dual_session = false;  // the snapshot half of a dual session: always a snapshot session
-  bool dual_runtime = false;  // the runtime half of a dual session: never a snapshot session
+  std::uint64_t snapshot_size = 0;    // largest size of a snapshot in bytes; 0: 10 userspace sub-buffers
+  std::uint64_t snapshot_limit = 10;  // snapshots of a flight recorder that are kept
+  bool dual_session = false;          // the snapshot half of a dual session: always a snapshot session
+  bool dual_runtime = false;          // the runtime half of a dual session: never a snapshot session
 
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
   // The trace goes to a relay daemon: there is no directory of ours to look into.

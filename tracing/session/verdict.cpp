@@ -64,6 +64,15 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   return json;
 }
 
+void write_file(const std::filesystem::path& directory, const std::string& text) {
+  const std::filesystem::path path = directory / kVerdictFile;
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) {
+    throw TraceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+}
+
 }  // namespace
 
 void explain_losses(LossAccount& account, const std::filesystem::path& directory) {
@@ -97,12 +106,36 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
 
 void write_verdict(const LossAccount& account, const std::string& session_name,
                    const std::filesystem::path& directory) {
-  const std::filesystem::path path = directory / kVerdictFile;
-  std::ofstream file(path);
-  file << verdict_as_json(account, session_name) << std::flush;
-  if (!file) {
-    throw TraceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  write_file(directory, verdict_as_json(account, session_name));
+}
+
+void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                            const std::vector<std::string>& reasons) {
+  std::uint64_t discarded = 0;
+  std::uint64_t lost = 0;
+  std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t end = 0;
+  for (const Stream& stream : read_packet_index(directory)) {
+    for (std::size_t i = 0; i < stream.packets.size(); ++i) {
+      const Packet& packet = stream.packets[i];
+      begin = std::min(begin, packet.begin);
+      end = std::max(end, packet.end);
+      if (i == 0) continue;
+      const Packet& before = stream.packets[i - 1];
+      discarded += packet.discarded_events - before.discarded_events;
+      if (packet.sequence_number && before.sequence_number) {
+        lost += *packet.sequence_number - *before.sequence_number - 1;
+      }
+    }
   }
+  const nlohmann::ordered_json json = {{"session", session_name},
+                                       {"reasons", reasons},
+                                       {"complete", discarded == 0 && lost == 0},
+                                       {"discarded_events", discarded},
+                                       {"lost_packets", lost},
+                                       {"begin_ns", std::min(begin, end)},
+                                       {"end_ns", end}};
+  write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace tracing

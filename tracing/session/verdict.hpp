@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tracing/session/tracer.hpp"
 
@@ -29,5 +30,10 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
 
 // Writes kVerdictFile. Throws TraceError.
 void write_verdict(const LossAccount& account, const std::string& session_name, const std::filesystem::path& directory);
+
+// The same for a snapshot: session, reasons, complete, discarded_events, lost_packets, begin_ns and end_ns of the trace
+// clock. Complete is a snapshot in which nothing is missing between its first event and its last. Throws TraceError.
+void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                            const std::vector<std::string>& reasons);
 
 }  // namespace tracing
