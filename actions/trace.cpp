@@ -1,5 +1,6 @@
 // <trace session-name="…"/>: records the run. Takes effect before any process starts, wherever it stands in the file.
 #include <fmt/format.h>
+#include <signal.h>
 
 #include "actions/trace_channel.hpp"
 #include "actions/trace_scope.hpp"
@@ -38,6 +39,11 @@ class Trace : public Action {
         live_timer_(count_field(fields, "live-timer")),
         launch_events_(fields.boolean("launch-events", true)),
         snapshot_mode_(fields.boolean("snapshot-mode", false)),
+        snapshot_on_crash_(fields.boolean("snapshot-on-crash", false)),
+        snapshot_on_signal_(fields.optional_text("snapshot-on-signal")),
+        snapshot_on_events_(fields, "snapshot-on-events"),
+        snapshot_limit_(count_field(fields, "snapshot-limit")),
+        snapshot_size_(count_field(fields, "snapshot-size")),
         dual_session_(fields.boolean("dual-session", false)) {
     if (fields.has("overwrite-ust")) {
       overwrite_ust_ = fields.boolean("overwrite-ust", false);
@@ -54,12 +60,10 @@ class Trace : public Action {
     perform_session(config, scope);
     perform_events(config, scope);
     perform_buffers(config, scope);
-    std::optional<std::vector<std::string>> nodes;
-    if (nodes_.given()) {
-      nodes = nodes_.perform(scope);
-    }
-    context.requests().scopes.push_back(std::make_unique<TraceScope>(std::move(config), tracing::make_lttng_tracer(),
-                                                                     context.own_prefix(), where(), std::move(nodes)));
+    TraceChoices choices = perform_choices(scope);
+    config.snapshot_mode = config.snapshot_mode || choices.flight_recorder();
+    context.requests().scopes.push_back(std::make_unique<TraceScope>(
+        std::move(config), tracing::make_lttng_tracer(), context.own_prefix(), where(), std::move(choices)));
   }
 
  private:
@@ -108,6 +112,24 @@ class Trace : public Action {
     }
   }
 
+  TraceChoices perform_choices(Scope& scope) const {
+    TraceChoices choices;
+    if (nodes_.given()) {
+      choices.nodes = nodes_.perform(scope);
+    }
+    choices.snapshot_on_crash = snapshot_on_crash_.perform(scope);
+    choices.snapshot_on_events = snapshot_on_events_.perform_events(scope);
+    if (snapshot_on_signal_) {
+      const std::string name = snapshot_on_signal_->perform(scope);
+      if (name != "SIGUSR1" && name != "SIGUSR2") {
+        throw LaunchError(fmt::format("snapshot-on-signal is expected to be SIGUSR1 or SIGUSR2, got '{}'", name),
+                          snapshot_on_signal_->where());
+      }
+      choices.snapshot_on_signal = name == "SIGUSR1" ? SIGUSR1 : SIGUSR2;
+    }
+    return choices;
+  }
+
   void perform_buffers(tracing::TraceConfig& config, Scope& scope) const {
     const auto replace_count = [&scope](std::uint64_t& value, const std::optional<NumberField>& given) {
       if (given) {
@@ -124,6 +146,8 @@ class Trace : public Action {
     replace_count(config.subbuffer_count_ust, subbuffer_count_ust_);
     replace_time(config.read_timer_ust, read_timer_ust_);
     replace_time(config.switch_timer_ust, switch_timer_ust_);
+    replace_count(config.snapshot_size, snapshot_size_);
+    replace_count(config.snapshot_limit, snapshot_limit_);
     replace_count(config.tracefile_size, tracefile_size_);
     replace_count(config.tracefile_count, tracefile_count_);
     config.init_channel = init_channel_.perform(scope);
@@ -169,6 +193,11 @@ class Trace : public Action {
   std::optional<NumberField> live_timer_;
   BooleanField launch_events_;
   BooleanField snapshot_mode_;
+  BooleanField snapshot_on_crash_;
+  std::optional<Template> snapshot_on_signal_;
+  WordsField snapshot_on_events_;
+  std::optional<NumberField> snapshot_limit_;
+  std::optional<NumberField> snapshot_size_;
   BooleanField dual_session_;
 };
 
@@ -219,6 +248,14 @@ std::vector<AttributeSpec> trace_attributes() {
       {"subbuffer-size-kernel", AttributeType::kInteger, false, fmt::format("{}", defaults.subbuffer_size_kernel),
        "bytes"},
       {"snapshot-mode", AttributeType::kBoolean, false, "false", "keep the newest events in memory until recorded"},
+      extension("snapshot-on-crash", AttributeType::kBoolean, "false",
+                "take a snapshot when a process dies of a signal or with an exit code, unasked; implies snapshot-mode"),
+      extension("snapshot-on-signal", AttributeType::kText, "none",
+                "SIGUSR1 or SIGUSR2: take a snapshot when the launcher gets it; implies snapshot-mode"),
+      extension("snapshot-on-events", AttributeType::kWords, "none",
+                "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
+      extension("snapshot-limit", AttributeType::kInteger, "10", "snapshots that are kept, the newest ones"),
+      extension("snapshot-size", AttributeType::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),
       {"dual-session", AttributeType::kBoolean, false, "false", "be the snapshot half of a dual session"}};
 }
 

@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fnmatch.h>
 #include <spawn.h>
+#include <string.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -84,12 +86,12 @@ bool may_block(const tracing::TraceConfig& config) {
 }  // namespace
 
 TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
-                       SourceRange origin, std::optional<std::vector<std::string>> nodes)
+                       SourceRange origin, TraceChoices choices)
     : config_(std::move(config)),
       tracer_(std::move(tracer)),
       prefix_(std::move(prefix)),
       origin_(std::move(origin)),
-      nodes_(std::move(nodes)) {
+      choices_(std::move(choices)) {
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
@@ -118,7 +120,7 @@ void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
 }
 
 void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
-  for (const std::string& pattern : nodes_.value_or(std::vector<std::string>())) {
+  for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
     if (std::none_of(processes.begin(), processes.end(),
                      [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
       setup_.warnings.push_back(
@@ -139,7 +141,15 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
           throw LaunchError(fmt::format("tracing setup failed: {}", error.what()), origin_, error.remedy());
         }
       },
-      [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
+      [this, &loop, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
+        if (!error && choices_.flight_recorder()) {
+          try {
+            start_flight_recorder(loop, tell);
+          } catch (const tracing::TraceError& failure) {
+            error = std::make_exception_ptr(
+                LaunchError(fmt::format("tracing setup failed: {}", failure.what()), origin_, failure.remedy()));
+          }
+        }
         if (!error) {
           for (const std::string& warning : setup_.warnings) {
             tell(true, warning);
@@ -150,10 +160,48 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
       });
 }
 
+// Called on the loop's thread; what it registers takes the session daemon a millisecond.
+void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
+  flight_recorder_ =
+      std::make_unique<tracing::FlightRecorder>(config_, [&loop, tell](const tracing::TakenSnapshot& taken) {
+        loop.post([tell, taken] {
+          const std::string reasons = fmt::format("{}", fmt::join(taken.reasons, ", "));
+          if (taken.error.empty()) {
+            tell(false, fmt::format("snapshot written to: {} ({})", taken.directory.string(), reasons));
+          } else {
+            tell(true, fmt::format("no snapshot ({}): {}", reasons, taken.error));
+          }
+        });
+      });
+  if (!choices_.snapshot_on_events.empty()) {
+    event_watch_ = std::make_unique<tracing::EventWatch>(
+        config_.lttng_session_name(), choices_.snapshot_on_events,
+        [recorder = flight_recorder_.get()](const std::string& rule) { recorder->request("event " + rule); });
+  }
+  if (choices_.snapshot_on_signal != 0) {
+    signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](int signal) {
+      flight_recorder_->request(fmt::format("SIG{}", ::sigabbrev_np(signal)));
+    });
+  }
+}
+
+void TraceScope::record(const LaunchRecord& record) {
+  if (!choices_.snapshot_on_crash || !flight_recorder_ || record.kind != LaunchRecord::Kind::kExit ||
+      record.value == 0 || record.asked_for) {
+    return;
+  }
+  flight_recorder_->request(record.value < 0
+                                ? fmt::format("{} died of SIG{}", record.name, ::sigabbrev_np(-record.value))
+                                : fmt::format("{} ended with exit code {}", record.name, record.value));
+}
+
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
+  signals_.reset();
   in_background(
       loop,
       [this] {
+        event_watch_.reset();
+        flight_recorder_.reset();
         try {
           losses_ = tracer_->finish(config_, [this] { return hurry_.load(); });
         } catch (const tracing::TraceError& error) {
@@ -195,8 +243,9 @@ std::vector<std::string> TraceScope::clean_up_command() const {
 }
 
 bool TraceScope::traces(const ProcessSpec& spec) const {
-  return spec.traced && (!nodes_ || std::any_of(nodes_->begin(), nodes_->end(),
-                                                [&](const std::string& pattern) { return matches(pattern, spec); }));
+  return spec.traced &&
+         (!choices_.nodes || std::any_of(choices_.nodes->begin(), choices_.nodes->end(),
+                                         [&](const std::string& pattern) { return matches(pattern, spec); }));
 }
 
 void TraceScope::prepare(ProcessSpec& spec) const {
@@ -246,6 +295,9 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"launch-events", config_.launch_events},
           {"subbuffer-size-kernel", static_cast<std::int64_t>(config_.subbuffer_size_kernel)},
           {"snapshot-mode", config_.snapshot_mode},
+          {"snapshot-on-crash", choices_.snapshot_on_crash},
+          {"snapshot-on-events", choices_.snapshot_on_events},
+          {"snapshot-limit", static_cast<std::int64_t>(config_.snapshot_limit)},
           {"dual-session", config_.dual_session}};
 }
 
