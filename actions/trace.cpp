@@ -225,7 +225,7 @@ std::vector<AttributeSpec> trace_attributes() {
       {"subbuffer-size-ust", AttributeType::kInteger, false, fmt::format("{}", defaults.subbuffer_size_ust), "bytes"},
       extension("init-channel", AttributeType::kBoolean, "false",
                 "initialisation events in a channel of their own, ros2_init"),
-      extension("subbuffer-count-ust", AttributeType::kInteger, fmt::format("{}", defaults.default_subbuffer_count()),
+      extension("subbuffer-count-ust", AttributeType::kInteger, fmt::format("{}", defaults.subbuffer_count_ust),
                 "sub-buffers for each processor"),
       extension("read-timer-ust", AttributeType::kInteger, fmt::format("{}", defaults.read_timer_ust),
                 "microseconds between two reads of the buffers; 0: traced processes wake the reader"),

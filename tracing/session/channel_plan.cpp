@@ -91,8 +91,7 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   if (config.launch_events && !plan.events.empty()) plan.events.push_back({.pattern = kLaunchEvents});
   plan.context_fields = config.context_fields_ust;
   plan.subbuffer_size = config.subbuffer_size_ust;
-  plan.subbuffer_count =
-      config.subbuffer_count_ust != 0 ? config.subbuffer_count_ust : config.default_subbuffer_count();
+  plan.subbuffer_count = config.subbuffer_count_ust;
   plan.read_timer = config.read_timer_ust;
   plan.switch_timer = config.switch_timer_ust;
   plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
@@ -110,7 +109,7 @@ ChannelPlan kernel_plan(const TraceConfig& config) {
   plan.syscalls = without_repetitions(config.syscalls);
   plan.context_fields = config.context_fields_kernel;
   plan.subbuffer_size = config.subbuffer_size_kernel;
-  plan.subbuffer_count = config.default_subbuffer_count();
+  plan.subbuffer_count = config.subbuffer_count_kernel();
   plan.read_timer = kKernelReadTimer;
   plan.overwrite = config.records_snapshots();
   plan.tracefile_size = config.tracefile_size;

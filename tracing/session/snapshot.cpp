@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 #include <lttng/lttng.h>
+#include <sys/sysinfo.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "tracing/session/lttng_error.hpp"
@@ -10,7 +12,12 @@
 namespace tracing {
 namespace {
 
-constexpr std::uint64_t kLargestSnapshot = 10;  // in sub-buffers of the userspace channel
+// In sub-buffers of the userspace channel: ten as in ros2_tracing, or all where there are more processors than that is
+// enough for. LTTng refuses less than one for each.
+std::uint64_t largest_snapshot(const TraceConfig& config) {
+  return std::max<std::uint64_t>(10, static_cast<std::uint64_t>(get_nprocs_conf()) * config.subbuffer_count_ust);
+}
+
 constexpr int kWaitForever = -1;
 
 }  // namespace
@@ -28,7 +35,7 @@ void add_snapshot_output(const TraceConfig& config) {
     check_lttng(lttng_snapshot_output_set_local_path(url.c_str(), output.get()), doing);
   }
   const std::uint64_t size =
-      config.snapshot_size != 0 ? config.snapshot_size : kLargestSnapshot * config.subbuffer_size_ust;
+      config.snapshot_size != 0 ? config.snapshot_size : largest_snapshot(config) * config.subbuffer_size_ust;
   check_lttng(lttng_snapshot_output_set_size(size, output.get()), doing);
   check_lttng(lttng_snapshot_add_output(config.lttng_session_name().c_str(), output.get()), doing);
 }

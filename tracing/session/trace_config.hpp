@@ -47,11 +47,14 @@ struct TraceConfig {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields_ust = default_context_fields();
   std::vector<std::string> context_fields_kernel = default_context_fields();
-  std::uint64_t subbuffer_size_ust = 8 * 4096;  // bytes, rounded up to a power of two
+  // Buffers that hold 200,000 events/s of 100 nodes on two busy processors (docs/trace_control.md), where the
+  // 2 x 32 KiB and 200 µs of ros2_tracing lose events and keep the reader polling.
+  std::uint64_t subbuffer_size_ust = 1 << 20;  // bytes, rounded up to a power of two
   std::uint64_t subbuffer_size_kernel = 32 * 4096;
   bool init_channel = false;              // initialisation events in a channel of their own, `ros2_init`
-  std::uint64_t subbuffer_count_ust = 0;  // for each processor, a power of two; 0: 2, and 4 in a snapshot session
-  std::uint32_t read_timer_ust = 200;  // µs between two looks of the consumer into the buffers; 0: it is woken instead
+  std::uint64_t subbuffer_count_ust = 4;  // for each processor, a power of two
+  std::uint32_t read_timer_ust =
+      50'000;                          // µs between two looks of the consumer into the buffers; 0: it is woken instead
   std::uint32_t switch_timer_ust = 0;  // µs after which a sub-buffer is written though it is not full; 0: never
   std::optional<bool> overwrite_ust = {};  // lose the oldest events, not the newest; unset: in a snapshot session only
   // µs that a traced thread waits for room in its buffers before an event is lost; 0: it never waits, -1: for ever.
@@ -72,8 +75,8 @@ struct TraceConfig {
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
   // The trace goes to a relay daemon: there is no directory of ours to look into.
   bool over_network() const { return !url.empty() || live_timer != 0; }
-  // Sub-buffers for each processor, where none are asked for.
-  std::uint64_t default_subbuffer_count() const { return records_snapshots() ? 4 : 2; }
+  // Of the kernel's channel, for each processor.
+  std::uint64_t subbuffer_count_kernel() const { return records_snapshots() ? 4 : 2; }
 
   // base_path/session_name; for the halves of a dual session …/snapshot and …/runtime below it.
   std::string trace_directory() const;

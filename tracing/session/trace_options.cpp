@@ -53,7 +53,7 @@ void add_buffer_options(CLI::App& command, TraceConfig& config) {
   number("--subbuffer-size-ust", config.subbuffer_size_ust, "BYTES", "sub-buffers of the userspace channel");
   command.add_flag("--init-channel", config.init_channel, "initialisation events in a channel of their own, ros2_init");
   number("--subbuffer-count-ust", config.subbuffer_count_ust, "NUMBER",
-         fmt::format("how many for each processor (default: {})", config.default_subbuffer_count()));
+         fmt::format("how many for each processor (default: {})", config.subbuffer_count_ust));
   number("--read-timer-ust", config.read_timer_ust, "MICROSECONDS",
          fmt::format("time between two reads of the buffers (default: {})", config.read_timer_ust));
   number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS", "time until a part-full sub-buffer is written");

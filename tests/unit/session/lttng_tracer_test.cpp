@@ -256,12 +256,12 @@ TEST_F(LttngTracer, OddSubbufferSizesAreRoundedUpWithAWarning) {
   tracer->finish(config, never);
 }
 
-TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2Tracing) {
+TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2TracingButForItsBuffers) {
   tracer->start(config_named("run"));
   const std::string listing = run_command({"lttng", "list", "run"}).out;
-  for (const char* expected :
-       {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard", "Sub-buffer size:  32768 bytes",
-        "Sub-buffer count: 2", "Switch timer:     inactive", "Read timer:       200 us", "Output mode:      mmap"}) {
+  for (const char* expected : {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
+                               "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     inactive",
+                               "Read timer:       50000 us", "Output mode:      mmap"}) {
     EXPECT_THAT(listing, testing::HasSubstr(expected));
   }
   tracer->finish(config_named("run"), never);

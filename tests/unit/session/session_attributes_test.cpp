@@ -68,7 +68,7 @@ TEST_F(SessionAttributes, DefaultsOfTheUserspaceChannel) {
   const TraceConfig defaults;
   EXPECT_FALSE(channel.overwrite);
   EXPECT_EQ(channel.subbuffer_size, defaults.subbuffer_size_ust);
-  EXPECT_EQ(channel.subbuffer_count, defaults.default_subbuffer_count());
+  EXPECT_EQ(channel.subbuffer_count, defaults.subbuffer_count_ust);
   EXPECT_EQ(channel.read_timer, defaults.read_timer_ust);
   EXPECT_EQ(channel.switch_timer, 0u);
   EXPECT_EQ(channel.blocking_timeout, 0);
@@ -115,7 +115,7 @@ TEST_F(SessionAttributes, SnapshotSessionsOverwrite) {
   const ListedSession session = session_of(asked);
   EXPECT_TRUE(session.snapshot);
   EXPECT_TRUE(session.channel("ros2").overwrite);
-  EXPECT_EQ(session.channel("ros2").subbuffer_count, asked.default_subbuffer_count());
+  EXPECT_EQ(session.channel("ros2").subbuffer_count, asked.subbuffer_count_ust);
 }
 
 TEST_F(SessionAttributes, EventRulesWithFilterExclusionsAndLevels) {
