@@ -56,7 +56,11 @@ INSTANTIATE_TEST_SUITE_P(
                         Example{"07_services",
                                 {},
                                 {"the client will ask 3 times", "[add_two_ints_server]: 2 + 3 = 5",
-                                 "[add_two_ints_client]: 2 + 3 = 5"}}),
+                                 "[add_two_ints_client]: 2 + 3 = 5"}},
+                        Example{"20_flight_recorder", {}, {"snapshot written to: ", "(unlucky-3 died of SIGSEGV)"}},
+                        Example{"21_trace_channels", {}, {"trace is complete: no events lost"}},
+                        Example{"22_lost_events", {}, {"trace is incomplete: ", "lost in ust channel ros2"}},
+                        Example{"23_dual_session", {}, {"/dual/snapshot"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

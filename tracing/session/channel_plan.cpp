@@ -38,7 +38,9 @@ std::vector<std::string> without_repetitions(const std::vector<std::string>& nam
 
 std::vector<EventRule> rules(const std::vector<std::string>& texts) {
   std::vector<EventRule> parsed;
-  for (const std::string& text : without_repetitions(texts)) parsed.push_back(parse_event_rule(text));
+  for (const std::string& text : without_repetitions(texts)) {
+    for (EventRule& rule : expand_exclusions(parse_event_rule(text))) parsed.push_back(std::move(rule));
+  }
   return parsed;
 }
 
@@ -204,9 +206,9 @@ void make_usable(ChannelPlan& plan, const TraceConfig& config, std::vector<std::
     plan.tracefile_size = plan.subbuffer_size;
   }
   for (const EventRule& rule : plan.events) {
-    if (plan.domain == LTTNG_DOMAIN_KERNEL && (rule.log_level || !rule.exclusions.empty())) {
-      throw TraceError(fmt::format("kernel event '{}' has a log level or exclusions", rule.pattern),
-                       "only userspace events can have them");
+    if (plan.domain == LTTNG_DOMAIN_KERNEL && rule.log_level) {
+      throw TraceError(fmt::format("kernel event '{}' has a log level", rule.pattern),
+                       "only userspace events can have one");
     }
   }
 }

@@ -45,11 +45,8 @@ void enable_event(lttng_handle* handle, const EventRule& rule, const std::string
     event->loglevel_type = rule.exactly_that_level ? LTTNG_EVENT_LOGLEVEL_SINGLE : LTTNG_EVENT_LOGLEVEL_RANGE;
     event->loglevel = *rule.log_level;
   }
-  std::vector<char*> exclusions;
-  for (const std::string& pattern : rule.exclusions) exclusions.push_back(const_cast<char*>(pattern.c_str()));
-  const int result = lttng_enable_event_with_exclusions(
-      handle, event.get(), channel.c_str(), rule.filter.empty() ? nullptr : rule.filter.c_str(),
-      static_cast<int>(exclusions.size()), exclusions.empty() ? nullptr : exclusions.data());
+  const int result = lttng_enable_event_with_filter(handle, event.get(), channel.c_str(),
+                                                    rule.filter.empty() ? nullptr : rule.filter.c_str());
   if (result == -LTTNG_ERR_FILTER_INVAL) {
     throw TraceError(fmt::format("LTTng does not understand the filter of event '{}': {}", rule.pattern, rule.filter),
                      "lttng-enable-event(1) describes filter expressions");

@@ -1,11 +1,13 @@
 #include "tracing/session/event_rule.hpp"
 
 #include <fmt/core.h>
+#include <fnmatch.h>
 #include <lttng/event.h>
 
 #include <algorithm>
 #include <array>
 
+#include "tracing/session/trace_config.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
@@ -103,6 +105,29 @@ EventRule parse_event_rule(const std::string& text) {
     }
   }
   return rule;
+}
+
+std::vector<EventRule> expand_exclusions(const EventRule& rule) {
+  if (rule.exclusions.empty()) return {rule};
+  if (!rule.pattern.starts_with("ros2:")) {
+    throw TraceError(fmt::format("nothing can be taken out of '{}': only of events of provider ros2", rule.pattern),
+                     "name the events one by one, or use a filter");
+  }
+  const auto matches = [](const std::string& pattern, const std::string& event) {
+    return fnmatch(pattern.c_str(), event.c_str(), 0) == 0;
+  };
+  std::vector<EventRule> left;
+  for (const std::string& event : default_ros_events()) {
+    if (!matches(rule.pattern, event) ||
+        std::any_of(rule.exclusions.begin(), rule.exclusions.end(),
+                    [&](const std::string& excluded) { return matches(excluded, event); })) {
+      continue;
+    }
+    left.push_back(rule);
+    left.back().pattern = event;
+    left.back().exclusions.clear();
+  }
+  return left;
 }
 
 std::string event_pattern(std::string_view text) {

@@ -28,6 +28,11 @@ struct EventRule {
 // Throws TraceError for what is no rule.
 EventRule parse_event_rule(const std::string& text);
 
+// The same with the exclusions applied: one rule for each event of provider ros2 that is left. Throws TraceError for
+// exclusions from other providers, whose events are not known before they run: LTTng could exclude them, but the
+// session daemon of LTTng 2.13 crashes, and all sessions with it, as soon as somebody lists a session with exclusions.
+std::vector<EventRule> expand_exclusions(const EventRule& rule);
+
 // The pattern alone, also of a text that is no rule.
 std::string event_pattern(std::string_view text);
 std::vector<std::string> event_patterns(const std::vector<std::string>& texts);

@@ -33,9 +33,6 @@ Owned<lttng_event_rule> make_rule(const EventRule& rule) {
   check(made != nullptr ? LTTNG_EVENT_RULE_STATUS_OK : LTTNG_EVENT_RULE_STATUS_ERROR);
   check(lttng_event_rule_user_tracepoint_set_name_pattern(made.get(), rule.pattern.c_str()));
   if (!rule.filter.empty()) check(lttng_event_rule_user_tracepoint_set_filter(made.get(), rule.filter.c_str()));
-  for (const std::string& pattern : rule.exclusions) {
-    check(lttng_event_rule_user_tracepoint_add_name_pattern_exclusion(made.get(), pattern.c_str()));
-  }
   if (rule.log_level) {
     const Owned<lttng_log_level_rule> level(rule.exactly_that_level
                                                 ? lttng_log_level_rule_exactly_create(*rule.log_level)
@@ -80,7 +77,11 @@ EventWatch::~EventWatch() {
 }
 
 void EventWatch::add(const std::string& name, const std::string& text) {
-  const Owned<lttng_event_rule> rule = make_rule(parse_event_rule(text));
+  for (const EventRule& rule : expand_exclusions(parse_event_rule(text))) add(name, rule, text);
+}
+
+void EventWatch::add(const std::string& name, const EventRule& parsed, const std::string& text) {
+  const Owned<lttng_event_rule> rule = make_rule(parsed);
   const Owned<lttng_condition> condition(lttng_condition_event_rule_matches_create(rule.get()),
                                          &lttng_condition_destroy);
   const Owned<lttng_action> action(lttng_action_notify_create(), &lttng_action_destroy);

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "tracing/session/event_rule.hpp"
+
 struct lttng_notification_channel;
 struct lttng_trigger;
 
@@ -36,7 +38,8 @@ class EventWatch {
     void operator()(lttng_notification_channel* channel) const;
   };
 
-  void add(const std::string& name, const std::string& rule);
+  void add(const std::string& name, const std::string& text);
+  void add(const std::string& name, const EventRule& parsed, const std::string& text);
   void unregister();
   void wait_for_events();
   bool tell_next();

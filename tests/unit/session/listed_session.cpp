@@ -20,16 +20,10 @@ int check(int result) {
 }
 
 ListedEvent describe(lttng_event& event) {
-  ListedEvent described{.name = event.name, .filter = {}, .exclusions = {}, .level = {}};
+  ListedEvent described{.name = event.name, .filter = {}, .level = {}};
   const char* filter = nullptr;
   check(lttng_event_get_filter_expression(&event, &filter));
   if (filter != nullptr) described.filter = filter;
-  const int exclusions = check(lttng_event_get_exclusion_name_count(&event));
-  for (int i = 0; i < exclusions; ++i) {
-    const char* name = nullptr;
-    check(lttng_event_get_exclusion_name(&event, static_cast<size_t>(i), &name));
-    described.exclusions.emplace_back(name);
-  }
   if (event.loglevel_type == LTTNG_EVENT_LOGLEVEL_RANGE) described.level = ">= " + std::to_string(event.loglevel);
   if (event.loglevel_type == LTTNG_EVENT_LOGLEVEL_SINGLE) described.level = "== " + std::to_string(event.loglevel);
   return described;

@@ -10,7 +10,6 @@ namespace trace_test {
 struct ListedEvent {
   std::string name;
   std::string filter;
-  std::vector<std::string> exclusions;
   std::string level;  // "", ">= N" or "== N"
 };
 

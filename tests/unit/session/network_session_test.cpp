@@ -78,7 +78,7 @@ TEST_F(NetworkSession, WithoutARelayDaemonItIsAnErrorThatSaysSo) {
     tracer->start(config());
     FAIL() << "no error";
   } catch (const TraceError& error) {
-    EXPECT_STREQ(error.what(), "cannot create trace session 'run': Unable to connect to relay daemon");
+    EXPECT_STREQ(error.what(), "cannot create ust channel 'ros2': Unable to connect to lttng-relayd");
     EXPECT_EQ(error.remedy(), "start a relay daemon there: lttng-relayd --daemonize");
   }
   EXPECT_EQ(trace_test::listed_sessions(), "");

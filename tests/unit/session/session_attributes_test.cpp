@@ -123,12 +123,14 @@ TEST_F(SessionAttributes, EventRulesWithFilterExclusionsAndLevels) {
   asked.events_ust = {"ros2:rmw_take if taken == 1 && message != 0", "ros2:rcl_* except ros2:rcl_init,ros2:rcl_take",
                       "my:* level WARNING", "other:* level =DEBUG_LINE"};
   const ListedChannel channel = session_of(asked).channel("ros2");
-  ASSERT_THAT(channel.event_names(), ElementsAre("my:*", "other:*", "ros2:rcl_*", "ros2:rmw_take"));
+  const std::vector<std::string> names = channel.event_names();
+  ASSERT_EQ(names.size(), 3u + 9u) << "there are eleven of rcl";
+  EXPECT_THAT(names, testing::AllOf(Contains("ros2:rcl_publish"), Not(Contains("ros2:rcl_init"))));
   EXPECT_EQ(channel.events[0].level, ">= 4");
   EXPECT_EQ(channel.events[1].level, "== 13");
-  EXPECT_THAT(channel.events[2].exclusions, ElementsAre("ros2:rcl_init", "ros2:rcl_take"));
   EXPECT_EQ(channel.events[2].level, "");
-  EXPECT_EQ(channel.events[3].filter, "taken == 1 && message != 0");
+  EXPECT_EQ(channel.events.back().name, "ros2:rmw_take");
+  EXPECT_EQ(channel.events.back().filter, "taken == 1 && message != 0");
 }
 
 TEST_F(SessionAttributes, FiltersAndExclusionsHold) {
@@ -188,11 +190,12 @@ TEST_F(SessionAttributes, BlockingChannelsLoseNothing) {
   asked.blocking_timeout_ust = -1;
   setenv("LTTNG_UST_ALLOW_BLOCKING", "1", 1);
   tracer->start(asked);
-  TracedApp(50'000, 200).end();
+  constexpr int kEvents = 400;  // ten times what the buffers hold; a thread that waits looks again after 100 ms
+  TracedApp(kEvents, 200).end();
   const LossAccount losses = tracer->finish(asked, [] { return false; });
   unsetenv("LTTNG_UST_ALLOW_BLOCKING");
   EXPECT_EQ(losses.discarded_events(), 0u);
-  EXPECT_EQ(read_trace(asked.trace_directory()).events.at("ros2:rclcpp_callback_register"), 50'000);
+  EXPECT_EQ(read_trace(asked.trace_directory()).events.at("ros2:rclcpp_callback_register"), kEvents);
 }
 
 TEST_F(SessionAttributes, NoMoreTraceFilesAreKeptThanAskedFor) {
@@ -253,7 +256,10 @@ TEST_F(SessionAttributes, WhatExcludesEachOtherIsAnErrorAndLeavesNoSession) {
   EXPECT_EQ(error_with([](TraceConfig& c) { c.channels = {{.name = "a/b", .events_ust = {"a:b"}}}; }),
             "'a/b' is no name for a channel\na name has 1 to 255 characters, none of them '/', and begins with no '.'");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.events_kernel = {"sched_switch level INFO"}; }),
-            "kernel event 'sched_switch' has a log level or exclusions\nonly userspace events can have them");
+            "kernel event 'sched_switch' has a log level\nonly userspace events can have one");
+  EXPECT_EQ(error_with([](TraceConfig& c) { c.events_ust = {"my:* except my:own"}; }),
+            "nothing can be taken out of 'my:*': only of events of provider ros2\n"
+            "name the events one by one, or use a filter");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.url = "/a/directory"; }),
             "'/a/directory' is no address of a relay daemon\n"
             "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path");
