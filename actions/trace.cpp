@@ -25,6 +25,7 @@ class Trace : public Action {
         syscalls_(fields, "syscalls"),
         context_fields_(fields, "context-fields"),
         nodes_(fields, "nodes"),
+        subbuffers_(fields.optional_text("subbuffers")),
         subbuffer_size_ust_(count_field(fields, "subbuffer-size-ust")),
         subbuffer_size_kernel_(count_field(fields, "subbuffer-size-kernel")),
         init_channel_(fields.boolean("init-channel", false)),
@@ -117,6 +118,14 @@ class Trace : public Action {
     if (nodes_.given()) {
       choices.nodes = nodes_.perform(scope);
     }
+    if (subbuffers_) {
+      const std::string kind = subbuffers_->perform(scope);
+      if (kind != "auto" && kind != "fixed") {
+        throw LaunchError(fmt::format("subbuffers is expected to be auto or fixed, got '{}'", kind),
+                          subbuffers_->where());
+      }
+      choices.auto_buffers = kind == "auto";
+    }
     choices.snapshot_on_crash = snapshot_on_crash_.perform(scope);
     choices.snapshot_on_events = snapshot_on_events_.perform_events(scope);
     if (snapshot_on_signal_) {
@@ -178,6 +187,7 @@ class Trace : public Action {
   WordsField context_fields_;
   WordsField nodes_;
   std::vector<ChannelFields> channels_;
+  std::optional<Template> subbuffers_;
   std::optional<NumberField> subbuffer_size_ust_;
   std::optional<NumberField> subbuffer_size_kernel_;
   BooleanField init_channel_;
@@ -223,6 +233,8 @@ std::vector<AttributeSpec> trace_attributes() {
       extension("nodes", AttributeType::kWords, "all",
                 "record these nodes and processes only, by name; * matches any text"),
       {"subbuffer-size-ust", AttributeType::kInteger, false, fmt::format("{}", defaults.subbuffer_size_ust), "bytes"},
+      extension("subbuffers", AttributeType::kText, "fixed",
+                "auto: subbuffer-size-ust from the number of processes and processors"),
       extension("init-channel", AttributeType::kBoolean, "false",
                 "initialisation events in a channel of their own, ros2_init"),
       extension("subbuffer-count-ust", AttributeType::kInteger, fmt::format("{}", defaults.subbuffer_count_ust),

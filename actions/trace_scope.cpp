@@ -6,6 +6,7 @@
 #include <fnmatch.h>
 #include <spawn.h>
 #include <string.h>
+#include <sys/sysinfo.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/unique_fd.hpp"
+#include "tracing/session/buffer_estimate.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
 
@@ -124,6 +126,15 @@ void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
 }
 
 void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
+  const auto traced = static_cast<std::size_t>(
+      std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
+  const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
+  if (choices_.auto_buffers) {
+    config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
+  }
+  if (std::string warning = tracing::buffer_warning(config_, traced, processors); !warning.empty()) {
+    setup_.warnings.push_back(std::move(warning));
+  }
   for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
     if (std::none_of(processes.begin(), processes.end(),
                      [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {

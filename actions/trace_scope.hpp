@@ -20,6 +20,7 @@ struct TraceChoices {
   // The patterns of the nodes and processes that alone are recorded; all when not given.
   std::optional<std::vector<std::string>> nodes = {};
   // When to take a snapshot: a process dies unasked, the launcher gets this signal (0: none), an event matches.
+  bool auto_buffers = false;  // userspace buffers sized from the number of processes and processors
   bool snapshot_on_crash = false;
   int snapshot_on_signal = 0;
   std::vector<std::string> snapshot_on_events = {};
