@@ -13,6 +13,9 @@ void append(std::vector<Item>& to, std::vector<Item>& from) {
 }
 
 void collect(LaunchPlan& plan, Requests requests, std::multimap<Duration, TimerRequest>& timers, Duration now) {
+  for (const auto& scope : requests.scopes) {
+    scope->expect(requests.processes);
+  }
   append(plan.scopes, requests.scopes);
   for (NodeDescription& node : requests.nodes) {
     node.process += plan.processes.size();
