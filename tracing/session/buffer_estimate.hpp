@@ -14,8 +14,8 @@ inline constexpr std::uint64_t kBytesPerEvent = 100;   // with the three context
 // How much longer than its read timer the consumer may be kept from reading, on a busy machine.
 inline constexpr double kConsumerDelay = 0.15;  // seconds
 
-// Bytes of a userspace sub-buffer, a power of two, so that `config.subbuffer_count_ust` of them for each of `processors`
-// hold the events of `nodes`. Never less than the default.
+// Bytes of a userspace sub-buffer, a power of two, so that `config.subbuffer_count_ust` of them for each of
+// `processors` hold the events of `nodes`. Never less than the default.
 std::uint64_t sufficient_subbuffer_size(const TraceConfig& config, std::size_t nodes, std::size_t processors);
 
 // A sentence when the userspace buffers of `config` don't hold the events of `nodes` by this estimate, else "".

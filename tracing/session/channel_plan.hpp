@@ -39,4 +39,9 @@ struct ChannelPlan {
 // what can't be had: a context field, an event rule, or attributes that exclude each other.
 std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
 
+// Makes the userspace sub-buffers of `plans` smaller, with a warning, until those of one user fit into `free` bytes of
+// shared memory. Throws TraceError when the smallest don't.
+void fit_into_shared_memory(std::vector<ChannelPlan>& plans, std::uint64_t free, std::uint64_t processors,
+                            std::vector<std::string>& warnings);
+
 }  // namespace tracing

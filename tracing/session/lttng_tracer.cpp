@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 #include <lttng/lttng.h>
+#include <sys/sysinfo.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -167,7 +168,12 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
   StepTimer timer(report.steps);
 
   check_config(config);
-  const std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
+  std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
+  if (std::any_of(channels.begin(), channels.end(),
+                  [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_UST; })) {
+    fit_into_shared_memory(channels, free_shared_memory(), static_cast<std::uint64_t>(get_nprocs_conf()),
+                           report.warnings);
+  }
   for (std::string& warning : perf_warnings(config.context_fields_ust)) report.warnings.push_back(std::move(warning));
   timer.finished("checks");
 
@@ -201,6 +207,7 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
+  check_daemon_responds();
   const std::optional<SessionSummary> session = find_session(name);
   LossAccount losses = stop_and_account(name, give_up);
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));

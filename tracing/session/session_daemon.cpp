@@ -159,11 +159,15 @@ void check_daemon_is_here(const std::string& pid_file) {
   }
 }
 
+void check_daemon_responds() {
+  check_daemon_is_here(pid_file_of_daemon());
+}
+
 bool ensure_session_daemon() {
   // A stopped daemon accepts the connection and would block us for ever: look at the process first.
   const bool alive = daemon_answers();
   if (!alive) start_daemon();
-  check_daemon_is_here(pid_file_of_daemon());
+  check_daemon_responds();
   return !alive;
 }
 

@@ -23,4 +23,7 @@ bool ensure_session_daemon();
 // file is no objection.
 void check_daemon_is_here(const std::string& pid_file);
 
+// Throws when the daemon is stopped: it would block every call for ever.
+void check_daemon_responds();
+
 }  // namespace tracing

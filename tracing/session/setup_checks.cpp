@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <lttng/lttng.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -73,6 +74,21 @@ void check_writable(const std::string& base_path) {
   }
   throw TraceError(fmt::format("cannot write traces to {}: {}", base_path, reason),
                    "choose another base-path, or set ROS_TRACE_DIR");
+}
+
+std::uint64_t free_shared_memory() {
+  constexpr const char* kFolder = "/dev/shm";
+  struct statvfs usage {};
+  const int result = statvfs(kFolder, &usage);
+  int error = result != 0 ? errno : 0;
+  if (error == 0 && (usage.f_flag & ST_RDONLY) != 0) error = EROFS;
+  if (error == 0 && faccessat(AT_FDCWD, kFolder, W_OK | X_OK, AT_EACCESS) != 0) error = errno;
+  if (error != 0) {
+    throw TraceError(
+        fmt::format("userspace events need shared memory, but {} cannot be written: {}", kFolder, std::strerror(error)),
+        "mount a tmpfs there that all users can write to; containers have one unless it was taken away");
+  }
+  return std::uint64_t{usage.f_bavail} * usage.f_frsize;
 }
 
 void check_kernel_tracer() {

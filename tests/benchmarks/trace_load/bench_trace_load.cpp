@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tracing/session/tracer.hpp"
@@ -140,7 +141,15 @@ struct Bench {
     std::vector<double> ended;
     for (int run = 0; run < kWarmRuns; ++run) {
       warm.push_back(begin(fmt::format("warm{}", run)));
-      run_nodes({.nodes = 2, .events_per_second = 2000, .seconds = 0}, 0);
+      // As the launcher does while nodes run.
+      std::thread flush([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        if (std::system(METADATA_FLUSH_PROGRAM) != 0) {
+          fail("failed: " METADATA_FLUSH_PROGRAM);
+        }
+      });
+      run_nodes({.nodes = 2, .events_per_second = 2000, .seconds = 1}, 1);
+      flush.join();
       ended.push_back(end(losses));
     }
     std::sort(warm.begin(), warm.end());

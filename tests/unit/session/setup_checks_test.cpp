@@ -123,6 +123,24 @@ TEST(ChannelPlan, TakesNamesOnceAndOnlyUsedDomains) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ChannelPlan, FitsIntoTheSharedMemoryThatThereIs) {
+  TraceConfig config;  // 4 x 1 MiB
+  std::vector<std::string> warnings;
+  auto plans = tracing::plan_channels(config, warnings);
+  const std::uint64_t mib = std::uint64_t{1} << 20;
+  tracing::fit_into_shared_memory(plans, 64 * mib, 8, warnings);
+  EXPECT_EQ(plans[0].subbuffer_size, mib);
+  EXPECT_TRUE(warnings.empty());
+  tracing::fit_into_shared_memory(plans, 64 * mib, 32, warnings);
+  EXPECT_EQ(plans[0].subbuffer_size, mib / 4);
+  EXPECT_THAT(warnings, testing::ElementsAre(
+                            "/dev/shm has 67108864 bytes left, and the buffers would need 142606336: sub-buffers "
+                            "are made smaller, 262144 bytes; more room is given to a container with --shm-size"));
+  EXPECT_EQ(error_of([&] { tracing::fit_into_shared_memory(plans, mib, 32, warnings); }),
+            "the buffers need 4456448 bytes of shared memory, and /dev/shm has 1048576 left\n"
+            "give it more (in a container with --shm-size), or leave channels out");
+}
+
 TEST(ChannelPlan, HasAKernelChannelForSystemCalls) {
   TraceConfig config;
   config.syscalls = {"openat"};
