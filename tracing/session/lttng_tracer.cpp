@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <lttng/lttng.h>
 #include <sys/sysinfo.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "tracing/session/channels.hpp"
+#include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
@@ -163,14 +165,46 @@ class LttngTracer : public Tracer {
   }
 };
 
+bool has_domain(const std::vector<ChannelPlan>& channels, lttng_domain_type domain) {
+  return std::any_of(channels.begin(), channels.end(),
+                     [domain](const ChannelPlan& channel) { return channel.domain == domain; });
+}
+
+// Where LTTng's kernel modules are not there but the kernel's own tracer can take their place: the kernel channels,
+// which are taken out of `channels`. Throws TraceError when neither can be used.
+std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig& config,
+                                                              std::vector<ChannelPlan>& channels,
+                                                              std::vector<std::string>& warnings) {
+  std::string why;
+  try {
+    check_kernel_tracer();
+    return {};
+  } catch (const TraceError& error) {
+    // Snapshots and relay daemons are LTTng's own.
+    if (!kernel_recorder_program() || geteuid() != 0 || config.records_snapshots() || config.over_network()) throw;
+    why = error.what();
+  }
+  std::vector<ChannelPlan> kernel;
+  for (const ChannelPlan& channel : channels) {
+    if (channel.domain == LTTNG_DOMAIN_KERNEL) kernel.push_back(channel);
+  }
+  std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
+  if (channels.empty()) {
+    throw TraceError("kernel events are recorded through tracefs, and only beside userspace events",
+                     "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
+  }
+  warnings.push_back(
+      fmt::format("{}; they are recorded through tracefs instead, with the thread as only context", why));
+  return kernel;
+}
+
 SetupReport LttngTracer::start(const TraceConfig& config) {
   SetupReport report{.trace_directory = config.destination(), .steps = {}, .warnings = {}};
   StepTimer timer(report.steps);
 
   check_config(config);
   std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
-  if (std::any_of(channels.begin(), channels.end(),
-                  [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_UST; })) {
+  if (has_domain(channels, LTTNG_DOMAIN_UST)) {
     fit_into_shared_memory(channels, free_shared_memory(), static_cast<std::uint64_t>(get_nprocs_conf()),
                            report.warnings);
   }
@@ -179,9 +213,9 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
 
   report.started_daemon = ensure_session_daemon();
   timer.finished("session daemon");
-  if (std::any_of(channels.begin(), channels.end(),
-                  [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; })) {
-    check_kernel_tracer();
+  std::vector<ChannelPlan> through_tracefs;
+  if (has_domain(channels, LTTNG_DOMAIN_KERNEL)) {
+    through_tracefs = take_kernel_channels_without_modules(config, channels, report.warnings);
     timer.finished("kernel tracer");
   }
 
@@ -201,6 +235,11 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
   }
   check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
   timer.finished("start");
+  if (!through_tracefs.empty()) {
+    const std::optional<SessionSummary> created = find_session(session_name);
+    start_kernel_recorder(*kernel_recorder_program(), session_name, created ? created->path : "", through_tracefs);
+    timer.finished("kernel recorder");
+  }
   session.keep();
   return report;
 }
@@ -210,12 +249,23 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   check_daemon_responds();
   const std::optional<SessionSummary> session = find_session(name);
   LossAccount losses = stop_and_account(name, give_up);
+  std::optional<ChannelLoss> kernel;
+  std::string kernel_failure;
+  if (session) {
+    try {
+      kernel = finish_kernel_recorder(session->path);
+    } catch (const TraceError& error) {
+      kernel_failure = error.what();
+    }
+  }
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
     if (give_up && give_up()) break;
   }
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
+  if (kernel) losses.channels.push_back(*kernel);
   if (local && !session->snapshot) judge(losses, name, session->path);
+  if (!kernel_failure.empty()) throw TraceError(kernel_failure);
   return losses;
 }
 
