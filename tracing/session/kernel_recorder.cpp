@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFolder = "kernel";
-constexpr const char* kChannel = "tracefs";
+constexpr const char* kChannel = "kernel";
 constexpr int kLongestEnd = 30'000;  // ms
 
 std::vector<std::string> arguments_of(const fs::path& program, const std::string& session, const fs::path& recording,
@@ -116,7 +116,6 @@ std::optional<ChannelLoss> finish_kernel_recorder(const fs::path& recording) {
     throw TraceError("the kernel recorder has not ended as it should: kernel events of this trace are lost");
   }
   loss.discarded_events = said.value("lost_events", std::uint64_t{0});
-  loss.bytes = said.value("bytes", std::uint64_t{0});
   return loss;
 }
 

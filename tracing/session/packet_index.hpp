@@ -1,4 +1,4 @@
-// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams.
+// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams, or the streams.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ struct Stream {
   std::vector<Packet> packets;
 };
 
-// The streams of the recording in `directory` (the path of its session). A file that can't be read as an index gives no
-// stream. Format: struct ctf_packet_index of lttng-tools, big-endian.
+// The streams of the recording in `directory` (the path of its session, or of a snapshot). A file that is no stream gives
+// none. Format of an index: struct ctf_packet_index of lttng-tools, big-endian.
 std::vector<Stream> read_packet_index(const std::filesystem::path& directory);
 
 }  // namespace tracing

@@ -85,7 +85,7 @@ void explain_losses(LossAccount& account, const std::filesystem::path& directory
       for (const Packet& packet : stream.packets) channel.bytes += packet.bytes;
       longest = std::max(longest, add_ranges(stream, origin, channel.ranges));
     }
-    if (channel.discarded_events == 0) continue;
+    if (channel.discarded_events == 0 || channel.subbuffer_count == 0) continue;
     // What was lost after the last packet is known as a sum only.
     const std::uint64_t missing = std::max(longest, std::uint64_t{1}) * kBytesPerLostEvent;
     const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + missing);
