@@ -98,6 +98,14 @@ TEST_F(KernelTrace, UnknownEventsAreAnErrorAtTheTraceAndLeaveNothing) {
       run_command({"sh", "-c", "mount -t tracefs none /sys/kernel/tracing; ls /sys/kernel/tracing/instances"}).out, "");
 }
 
+TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
+  for (const std::string format : {"xml", "yaml"}) {
+    const CommandResult result = run_command({LAUNCH_PROGRAM, EXAMPLES_DIRECTORY "/24_kernel.launch." + format});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+  }
+}
+
 TEST_F(KernelTrace, RecordsFromACommandUntilAnotherStopsIt) {
   ASSERT_EQ(run_command({LAUNCH_PROGRAM, "trace", "start", "run", "-k", "sched_process_exec"}).exit_code, 0);
   run_command({"true"});

@@ -177,6 +177,19 @@ TEST_F(TraceControl, SnapshotsAreTakenOnASignalAndOnAnEvent) {
   EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, testing::Not(HasSubstr("run:")));
 }
 
+TEST_F(TraceControl, TheNetworkExampleSendsItsTraceToTheRelayDaemon) {
+  const fs::path relayed = sandbox_.directory() / "relayed";
+  ASSERT_EQ(run_command({"lttng-relayd", "--daemonize", "--output=" + relayed.string()}).exit_code, 0);
+  for (const std::string format : {"xml", "yaml"}) {
+    const CommandResult result = run_command({LAUNCH_PROGRAM, EXAMPLES_DIRECTORY "/25_network.launch." + format});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.out, HasSubstr("trace written to: net://127.0.0.1"));
+    EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+    EXPECT_FALSE(events(relayed, "ros2:rcl_node_init").empty());
+    fs::remove_all(relayed);
+  }
+}
+
 TEST_F(TraceControl, WhatSnapshotsAreTakenOnIsChecked) {
   const std::string file =
       write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-signal="SIGKILL"/>)xml");
