@@ -176,14 +176,14 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
       });
 }
 
-// Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/metadata_flush.c).
+// Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c).
 void TraceScope::flush_metadata_later(EventLoop& loop) {
   if (config_.events_ust.empty()) {
     return;
   }
   metadata_flush_ = loop.after(kNodesHaveRegistered, [this, &loop] {
     in_background(
-        loop, [this] { output_of(prefix_ + "/lib/launch/launch-metadata-flush", {}); }, [](std::exception_ptr) {});
+        loop, [this] { output_of(prefix_ + "/lib/launch/launch-trace-probe", {}); }, [](std::exception_ptr) {});
   });
 }
 

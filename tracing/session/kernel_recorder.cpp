@@ -79,13 +79,6 @@ std::string line_after(const std::string& text, const std::string& key) {
 
 }  // namespace
 
-std::optional<fs::path> kernel_recorder_program() {
-  std::error_code ignored;
-  const fs::path own = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path program = own.parent_path().parent_path() / "lib" / "launch" / "launch-kernel-recorder";
-  return fs::exists(program, ignored) ? std::optional(program) : std::nullopt;
-}
-
 void start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
                            const std::vector<ChannelPlan>& plans) {
   const std::string said = start_and_listen(arguments_of(program, session, recording, plans));

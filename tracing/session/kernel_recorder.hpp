@@ -11,8 +11,7 @@
 
 namespace tracing {
 
-// Where the recorder stands beside this program; nothing when it was not installed.
-std::optional<std::filesystem::path> kernel_recorder_program();
+inline constexpr const char* kKernelRecorder = "launch-kernel-recorder";
 
 // Starts it for the kernel channels of `plans`, writing to `recording`/kernel. Returns when it records. Throws
 // TraceError.

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "tracing/session/channels.hpp"
+#include "tracing/session/context_check.hpp"
+#include "tracing/session/installed_program.hpp"
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
@@ -181,7 +183,8 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
     return {};
   } catch (const TraceError& error) {
     // Snapshots and relay daemons are LTTng's own.
-    if (!kernel_recorder_program() || geteuid() != 0 || config.records_snapshots() || config.over_network()) throw;
+    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.records_snapshots() || config.over_network())
+      throw;
     why = error.what();
   }
   std::vector<ChannelPlan> kernel;
@@ -208,11 +211,11 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
     fit_into_shared_memory(channels, free_shared_memory(), static_cast<std::uint64_t>(get_nprocs_conf()),
                            report.warnings);
   }
-  for (std::string& warning : perf_warnings(config.context_fields_ust)) report.warnings.push_back(std::move(warning));
   timer.finished("checks");
 
   report.started_daemon = ensure_session_daemon();
   timer.finished("session daemon");
+  for (std::string& warning : context_warnings(channels)) report.warnings.push_back(std::move(warning));
   std::vector<ChannelPlan> through_tracefs;
   if (has_domain(channels, LTTNG_DOMAIN_KERNEL)) {
     through_tracefs = take_kernel_channels_without_modules(config, channels, report.warnings);
@@ -237,7 +240,8 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
   timer.finished("start");
   if (!through_tracefs.empty()) {
     const std::optional<SessionSummary> created = find_session(session_name);
-    start_kernel_recorder(*kernel_recorder_program(), session_name, created ? created->path : "", through_tracefs);
+    start_kernel_recorder(*installed_program(kKernelRecorder), session_name, created ? created->path : "",
+                          through_tracefs);
     timer.finished("kernel recorder");
   }
   session.keep();

@@ -1,4 +1,5 @@
-// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams, or the streams.
+// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams, or the
+// streams.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ struct Stream {
   std::vector<Packet> packets;
 };
 
-// The streams of the recording in `directory` (the path of its session, or of a snapshot). A file that is no stream gives
-// none. Format of an index: struct ctf_packet_index of lttng-tools, big-endian.
+// The streams of the recording in `directory` (the path of its session, or of a snapshot). A file that is no stream
+// gives none. Format of an index: struct ctf_packet_index of lttng-tools, big-endian.
 std::vector<Stream> read_packet_index(const std::filesystem::path& directory);
 
 }  // namespace tracing

@@ -144,8 +144,8 @@ struct Bench {
       // As the launcher does while nodes run.
       std::thread flush([] {
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
-        if (std::system(METADATA_FLUSH_PROGRAM) != 0) {
-          fail("failed: " METADATA_FLUSH_PROGRAM);
+        if (std::system(TRACE_PROBE_PROGRAM) != 0) {
+          fail("failed: " TRACE_PROBE_PROGRAM);
         }
       });
       run_nodes({.nodes = 2, .events_per_second = 2000, .seconds = 1}, 1);

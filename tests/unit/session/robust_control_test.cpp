@@ -15,6 +15,7 @@
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"
 #include "tests/unit/session/trace_reading.hpp"
+#include "tracing/session/context_check.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/tracer.hpp"
 
@@ -182,6 +183,14 @@ TEST_F(RobustControl, FiveHundredProcessesAreAllRecorded) {
   const LossAccount losses = tracer->finish(many, never);
   EXPECT_EQ(losses.discarded_events(), 0u);
   EXPECT_EQ(read_trace(many.trace_directory()).events["ros2:rcl_init"], kProcesses);
+}
+
+TEST_F(RobustControl, ContextFieldsAreTriedByRecordingOneEvent) {
+  tracing::ensure_session_daemon();
+  EXPECT_TRUE(tracing::records_an_event({"vpid"}, TRACE_PROBE));
+  // A raw counter that no processor has: LTTng accepts it and records nothing.
+  EXPECT_FALSE(tracing::records_an_event({"perf:thread:raw:rffffffffffff:NONE"}, TRACE_PROBE));
+  EXPECT_EQ(listed_sessions(), "");
 }
 
 TEST_F(RobustControl, AWrongUserIsToldWhoseSessionItIs) {
