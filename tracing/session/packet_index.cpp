@@ -76,7 +76,7 @@ std::vector<Packet> read_stream_file(const fs::path& path) {
                        .end = start.end,
                        .bytes = start.content_bits / 8,
                        .discarded_events = start.discarded,
-                       .sequence_number = start.sequence_number});
+                       .sequence_number = std::uint64_t{start.sequence_number}});
   }
   return packets;
 }
