@@ -141,6 +141,7 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
 void judge(LossAccount& losses, const std::string& name, const std::string& directory) {
   explain_losses(losses, directory);
+  losses.damage = find_damage(directory);
   try {
     write_verdict(losses, name, directory);
   } catch (const TraceError& error) {

@@ -50,10 +50,11 @@ struct ChannelLoss {
 struct LossAccount {
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
-  bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short; }
+  bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short && damage.empty(); }
 
   std::vector<ChannelLoss> channels;
   bool cut_short = false;              // the wait for the last data was given up
+  std::string damage = {};             // what keeps the trace from being complete and nobody has counted, a sentence
   std::string unwritten_verdict = {};  // why verdict.json could not be written
 };
 

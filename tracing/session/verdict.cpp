@@ -1,6 +1,7 @@
 #include "tracing/session/verdict.hpp"
 
 #include <fmt/core.h>
+#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +16,8 @@
 
 namespace tracing {
 namespace {
+
+constexpr std::uint64_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 
 std::uint64_t first_time(const std::vector<Stream>& streams) {
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
@@ -93,10 +96,18 @@ void explain_losses(LossAccount& account, const std::filesystem::path& directory
   }
 }
 
+std::string find_damage(const std::filesystem::path& directory) {
+  struct statvfs usage {};
+  if (statvfs(directory.c_str(), &usage) != 0) return {};
+  if (std::uint64_t{usage.f_bavail} * usage.f_frsize >= kRoomLeftByAWorkingConsumer) return {};
+  return fmt::format("the file system of {} is full: events are missing, nobody knows how many", directory.string());
+}
+
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name) {
   nlohmann::ordered_json json = {{"session", session_name},
                                  {"complete", account.complete()},
                                  {"cut_short", account.cut_short},
+                                 {"damage", account.damage},
                                  {"discarded_events", account.discarded_events()},
                                  {"lost_packets", account.lost_packets()},
                                  {"channels", nlohmann::ordered_json::array()}};

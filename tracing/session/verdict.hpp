@@ -25,6 +25,10 @@ inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 wi
 inline constexpr std::uint64_t kAdvisedSubbuffers = 4;
 inline constexpr std::uint64_t kLargestAdvice = std::uint64_t{256} << 20;  // bytes for each processor and channel
 
+// What LTTng does not count: a sentence when the file system of `directory` is full, for its consumer then drops what
+// it can't write without a word. "" otherwise.
+std::string find_damage(const std::filesystem::path& directory);
+
 // For programs: session, complete, cut_short, discarded_events, lost_packets, channels with their ranges and advice.
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name);
 

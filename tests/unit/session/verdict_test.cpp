@@ -95,6 +95,7 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
   "session": "run",
   "complete": true,
   "cut_short": false,
+  "damage": "",
   "discarded_events": 0,
   "lost_packets": 0,
   "channels": [
