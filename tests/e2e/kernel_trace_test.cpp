@@ -64,7 +64,7 @@ TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) 
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("they are recorded through tracefs instead"));
   const fs::path directory = sandbox_.trace_directory() / "run";
-  EXPECT_FALSE(fs::exists(directory / "kernel" / "recorder.pid"));
+  EXPECT_FALSE(fs::exists(directory / "kernel-recorder.pid"));
   EXPECT_THAT(read_file(directory / "verdict.json"), HasSubstr("\"domain\": \"kernel\""));
 
   const std::vector<std::string> lines = lines_of(directory);

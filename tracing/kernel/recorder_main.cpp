@@ -1,8 +1,9 @@
 // launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME]…
 //
 // Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. Says "ready" once it
-// records, or "error: …" and "hint: …", and closes its output. While it runs DIRECTORY/recorder.pid holds its number;
-// at the end DIRECTORY/recorder.json says what it has recorded and lost.
+// records, or "error: …" and "hint: …", and closes its output. While it runs DIRECTORY/../kernel-recorder.pid holds its
+// number; at the end kernel-recorder.json there says what it has recorded and lost. (Readers of CTF take every file of
+// DIRECTORY for a stream.)
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -100,11 +101,12 @@ void say(const std::string& text) {
 
 void record(TracefsInstance& instance, const fs::path& directory, int signals) {
   fs::create_directories(directory);
+  const fs::path beside = directory.parent_path();
   CtfWriter writer(directory, instance.formats());
   const std::vector<RingBuffer> buffers = open_buffers(instance);
   std::vector<pollfd> watched = {{signals, POLLIN, 0}};
   for (const RingBuffer& buffer : buffers) watched.push_back({buffer.file.get(), POLLIN, 0});
-  std::ofstream(directory / "recorder.pid") << getpid() << "\n";
+  std::ofstream(beside / "kernel-recorder.pid") << getpid() << "\n";
   instance.start();
   say("ready\n");
 
@@ -116,10 +118,11 @@ void record(TracefsInstance& instance, const fs::path& directory, int signals) {
   }
   instance.stop();
   for (const RingBuffer& buffer : buffers) drain(buffer, writer);
-  writer.write_metadata(clock_beside(directory.parent_path() / "ust"));
-  std::ofstream(directory / "recorder.json") << fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n",
-                                                            writer.events(), writer.lost_events(), writer.bytes());
-  fs::remove(directory / "recorder.pid");
+  writer.write_metadata(clock_beside(beside / "ust"));
+  std::ofstream(beside / "kernel-recorder.json")
+      << fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n", writer.events(), writer.lost_events(),
+                     writer.bytes());
+  fs::remove(beside / "kernel-recorder.pid");
 }
 
 }  // namespace

@@ -90,9 +90,8 @@ void start_kernel_recorder(const fs::path& program, const std::string& session, 
 }
 
 std::optional<ChannelLoss> finish_kernel_recorder(const fs::path& recording) {
-  const fs::path folder = recording / kFolder;
   pid_t pid = 0;
-  if (!(std::ifstream(folder / "recorder.pid") >> pid) || pid <= 0) return std::nullopt;
+  if (!(std::ifstream(recording / "kernel-recorder.pid") >> pid) || pid <= 0) return std::nullopt;
   const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
   if (pidfd >= 0) {
     kill(pid, SIGTERM);
@@ -103,8 +102,11 @@ std::optional<ChannelLoss> finish_kernel_recorder(const fs::path& recording) {
     waitpid(pid, nullptr, WNOHANG);  // when it is our child
   }
   ChannelLoss loss{.domain = "kernel", .channel = kChannel};
-  std::ifstream file(folder / "recorder.json");
+  const fs::path result = recording / "kernel-recorder.json";
+  std::ifstream file(result);
   const auto said = nlohmann::json::parse(file, nullptr, false);
+  std::error_code ignored;
+  fs::remove(result, ignored);
   if (said.is_discarded()) {
     throw TraceError("the kernel recorder has not ended as it should: kernel events of this trace are lost");
   }
