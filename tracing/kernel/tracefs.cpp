@@ -53,12 +53,14 @@ std::string read_file(const fs::path& path) {
 
 TracefsInstance::TracefsInstance(const std::string& name) {
   const fs::path directory = find_tracefs() / "instances" / name;
+  ::rmdir(directory.c_str());  // of a recorder that was killed; one in use stays
   std::error_code error;
   if (!fs::create_directory(directory, error)) {
     throw KernelTraceError(
         fmt::format("cannot create {}: {}", directory.string(), error ? error.message() : "it exists already"),
-        error == std::errc::permission_denied ? kPrivilege
-                                              : "a recording that was killed leaves one: remove it with rmdir");
+        error == std::errc::permission_denied
+            ? kPrivilege
+            : "another session of this name records kernel events: choose another session-name");
   }
   directory_ = directory;
   try {
