@@ -15,6 +15,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/core/launch_context.hpp"
+#include "launcher/core/ros_tasks.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
@@ -35,6 +36,10 @@ class LaunchService {
   void record_to(LaunchRecorder& recorder) { recorder_ = &recorder; }
   // Tells the recorder and the scopes that want to know.
   void record(const LaunchRecord& record);
+
+  // Who loads components and changes states. Without a client a launch that asks for either fails. It must outlive the
+  // service.
+  void use_ros_client(RosClient& client);
 
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
   // the launch itself, a process that could not be started included. How processes ended doesn't count.
@@ -58,9 +63,11 @@ class LaunchService {
   void begin_next();
   void on_begun(std::exception_ptr error);
   void start(Requests requests);
+  void start_ros_tasks(Requests& requests);
   void fail(const LaunchError& error);
   void shutdown();
   void check_finished();
+  void post_check();
   void end_next_scope();
   void guard(const RunScope& scope);
   void unguard(const RunScope& scope);
@@ -76,6 +83,7 @@ class LaunchService {
   Guardian* guardian_ = nullptr;
   LaunchRecorder* recorder_ = nullptr;
   bool recording_ = false;
+  std::unique_ptr<RosTasks> ros_tasks_;                // null without a client
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
   std::deque<Requests> waiting_;  // the first one may be beginning its scopes

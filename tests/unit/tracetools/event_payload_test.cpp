@@ -1,5 +1,4 @@
 // The events of ROS 2, compared with what LTTng wrote and babeltrace2 reads: neither is ours.
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -256,35 +255,6 @@ TEST(EventFunctions, AreThoseOfTheEvents) {
   EXPECT_EQ(kDeclaredNames, expected_names(kEvents));
   EXPECT_EQ(kDeclaredNames.size(), 42u);
   EXPECT_EQ(kDeclaredExtNames, expected_names(kExtEvents));
-}
-
-// Of an event: to record if wanted, to ask, to record.
-std::vector<std::string> functions_of_events() {
-  std::vector<std::string> functions;
-  for (const char* infix : {"", "do_", "enabled_"}) {
-    for (const std::string& name : kDeclaredNames) functions.push_back("ros_trace_" + (infix + name));
-    for (const std::string& name : kDeclaredExtNames) functions.push_back("ros_trace_ext_" + (infix + name));
-  }
-  return functions;
-}
-
-// A stack built with one configuration runs with the library of another.
-TEST(EventFunctions, AreTheSameWhenTracepointsAreExcluded) {
-  void* excluded = dlopen(EXCLUDED_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-  ASSERT_NE(excluded, nullptr) << dlerror();
-  for (void* library : {excluded, RTLD_DEFAULT}) {
-    for (const std::string& name : functions_of_events()) {
-      EXPECT_NE(dlsym(library, name.c_str()), nullptr) << name;
-    }
-  }
-  for (const std::string& name : functions_of_events()) {
-    if (name.find("_enabled_") == std::string::npos) continue;
-    EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(excluded, name.c_str()))()) << name;
-  }
-  for (const char* status : {"ros_trace_compile_status", "ros_trace_runtime_status"}) {
-    EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(excluded, status))()) << status;
-  }
-  dlclose(excluded);
 }
 
 }  // namespace
