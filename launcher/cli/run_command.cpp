@@ -95,10 +95,10 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context.scope());
 
+  LaunchTracepoints tracepoints(own_install_prefix());
   LaunchService service(context, *loop, supervisor, print_error);
   service.use_ros_client(ros_client);
   service.guard_scopes(guardian);
-  LaunchTracepoints tracepoints(own_install_prefix());
   service.record_to(tracepoints);
   service.record(load_record);
   const int exit_code = service.run(*description);
