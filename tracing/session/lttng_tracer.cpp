@@ -251,7 +251,7 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
-  check_daemon_responds();
+  check_daemon_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
   LossAccount losses = stop_and_account(name, give_up);
   std::optional<ChannelLoss> kernel;

@@ -160,13 +160,24 @@ void start_daemon() {
           kDaemon));
 }
 
+// 0 when there is none.
+pid_t read_pid(const std::string& pid_file) {
+  std::ifstream file(pid_file);
+  pid_t pid = 0;
+  return file >> pid && pid > 0 ? pid : 0;
+}
+
+void check_not_stopped(pid_t pid, const ProcessStat& process) {
+  if (process.name != kDaemon || process.state != 'T') return;
+  throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and answers nobody", pid),
+                   fmt::format("continue it with `kill -CONT {}`", pid));
+}
+
 }  // namespace
 
 void check_daemon_is_here(const std::string& pid_file) {
-  std::ifstream file(pid_file);
-  pid_t pid = 0;
-  if (!(file >> pid) || pid <= 0) return;
-
+  const pid_t pid = read_pid(pid_file);
+  if (pid == 0) return;
   const ProcessStat process = read_process_stat(pid);
   const bool hidden = process.name.empty() && kill(pid, 0) != 0 && errno == EPERM;  // /proc with hidepid
   if (hidden) return;
@@ -176,21 +187,18 @@ void check_daemon_is_here(const std::string& pid_file) {
                     pid_file, pid, kDaemon),
         "another container shares this home directory: give each container its own LTTNG_HOME (LTTng bug 1371)");
   }
-  if (process.state == 'T') {
-    throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and answers nobody", pid),
-                     fmt::format("continue it with `kill -CONT {}`", pid));
-  }
+  check_not_stopped(pid, process);
 }
 
-void check_daemon_responds() {
-  check_daemon_is_here(pid_file_of_daemon());
+void check_daemon_not_stopped() {
+  if (const pid_t pid = read_pid(pid_file_of_daemon()); pid != 0) check_not_stopped(pid, read_process_stat(pid));
 }
 
 bool ensure_session_daemon() {
   // A stopped daemon accepts the connection and would block us for ever: look at the process first.
   const bool alive = daemon_answers();
   if (!alive) start_daemon();
-  check_daemon_responds();
+  check_daemon_is_here(pid_file_of_daemon());
   return !alive;
 }
 

@@ -24,6 +24,6 @@ bool ensure_session_daemon();
 void check_daemon_is_here(const std::string& pid_file);
 
 // Throws when the daemon is stopped: it would block every call for ever.
-void check_daemon_responds();
+void check_daemon_not_stopped();
 
 }  // namespace tracing

@@ -239,9 +239,10 @@ TEST_F(LttngTracer, KernelEventsWithoutAKernelTracerAreAnErrorAndNoSessionIsLeft
 
 TEST_F(LttngTracer, FailureHalfWayLeavesNoSessionAndNoDirectory) {
   TraceConfig config = config_named("run");
-  const std::string too_long(300, 'x');  // found when the session and its channel exist
-  config.events_ust = {"ros2:rcl_init", too_long};
-  EXPECT_EQ(start_error(config), "event name '" + too_long + "' has 300 characters: 1 to 255 are possible\n");
+  config.events_ust = {"ros2:rcl_init", "ros2:rcl_take if ((("};  // found when the session and its channel exist
+  EXPECT_EQ(start_error(config),
+            "LTTng does not understand the filter of event 'ros2:rcl_take': (((\n"
+            "lttng-enable-event(1) describes filter expressions");
   EXPECT_EQ(listed_sessions(), "");
   EXPECT_FALSE(std::filesystem::exists(config.trace_directory()));
 }
