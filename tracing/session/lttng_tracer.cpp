@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tracing/session/channels.hpp"
+#include "tracing/session/consumer_priority.hpp"
 #include "tracing/session/context_check.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/kernel_recorder.hpp"
@@ -245,6 +246,8 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
                           through_tracefs);
     timer.finished("kernel recorder");
   }
+  prefer_consumers(session_daemon_pid());
+  timer.finished("consumer priority");
   session.keep();
   return report;
 }

@@ -190,8 +190,12 @@ void check_daemon_is_here(const std::string& pid_file) {
   check_not_stopped(pid, process);
 }
 
+pid_t session_daemon_pid() {
+  return read_pid(pid_file_of_daemon());
+}
+
 void check_daemon_not_stopped() {
-  if (const pid_t pid = read_pid(pid_file_of_daemon()); pid != 0) check_not_stopped(pid, read_process_stat(pid));
+  if (const pid_t pid = session_daemon_pid(); pid != 0) check_not_stopped(pid, read_process_stat(pid));
 }
 
 bool ensure_session_daemon() {

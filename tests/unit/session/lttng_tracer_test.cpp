@@ -75,8 +75,9 @@ TEST_F(LttngTracer, RecordsEveryEventOfTwoApplications) {
   const SetupReport report = tracer->start(config);
   EXPECT_EQ(report.trace_directory, config.trace_directory());
   EXPECT_THAT(report.warnings, IsEmpty());
-  EXPECT_THAT(step_names(report), testing::ElementsAre("checks", "session daemon", "create session", "channel ros2",
-                                                       "events ros2", "context fields ros2", "start"));
+  EXPECT_THAT(step_names(report),
+              testing::ElementsAre("checks", "session daemon", "create session", "channel ros2", "events ros2",
+                                   "context fields ros2", "start", "consumer priority"));
   TracedApp first(60, 100);
   TracedApp second(60, 100);
   first.end();

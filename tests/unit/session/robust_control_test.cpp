@@ -181,6 +181,16 @@ TEST_F(RobustControl, FiveHundredProcessesAreAllRecorded) {
   EXPECT_EQ(read_trace(many.trace_directory()).events["ros2:rcl_init"], kProcesses);
 }
 
+TEST_F(RobustControl, TheConsumerIsPreferredWherePermitted) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root no process can be preferred";
+  tracer->start(config());
+  const auto nice =
+      test_support::run_command({"sh", "-c", "ps --ppid $(cat /run/lttng/lttng-sessiond.pid) -L -o nice="});
+  EXPECT_EQ(nice.out.find_first_not_of("-10 \n"), std::string::npos) << nice.out;
+  EXPECT_THAT(nice.out, HasSubstr("-10"));
+  tracer->finish(config(), never);
+}
+
 TEST_F(RobustControl, ContextFieldsAreTriedByRecordingOneEvent) {
   tracing::ensure_session_daemon();
   EXPECT_TRUE(tracing::records_an_event({"vpid"}, TRACE_PROBE));
