@@ -177,6 +177,25 @@ TEST_F(TraceControl, SnapshotsAreTakenOnASignalAndOnAnEvent) {
   EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, testing::Not(HasSubstr("run:")));
 }
 
+TEST_F(TraceControl, AKilledLauncherLeavesNoTriggerAndNoSession) {
+  const std::string file =
+      write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-events="ros2:rcl_init"/>
+<executable name="app" output="screen" cmd=")xml" TRACED_APP R"xml( 1 10"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("(event ros2:rcl_init)")) << run.out() << run.err();
+  EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, HasSubstr("run:0"));
+  run.send_signal(SIGKILL);
+  EXPECT_EQ(run.wait().signal, SIGKILL);
+  while (true) {  // the guardian and what it ends become ours; the session daemon stays
+    const CommandResult sessions = run_command({"lttng", "list"});
+    if (sessions.out.find("Currently no available recording session") != std::string::npos) break;
+    ASSERT_EQ(sessions.exit_code, 0) << sessions.err;
+  }
+  for (std::string triggers = "run:"; triggers.find("run:") != std::string::npos;) {
+    triggers = run_command({"lttng", "list-triggers"}).out;
+  }
+}
+
 TEST_F(TraceControl, TheNetworkExampleSendsItsTraceToTheRelayDaemon) {
   const fs::path relayed = sandbox_.directory() / "relayed";
   ASSERT_EQ(run_command({"lttng-relayd", "--daemonize", "--output=" + relayed.string()}).exit_code, 0);

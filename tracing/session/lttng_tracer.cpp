@@ -13,6 +13,7 @@
 #include "tracing/session/channels.hpp"
 #include "tracing/session/consumer_priority.hpp"
 #include "tracing/session/context_check.hpp"
+#include "tracing/session/event_watch.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
@@ -270,6 +271,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
     if (give_up && give_up()) break;
   }
+  EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   if (kernel) losses.channels.push_back(*kernel);
   if (local && !session->snapshot) judge(losses, name, session->path);
