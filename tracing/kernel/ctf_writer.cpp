@@ -227,6 +227,7 @@ clock {{
 	name = "monotonic";
 	uuid = "{clock}";
 	description = "Monotonic Clock";
+	absolute = TRUE;
 	freq = 1000000000;
 	offset = {offset};
 }};
