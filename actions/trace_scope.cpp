@@ -145,6 +145,14 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
 }
 
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
+  if (choices_.snapshot_on_signal != 0) {
+    // Before any thread is started: the signal must be blocked in all of them.
+    signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](int signal) {
+      if (flight_recorder_) {
+        flight_recorder_->request(fmt::format("SIG{}", ::sigabbrev_np(signal)));
+      }
+    });
+  }
   in_background(
       loop,
       [this] {
@@ -204,11 +212,6 @@ void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
     event_watch_ = std::make_unique<tracing::EventWatch>(
         config_.lttng_session_name(), choices_.snapshot_on_events,
         [recorder = flight_recorder_.get()](const std::string& rule) { recorder->request("event " + rule); });
-  }
-  if (choices_.snapshot_on_signal != 0) {
-    signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](int signal) {
-      flight_recorder_->request(fmt::format("SIG{}", ::sigabbrev_np(signal)));
-    });
   }
 }
 

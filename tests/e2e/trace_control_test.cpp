@@ -82,7 +82,7 @@ TEST_F(TraceControl, WhatTheLauncherDoesIsInTheTraceWithTheLineThatAskedForIt) {
   EXPECT_THAT(of("visit"), SizeIs(2)) << "the file, and the timer's children";
   EXPECT_THAT(of("spawn"), SizeIs(3));
   ASSERT_THAT(of("exec"), SizeIs(4)) << "one runs twice";
-  EXPECT_THAT(of("exec")[0], AllOf(HasSubstr("process = \"second-1\""), HasSubstr(place("part.launch.xml", 2))));
+  EXPECT_THAT(of("exec")[0], AllOf(HasSubstr("process = \"second-1\""), HasSubstr(place(part, 2))));
   ASSERT_THAT(of("respawn"), SizeIs(1));
   EXPECT_THAT(of("respawn")[0],
               AllOf(HasSubstr("process = \"first-2\""), HasSubstr("exit_code = 1"), HasSubstr(place(file, 4))));
@@ -214,7 +214,7 @@ TEST_F(TraceControl, WhatSnapshotsAreTakenOnIsChecked) {
       write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-signal="SIGKILL"/>)xml");
   const CommandResult result = run_command({LAUNCH_PROGRAM, file});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr(":2:48: error: snapshot-on-signal is expected to be SIGUSR1 or SIGUSR2, got "
+  EXPECT_THAT(result.err, HasSubstr(":2:47: error: snapshot-on-signal is expected to be SIGUSR1 or SIGUSR2, got "
                                     "'SIGKILL'"));
 }
 

@@ -84,7 +84,10 @@ void EventWatch::add(const std::string& name, const EventRule& parsed, const std
   const Owned<lttng_event_rule> rule = make_rule(parsed);
   const Owned<lttng_condition> condition(lttng_condition_event_rule_matches_create(rule.get()),
                                          &lttng_condition_destroy);
-  const Owned<lttng_action> action(lttng_action_notify_create(), &lttng_action_destroy);
+  // In a list, as `lttng add-trigger` makes it: `lttng list-triggers` aborts at an action that stands alone.
+  const Owned<lttng_action> notify(lttng_action_notify_create(), &lttng_action_destroy);
+  const Owned<lttng_action> action(lttng_action_list_create(), &lttng_action_destroy);
+  lttng_action_list_add_action(action.get(), notify.get());
   std::unique_ptr<lttng_trigger, TriggerDeleter> trigger(lttng_trigger_create(condition.get(), action.get()));
   const std::string unique = trigger_name(name, rules_.size());
   const std::string doing = fmt::format("watch for event '{}'", text);
