@@ -4,6 +4,7 @@
 #include <rcl/client.h>
 #include <rcl/subscription.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <rclcpp/rclcpp.hpp>
@@ -24,6 +25,7 @@ class Operation {
   struct WakeUps {
     std::vector<const rcl_subscription_t*> subscriptions;
     std::vector<const rcl_client_t*> clients;
+    std::chrono::nanoseconds patience{0};  // without any of them
   };
 
   explicit Operation(Answer answer) : answer_(std::move(answer)) {}

@@ -140,13 +140,12 @@ void RequestLoop::look() {
 }
 
 void RequestLoop::wait() {
-  Operation::WakeUps wake_ups;
-  auto patience = std::chrono::nanoseconds(under_way_.empty() ? std::chrono::nanoseconds(-1) : kPatience);
+  Operation::WakeUps wake_ups{{}, {}, kPatience};
   for (const auto& [id, request] : under_way_) {
     request.operation->add_to(wake_ups);
     if (request.deadline) {
-      patience =
-          std::clamp<std::chrono::nanoseconds>(*request.deadline - Clock::now(), std::chrono::nanoseconds(0), patience);
+      wake_ups.patience = std::clamp<std::chrono::nanoseconds>(*request.deadline - Clock::now(),
+                                                               std::chrono::nanoseconds(0), wake_ups.patience);
     }
   }
   rcl_node_t* const node = node_.get_node_base_interface()->get_rcl_node_handle();
@@ -159,7 +158,7 @@ void RequestLoop::wait() {
   for (const rcl_client_t* client : wake_ups.clients) {
     require_ok(rcl_wait_set_add_client(&wait.set(), client, nullptr));
   }
-  const rcl_ret_t ret = rcl_wait(&wait.set(), patience.count());
+  const rcl_ret_t ret = rcl_wait(&wait.set(), under_way_.empty() ? -1 : wake_ups.patience.count());
   if (ret == RCL_RET_TIMEOUT) {
     rcl_reset_error();
   } else {

@@ -1,9 +1,12 @@
 // A call of a service that may not be there yet.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <rclcpp/rclcpp.hpp>
 #include <string>
 #include <utility>
@@ -29,10 +32,10 @@ class ServiceCall {
   std::shared_ptr<Response> look() {
     const std::size_t services = node_.count_services(service_);
     if (tries_.empty() || (tries_.back().sent && services > services_)) {
-      tries_.push_back({node_.create_client<ServiceT>(service_), false});
+      tries_.push_back({node_.create_client<ServiceT>(service_)});
     }
     Try& last = tries_.back();
-    if (!last.sent && last.client->service_is_ready()) {
+    if (!last.sent && is_settled(last, services)) {
       last.client->async_send_request(request_);
       last.sent = true;
     }
@@ -55,22 +58,43 @@ class ServiceCall {
   void add_to(Operation::WakeUps& wake_ups) const {
     for (const Try& tried : tries_) {
       wake_ups.clients.push_back(tried.client->get_client_handle().get());
+      if (tried.ready_since && !tried.sent) {
+        wake_ups.patience = std::min(wake_ups.patience, kSettling);
+      }
     }
   }
 
   const std::string& service() const { return service_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct Try {
     typename rclcpp::Client<ServiceT>::SharedPtr client;
-    bool sent;
+    bool sent = false;
+    std::optional<Clock::time_point> ready_since = {};
   };
+
+  // A service is matched before or after the graph counts it, a moment apart. A request that went to a service which is
+  // counted only afterwards would go to it twice.
+  static constexpr std::chrono::nanoseconds kSettling = std::chrono::milliseconds(5);
+
+  bool is_settled(Try& tried, std::size_t services) {
+    if (services == 0 || !tried.client->service_is_ready()) {
+      tried.ready_since.reset();
+      return false;
+    }
+    if (!tried.ready_since || services != services_) {
+      tried.ready_since = Clock::now();
+      services_ = services;
+    }
+    return Clock::now() - *tried.ready_since >= kSettling;
+  }
 
   rclcpp::Node& node_;
   std::string service_;
   std::shared_ptr<Request> request_;
   std::vector<Try> tries_;
-  std::size_t services_ = 0;  // that there were after the last request
+  std::size_t services_ = 0;  // that there were when it was looked last
 };
 
 // An operation that is nothing but a call.
