@@ -1,7 +1,9 @@
 #include "actions/trace_channel.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "launcher/base/diagnostic.hpp"
 #include "tracing/session/event_rule.hpp"
@@ -9,10 +11,19 @@
 
 namespace launch {
 
+namespace {
+
+std::vector<std::string> at_blanks(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()};
+}
+
+}  // namespace
+
 WordsField::WordsField(const Fields& fields, std::string_view attribute)
     : words_(fields.optional_words(attribute)), where_(fields.where(attribute)) {}
 
-std::vector<std::string> WordsField::perform(Scope& scope) const {
+std::vector<std::string> WordsField::performed_words(Scope& scope) const {
   std::vector<std::string> performed;
   for (const Template& word : words_.value_or(std::vector<Template>())) {
     if (std::string text = word.perform(scope); !text.empty()) {
@@ -22,13 +33,29 @@ std::vector<std::string> WordsField::perform(Scope& scope) const {
   return performed;
 }
 
+std::vector<std::string> WordsField::perform(Scope& scope) const {
+  std::vector<std::string> names;
+  for (const std::string& word : performed_words(scope)) {
+    const std::vector<std::string> parts = at_blanks(word);
+    names.insert(names.end(), parts.begin(), parts.end());
+  }
+  return names;
+}
+
 std::vector<std::string> WordsField::perform_events(Scope& scope) const {
-  std::vector<std::string> events = perform(scope);
-  for (const std::string& event : events) {
+  std::vector<std::string> events;
+  for (const std::string& word : performed_words(scope)) {
     try {
-      tracing::parse_event_rule(event);
+      tracing::parse_event_rule(word);
+      events.push_back(word);
     } catch (const tracing::TraceError& error) {
-      throw LaunchError(error.what(), where_, error.remedy());
+      const std::vector<std::string> parts = at_blanks(word);
+      if (parts.size() < 2 || !std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
+            return part.find(':') != std::string::npos;
+          })) {
+        throw LaunchError(error.what(), where_, error.remedy());
+      }
+      events.insert(events.end(), parts.begin(), parts.end());
     }
   }
   return events;

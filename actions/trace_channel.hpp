@@ -17,12 +17,15 @@ class WordsField {
   WordsField(const Fields& fields, std::string_view attribute);
 
   bool given() const { return words_.has_value(); }
-  // Without the empty ones, which empty substitutions leave. Empty when none are given.
+  // Names, without the empty ones that empty substitutions leave. One that a substitution gives may be several, as in
+  // context-fields="$(var fields)". Empty when none are given.
   std::vector<std::string> perform(Scope& scope) const;
-  // The same, each checked to be an event rule. Throws LaunchError.
+  // Event rules. What a substitution gives may be a rule with blanks, or several names. Throws LaunchError.
   std::vector<std::string> perform_events(Scope& scope) const;
 
  private:
+  std::vector<std::string> performed_words(Scope& scope) const;
+
   std::optional<std::vector<Template>> words_;
   SourceRange where_;
 };

@@ -80,6 +80,15 @@ TEST(Trace, PreloadsForProcessesBeforeItToo) {
   EXPECT_EQ(planned.plan.processes.at(1).environment.at("LD_PRELOAD"), "mine.so:" + first);
 }
 
+TEST(Trace, ASubstitutionMayGiveSeveralNames) {
+  auto settings = settings_of(plan_actions(R"xml(
+    <let name="events" value="ros2:*callback* ros2:rcl_*_init"/><let name="fields" value="vpid vtid"/>
+    <trace session-name="run" events-ust="$(var events) a:b" context-fields="$(var fields)"/>)xml"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-ust").value),
+              ElementsAre("ros2:*callback*", "ros2:rcl_*_init", "a:b"));
+  EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("vpid", "vtid"));
+}
+
 TEST(Trace, YamlTakesListsOfTextsAndListsOfChannels) {
   auto settings = settings_of(plan_text(R"yaml(launch:
 - let: {name: what, value: "ros2:rmw_*"}
