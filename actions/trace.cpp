@@ -99,10 +99,10 @@ class Trace : public Action {
       config.events_ust = tracing::initialisation_ros_events();
     }
     if (events_ust_.given()) {
-      config.events_ust = events_ust_.perform_events(scope);
+      config.events_ust = events_ust_.perform_events(scope, Tracepoints::kUserspace);
     }
     config.launch_events = launch_events_.perform(scope);
-    config.events_kernel = events_kernel_.perform_events(scope);
+    config.events_kernel = events_kernel_.perform_events(scope, Tracepoints::kKernel);
     config.syscalls = syscalls_.perform(scope);
     if (context_fields_.given()) {
       config.context_fields_ust = context_fields_.perform(scope);
@@ -127,7 +127,7 @@ class Trace : public Action {
       choices.auto_buffers = kind == "auto";
     }
     choices.snapshot_on_crash = snapshot_on_crash_.perform(scope);
-    choices.snapshot_on_events = snapshot_on_events_.perform_events(scope);
+    choices.snapshot_on_events = snapshot_on_events_.perform_events(scope, Tracepoints::kUserspace);
     if (snapshot_on_signal_) {
       const std::string name = snapshot_on_signal_->perform(scope);
       if (name != "SIGUSR1" && name != "SIGUSR2") {

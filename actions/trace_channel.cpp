@@ -18,6 +18,12 @@ std::vector<std::string> at_blanks(const std::string& text) {
   return {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()};
 }
 
+// No word of a rule that was written wrongly.
+bool is_name(const std::string& text, Tracepoints of) {
+  return of == Tracepoints::kUserspace ? text.find(':') != std::string::npos
+                                       : text != "if" && text != "except" && text != "level";
+}
+
 }  // namespace
 
 WordsField::WordsField(const Fields& fields, std::string_view attribute)
@@ -42,7 +48,7 @@ std::vector<std::string> WordsField::perform(Scope& scope) const {
   return names;
 }
 
-std::vector<std::string> WordsField::perform_events(Scope& scope) const {
+std::vector<std::string> WordsField::perform_events(Scope& scope, Tracepoints of) const {
   std::vector<std::string> events;
   for (const std::string& word : performed_words(scope)) {
     try {
@@ -50,9 +56,8 @@ std::vector<std::string> WordsField::perform_events(Scope& scope) const {
       events.push_back(word);
     } catch (const tracing::TraceError& error) {
       const std::vector<std::string> parts = at_blanks(word);
-      if (parts.size() < 2 || !std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
-            return part.find(':') != std::string::npos;
-          })) {
+      if (parts.size() < 2 ||
+          !std::all_of(parts.begin(), parts.end(), [of](const std::string& part) { return is_name(part, of); })) {
         throw LaunchError(error.what(), where_, error.remedy());
       }
       events.insert(events.end(), parts.begin(), parts.end());
@@ -119,8 +124,8 @@ ChannelFields::ChannelFields(const Fields& fields)
 tracing::ChannelConfig ChannelFields::perform(Scope& scope) const {
   tracing::ChannelConfig config;
   config.name = name_.perform(scope);
-  config.events_ust = events_ust_.perform_events(scope);
-  config.events_kernel = events_kernel_.perform_events(scope);
+  config.events_ust = events_ust_.perform_events(scope, Tracepoints::kUserspace);
+  config.events_kernel = events_kernel_.perform_events(scope, Tracepoints::kKernel);
   config.syscalls = syscalls_.perform(scope);
   if (context_fields_.given()) {
     config.context_fields = context_fields_.perform(scope);

@@ -11,6 +11,8 @@
 
 namespace launch {
 
+enum class Tracepoints { kUserspace /* PROVIDER:NAME */, kKernel /* NAME */ };
+
 // A list of words that may be given, and its place.
 class WordsField {
  public:
@@ -21,7 +23,7 @@ class WordsField {
   // context-fields="$(var fields)". Empty when none are given.
   std::vector<std::string> perform(Scope& scope) const;
   // Event rules. What a substitution gives may be a rule with blanks, or several names. Throws LaunchError.
-  std::vector<std::string> perform_events(Scope& scope) const;
+  std::vector<std::string> perform_events(Scope& scope, Tracepoints of) const;
 
  private:
   std::vector<std::string> performed_words(Scope& scope) const;

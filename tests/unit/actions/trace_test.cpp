@@ -83,7 +83,10 @@ TEST(Trace, PreloadsForProcessesBeforeItToo) {
 TEST(Trace, ASubstitutionMayGiveSeveralNames) {
   auto settings = settings_of(plan_actions(R"xml(
     <let name="events" value="ros2:*callback* ros2:rcl_*_init"/><let name="fields" value="vpid vtid"/>
-    <trace session-name="run" events-ust="$(var events) a:b" context-fields="$(var fields)"/>)xml"));
+    <let name="kernel" value="sched_switch irq_handler_entry"/>
+    <trace session-name="run" events-ust="$(var events) a:b" events-kernel="$(var kernel)"
+           context-fields="$(var fields)"/>)xml"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-kernel").value), ElementsAre("sched_switch", "irq_handler_entry"));
   EXPECT_THAT(std::get<Words>(settings.at("events-ust").value),
               ElementsAre("ros2:*callback*", "ros2:rcl_*_init", "a:b"));
   EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("vpid", "vtid"));
