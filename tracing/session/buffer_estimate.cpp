@@ -29,10 +29,11 @@ std::string buffer_warning(const TraceConfig& config, std::size_t nodes, std::si
   if (config.events_ust.empty() || config.records_snapshots() || gathering(config, nodes, processors) <= room)
     return {};
   return fmt::format(
-      "{} processes may fire {} events a second, more than {} sub-buffers of {} bytes for each of {} processors hold "
+      "{} process{} may fire {} events a second, more than {} sub-buffers of {} bytes for each of {} processors hold "
       "on a "
       "busy machine: events may be lost; subbuffers=\"auto\" sizes them",
-      nodes, nodes * kEventsPerNode, config.subbuffer_count_ust, config.subbuffer_size_ust, processors);
+      nodes, nodes == 1 ? "" : "es", nodes * kEventsPerNode, config.subbuffer_count_ust, config.subbuffer_size_ust,
+      processors);
 }
 
 }  // namespace tracing

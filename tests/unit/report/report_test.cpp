@@ -40,7 +40,8 @@ TEST(SummaryLine, SaysWhetherEventsWereLost) {
   overview.losses = {loss_of(0, 3, false)};
   EXPECT_EQ(summary_line(overview), "412 events, 2 processes, 3 packets lost; doubtful: ping [71]");
   overview.losses = {loss_of(37, 0, false), loss_of(0, 1, true)};
-  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, at least 37 events and 1 packet lost; doubtful: ping [71]");
+  EXPECT_EQ(summary_line(overview),
+            "412 events, 2 processes, at least 37 events and 1 packet lost; doubtful: ping [71]");
   overview.losses = {loss_of(0, 0, true)};
   EXPECT_EQ(summary_line(overview), "412 events, 2 processes, some events lost; doubtful: ping [71]");
 }
