@@ -69,10 +69,12 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? output : std::string();
 }
 
-// By the name that the launch file gives the node, or by the process's label.
+// By the process's label, or by the name of its node.
 bool matches(const std::string& pattern, const ProcessSpec& spec) {
-  return ::fnmatch(pattern.c_str(), spec.name.c_str(), 0) == 0 ||
-         (!spec.node.empty() && ::fnmatch(pattern.c_str(), spec.node.c_str(), 0) == 0);
+  const auto is_meant = [&pattern](const std::string& name) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  };
+  return is_meant(spec.name) || std::any_of(spec.other_names.begin(), spec.other_names.end(), is_meant);
 }
 
 std::vector<std::string> channel_names(const tracing::TraceConfig& config) {
