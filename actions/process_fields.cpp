@@ -39,6 +39,12 @@ std::vector<AttributeSpec> ProcessFields::attributes() {
       {"respawn", AttributeType::kText, false, "false", "start again whenever the process ends"},
       {"respawn_delay", AttributeType::kFloat, false, "0", "seconds between an exit and the next start"},
       {"respawn_max_retries", AttributeType::kInteger, false, "-1", "how often to start again; negative: no limit"},
+      {"respawn_backoff", AttributeType::kFloat, false, "1",
+       "each delay is so many times the one before; anew after a run longer than respawn_max_delay", true},
+      {"respawn_max_delay", AttributeType::kFloat, false, "60", "seconds: the longest delay with respawn_backoff",
+       true},
+      {"required", AttributeType::kBoolean, false, "false",
+       "the whole system ends when the process does, with its exit code", true},
       {"on_exit", AttributeType::kLiteral, false, "", "shutdown: the whole system ends when the process does"},
       {"shell", AttributeType::kBoolean, false, "false", "run the words, joined by spaces, through /bin/sh -c"},
       {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
@@ -51,7 +57,8 @@ std::vector<ItemSpec> ProcessFields::items() {
   return {{"env",
            "a variable of the process's environment",
            {{"name", AttributeType::kText, true, "", "name of the variable"},
-            {"value", AttributeType::kText, true, "", "its value"}}}};
+            {"value", AttributeType::kText, true, "", "its value"}}},
+          DependsOn::item()};
 }
 
 ProcessFields::ProcessFields(const Fields& fields)
@@ -62,6 +69,11 @@ ProcessFields::ProcessFields(const Fields& fields)
       respawn_(fields.optional_text("respawn")),
       respawn_delay_(not_negative(fields.number("respawn_delay"))),
       respawn_max_retries_(fields.number("respawn_max_retries")),
+      respawn_backoff_(not_negative(fields.number("respawn_backoff"))),
+      respawn_max_delay_(not_negative(fields.number("respawn_max_delay"))),
+      respawn_backoff_where_(fields.where("respawn_backoff")),
+      required_(fields.boolean("required", false)),
+      required_where_(fields.where("required")),
       shell_(fields.boolean("shell", false)),
       emulate_tty_(fields.boolean("emulate_tty", false)),
       sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
@@ -75,6 +87,9 @@ ProcessFields::ProcessFields(const Fields& fields)
   }
   for (const Fields* variable : fields.items("env")) {
     environment_.emplace_back(variable->text("name"), variable->text("value"));
+  }
+  for (const Fields* dependency : fields.items("depends_on")) {
+    dependencies_.emplace_back(*dependency);
   }
 }
 
@@ -97,20 +112,11 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
     spec.working_directory = working_directory_->perform(scope);
   }
   spec.output = output(context);
-  if (respawn_) {
-    const std::string text = respawn_->perform(scope);
-    const std::optional<bool> enabled = yaml_boolean(text);
-    if (!enabled) {
-      throw LaunchError(fmt::format("respawn is expected to be a boolean, got '{}'", text), respawn_->where(),
-                        "write true or false");
-    }
-    spec.respawn.enabled = *enabled;
-  }
-  if (respawn_delay_) {
-    spec.respawn.delay = seconds(respawn_delay_->perform(scope));
-  }
-  if (respawn_max_retries_) {
-    spec.respawn.max_retries = static_cast<std::int64_t>(respawn_max_retries_->perform(scope));
+  spec.respawn = respawn(scope);
+  spec.required = required_.perform(scope);
+  if (spec.required && spec.respawn.enabled) {
+    throw LaunchError("a required process can't respawn: its end is the end of the system", required_where_,
+                      "leave out required or respawn");
   }
   spec.shutdown_on_exit = shutdown_on_exit_;
   spec.shell = shell_.perform(scope);
@@ -118,7 +124,44 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
   spec.sigterm_timeout = timeout(scope, sigterm_timeout_, "sigterm_timeout");
   spec.sigkill_timeout = timeout(scope, sigkill_timeout_, "sigkill_timeout");
   spec.origin = where_;
+  for (const DependsOn& dependency : dependencies_) {
+    dependency.request(context, context.requests().processes.size());
+  }
   context.requests().processes.push_back(std::move(spec));
+}
+
+RespawnPolicy ProcessFields::respawn(Scope& scope) const {
+  RespawnPolicy policy;
+  if (respawn_) {
+    const std::string text = respawn_->perform(scope);
+    const std::optional<bool> enabled = yaml_boolean(text);
+    if (!enabled) {
+      throw LaunchError(fmt::format("respawn is expected to be a boolean, got '{}'", text), respawn_->where(),
+                        "write true or false");
+    }
+    policy.enabled = *enabled;
+  }
+  if (respawn_delay_) {
+    policy.delay = seconds(respawn_delay_->perform(scope));
+  }
+  if (respawn_max_retries_) {
+    policy.max_retries = static_cast<std::int64_t>(respawn_max_retries_->perform(scope));
+  }
+  if (respawn_max_delay_) {
+    policy.max_delay = seconds(respawn_max_delay_->perform(scope));
+  }
+  if (respawn_backoff_) {
+    policy.backoff = respawn_backoff_->perform(scope);
+    if (policy.backoff < 1.0) {
+      throw LaunchError(fmt::format("respawn_backoff is a factor of at least 1, got {}", policy.backoff),
+                        respawn_backoff_where_, "2 doubles the delay each time");
+    }
+    if (policy.enabled && policy.backoff > 1.0 && policy.delay == Duration{0}) {
+      throw LaunchError("respawn_backoff can't make a respawn_delay of 0 longer", respawn_backoff_where_,
+                        "add respawn_delay, the first delay in seconds");
+    }
+  }
+  return policy;
 }
 
 std::vector<std::string> ProcessFields::launch_prefix(Scope& scope, const std::string& program) const {
