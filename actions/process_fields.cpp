@@ -23,6 +23,29 @@ std::optional<NumberField> not_negative(std::optional<NumberField> field) {
   return field;
 }
 
+// "screen,log", "none"
+OutputTargets targets(const Template& given, Scope& scope) {
+  const std::string text = given.perform(scope);
+  OutputTargets targets;
+  for (std::size_t begin = 0; begin <= text.size() && text != "none";) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (word == "screen") {
+      targets.screen = true;
+    } else if (word == "log") {
+      targets.log = true;
+    } else if (word == "own_log") {
+      targets.own_log = true;
+    } else {
+      const std::string suggestion = did_you_mean(word, {"screen", "log", "own_log", "none"});
+      throw LaunchError(fmt::format("'{}' is no place for output, expected screen, log, own_log or none", word),
+                        given.where(), suggestion.empty() ? "write several with commas: screen,log" : suggestion);
+    }
+    begin = end + 1;
+  }
+  return targets;
+}
+
 const std::string* find_configuration(const Scope& scope, const std::string& name) {
   const auto found = scope.configurations.find(name);
   return found == scope.configurations.end() ? nullptr : &found->second;
@@ -31,11 +54,14 @@ const std::string* find_configuration(const Scope& scope, const std::string& nam
 }  // namespace
 
 std::vector<AttributeSpec> ProcessFields::attributes() {
-  return {
+  std::vector<AttributeSpec> attributes = {
       {"cwd", AttributeType::kText, false, "the launcher's", "working directory"},
       {"launch-prefix", AttributeType::kText, false, "configuration launch-prefix",
        "command line put in front, such as gdb"},
       {"output", AttributeType::kText, false, "log", "screen, log, both, own_log or full"},
+      {"stdout", AttributeType::kText, false, "as output says",
+       "where standard output goes: screen, log and own_log, several with commas, or none", true},
+      {"stderr", AttributeType::kText, false, "as output says", "the same for standard error", true},
       {"respawn", AttributeType::kText, false, "false", "start again whenever the process ends"},
       {"respawn_delay", AttributeType::kFloat, false, "0", "seconds between an exit and the next start"},
       {"respawn_max_retries", AttributeType::kInteger, false, "-1", "how often to start again; negative: no limit"},
@@ -50,7 +76,11 @@ std::vector<AttributeSpec> ProcessFields::attributes() {
       {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
       {"sigterm_timeout", AttributeType::kFloat, false, "5", "seconds from SIGINT to SIGTERM at shutdown"},
       {"sigkill_timeout", AttributeType::kFloat, false, "5", "seconds from SIGTERM to SIGKILL at shutdown"},
+      {"clean_env", AttributeType::kBoolean, false, "false", "true: its environment is what its env items say", true},
   };
+  const std::vector<AttributeSpec> resources = ResourceFields::attributes();
+  attributes.insert(attributes.end(), resources.begin(), resources.end());
+  return attributes;
 }
 
 std::vector<ItemSpec> ProcessFields::items() {
@@ -66,6 +96,8 @@ ProcessFields::ProcessFields(const Fields& fields)
       working_directory_(fields.optional_text("cwd")),
       launch_prefix_(fields.optional_text("launch-prefix")),
       output_(fields.optional_text("output")),
+      stdout_(fields.optional_text("stdout")),
+      stderr_(fields.optional_text("stderr")),
       respawn_(fields.optional_text("respawn")),
       respawn_delay_(not_negative(fields.number("respawn_delay"))),
       respawn_max_retries_(fields.number("respawn_max_retries")),
@@ -77,7 +109,9 @@ ProcessFields::ProcessFields(const Fields& fields)
       shell_(fields.boolean("shell", false)),
       emulate_tty_(fields.boolean("emulate_tty", false)),
       sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
-      sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))) {
+      sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))),
+      clean_environment_(fields.boolean("clean_env", false)),
+      resources_(fields) {
   if (fields.has("on_exit")) {
     const std::string on_exit = fields.literal("on_exit");
     if (on_exit != "shutdown") {
@@ -104,10 +138,8 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
     spec.name = std::filesystem::path(spec.argv.front()).filename().string();
   }
 
-  spec.environment = scope.environment;
-  for (const auto& [name, value] : environment_) {
-    spec.environment.insert_or_assign(name.perform(scope), value.perform(scope));
-  }
+  spec.environment = environment(scope);
+  spec.limits = resources_.perform(scope);
   if (working_directory_) {
     spec.working_directory = working_directory_->perform(scope);
   }
@@ -128,6 +160,14 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
     dependency.request(context, context.requests().processes.size());
   }
   context.requests().processes.push_back(std::move(spec));
+}
+
+Environment ProcessFields::environment(Scope& scope) const {
+  Environment environment = clean_environment_.perform(scope) ? Environment() : scope.environment;
+  for (const auto& [name, value] : environment_) {
+    environment.insert_or_assign(name.perform(scope), value.perform(scope));
+  }
+  return environment;
 }
 
 RespawnPolicy ProcessFields::respawn(Scope& scope) const {
@@ -201,7 +241,11 @@ OutputRouting ProcessFields::output(LaunchContext& context) const {
                       overridden ? "it comes from the environment variable OVERRIDE_LAUNCH_PROCESS_OUTPUT"
                                  : did_you_mean(mode, {"screen", "log", "both", "own_log", "full"}));
   }
-  return *routing;
+  if (overridden) {
+    return *routing;
+  }
+  return {.out = stdout_ ? targets(*stdout_, context.scope()) : routing->out,
+          .err = stderr_ ? targets(*stderr_, context.scope()) : routing->err};
 }
 
 bool ProcessFields::emulate_tty(Scope& scope) const {

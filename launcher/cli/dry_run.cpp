@@ -65,6 +65,9 @@ Json process_as_json(const ProcessSpec& spec, const Environment& launcher_enviro
     }
     process["params"] = std::move(contents);
   }
+  if (spec.limits.any()) {
+    process["limits"] = describe(spec.limits);
+  }
   if (spec.origin) {
     process["source"] = source_as_json(spec.origin);
   }
@@ -176,6 +179,9 @@ std::string process_as_text(const ProcessSpec& spec, const Environment& launcher
   for (const auto& [name, value] : difference(spec.environment, launcher_environment)) {
     text +=
         value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
+  }
+  for (const std::string& limit : describe(spec.limits)) {
+    text += fmt::format("  limit: {}\n", limit);
   }
   for (std::size_t i = 0; i < spec.files.size(); ++i) {
     text += fmt::format("  @params:{}:\n{}", i, indented(spec.files[i].content, 6));

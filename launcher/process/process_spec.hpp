@@ -15,6 +15,7 @@
 #include "launcher/base/source.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/resource_limits.hpp"
 
 namespace launch {
 
@@ -66,6 +67,7 @@ struct ProcessSpec {
   bool shell = false;                              // run argv joined with spaces through /bin/sh -c
   bool emulate_tty = false;                        // stdout and stderr are pseudo-terminals
   OutputRouting output;
+  ResourceLimits limits;
   RespawnPolicy respawn;
   bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
   bool required = false;          // for observers: and how it ended is how the launch ended
