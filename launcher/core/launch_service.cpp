@@ -24,6 +24,13 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                     [this](const LaunchError& error) { fail(error); },
                     [this](LogLevel level, const std::string& process, const std::string& text) {
                       context_.message(level, process, text);
+                    },
+                    [this](const TrackedProcess& process) {
+                      for (const std::string& name : process.names) {
+                        if (ros_tasks_ && name.starts_with('/')) {
+                          ros_tasks_->on_skipped(name);
+                        }
+                      }
                     }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }

@@ -124,9 +124,23 @@ TEST_F(RosTasksTest, WhatWaitsForAContainerThatHasEndedIsGivenUp) {
   EXPECT_THAT(client_.asked, ElementsAre("load /left/c a"));
   EXPECT_THAT(messages_,
               ElementsAre("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type 'p::A' in "
-                          "container '/left/c': its process has ended (/test/system.launch.xml:3:2)",
+                          "container '/left/c': its process does not run (/test/system.launch.xml:3:2)",
                           "ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'b' of type 'p::B' in "
-                          "container '/left/c': its process has ended (/test/system.launch.xml:4:2)"));
+                          "container '/left/c': its process does not run (/test/system.launch.xml:4:2)"));
+}
+
+TEST_F(RosTasksTest, WhatWaitsForAContainerThatIsSkippedIsGivenUp) {
+  runner_.default_script({.exits_after = 3s, .exit_code = 1});
+  EXPECT_EQ(run(R"xml(<executable cmd="calibrate"/>
+<node_container exec="container" name="c" namespace="">
+<composable_node pkg="p" plugin="p::A" name="a"/>
+<depends_on process="calibrate" condition="exited" on_failure="skip"/>
+</node_container>)xml"),
+            0);
+  EXPECT_EQ(loop_.now(), 3s);
+  EXPECT_EQ(messages_.back(),
+            "ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type 'p::A' in container "
+            "'/c': its process does not run (/test/system.launch.xml:4:2)");
 }
 
 TEST_F(RosTasksTest, ALongWaitIsToldAndAShutdownEndsIt) {
