@@ -246,6 +246,7 @@ fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
     throw std::runtime_error("Fast DDS cannot create topic '" + dds_name + "' with type '" + type_name + "'");
   }
   topics_.emplace(dds_name, SharedTopic{topic, 1});
+  ++topics_of_type_[type_name];
   return *topic;
 }
 
@@ -257,8 +258,13 @@ void Participant::release_topic(fdds::Topic& topic) {
   const std::string type_name = topic.get_type_name();
   topics_.erase(found);
   participant_->delete_topic(&topic);
-  // Refused while another topic uses the type. The library with the type support may be unloaded afterwards.
-  participant_->unregister_type(type_name);
+  // The library with the type support may be unloaded after the last one. To ask Fast DDS each time, which would refuse
+  // while a topic uses the type, is to have it go through all endpoints.
+  const auto topics = topics_of_type_.find(type_name);
+  if (--topics->second == 0) {
+    topics_of_type_.erase(topics);
+    participant_->unregister_type(type_name);
+  }
 }
 
 fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name) const {

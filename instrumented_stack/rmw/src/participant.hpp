@@ -63,6 +63,7 @@ class Participant {
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
   std::map<std::string, SharedTopic> topics_;
+  std::map<std::string, std::size_t> topics_of_type_;
   Gid gid_{};
   bool qos_from_xml_ = false;
 };

@@ -11,7 +11,6 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <functional>
 #include <mutex>
@@ -19,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "bytes_type.hpp"
 #include "rmw_dds_common/msg/participant_entities_info.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
@@ -29,36 +29,11 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
+using rmw_test::Bytes;
 using rmw_test::Context;
 using rmw_test::Node;
 using rmw_test::Publisher;
 using rmw_test::Subscription;
-
-// Messages of any type as their bytes.
-class Bytes final : public fdds::TopicDataType {
- public:
-  explicit Bytes(const char* type_name) {
-    setName(type_name);
-    m_typeSize = 4096;
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    const auto& bytes = *static_cast<const std::vector<uint8_t>*>(data);
-    std::copy(bytes.begin(), bytes.end(), payload->data);
-    payload->length = static_cast<uint32_t>(bytes.size());
-    payload->encapsulation = CDR_LE;
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    static_cast<std::vector<uint8_t>*>(data)->assign(payload->data, payload->data + payload->length);
-    return true;
-  }
-  std::function<uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<uint32_t>(static_cast<const std::vector<uint8_t>*>(data)->size()); };
-  }
-  void* createData() override { return new std::vector<uint8_t>; }
-  void deleteData(void* data) override { delete static_cast<std::vector<uint8_t>*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-};
 
 // Remembers the user data of the last participant that was found.
 class FoundParticipants final : public fdds::DomainParticipantListener {
