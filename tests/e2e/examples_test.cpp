@@ -66,7 +66,12 @@ INSTANTIATE_TEST_SUITE_P(
                                 {},
                                 {"[calibrate-1] calibrated", "[server-2] listening", "[client-3] asking",
                                  "client-3 is done, the server may go", "sending signal 'SIGINT' to process[server-2]",
-                                 "[park-4] parked"}}),
+                                 "[park-4] parked"}},
+                        Example{"11_lifecycle",
+                                {},
+                                {"waits until '/lc_talker' is active", "[lc_talker]: on_activate() is called.",
+                                 "[lc_listener]: data_callback: Lifecycle HelloWorld #",
+                                 "Transition from state shuttingdown to finalized", "trace is complete"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 
