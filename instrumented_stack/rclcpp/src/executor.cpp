@@ -317,6 +317,8 @@ void Executor::execute_any_executable(AnyExecutable& any_executable) {
     any_executable.client->execute();
   }
   if (any_executable.waitable) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable,
+                              static_cast<const void*>(any_executable.waitable.get()));
     any_executable.waitable->execute(any_executable.data);
   }
   any_executable.release_group();

@@ -88,6 +88,12 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
 }
 
 // The value of `enclave=…;` in the user data that participants announce.
+// What ROS 2 tells of an endpoint's type to others, so that they can see whether they mean the same definition.
+std::vector<rtps::octet> type_hash_user_data(const message_type_support_callbacks_t& type) {
+  const std::string text = std::string("typehash=") + type.type_hash_ + ";";
+  return {text.begin(), text.end()};
+}
+
 std::string enclave_in(const std::vector<rtps::octet>& user_data) {
   const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
   constexpr std::string_view kKey = "enclave=";
@@ -267,7 +273,8 @@ void Participant::release_topic(fdds::Topic& topic) {
   }
 }
 
-fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name) const {
+fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name,
+                                            const message_type_support_callbacks_t& type) const {
   fdds::DataWriterQos qos = publisher_->get_default_datawriter_qos();
   publisher_->get_datawriter_qos_from_profile(topic_name, qos);
   if (!qos_from_xml_) {
@@ -275,16 +282,19 @@ fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name) const
     qos.data_sharing().off();
     qos.publish_mode().kind = publish_mode(qos.publish_mode().kind);
   }
+  qos.user_data().data_vec(type_hash_user_data(type));
   return qos;
 }
 
-fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name) const {
+fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name,
+                                            const message_type_support_callbacks_t& type) const {
   fdds::DataReaderQos qos = subscriber_->get_default_datareader_qos();
   subscriber_->get_datareader_qos_from_profile(topic_name, qos);
   if (!qos_from_xml_) {
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();
   }
+  qos.user_data().data_vec(type_hash_user_data(type));
   return qos;
 }
 

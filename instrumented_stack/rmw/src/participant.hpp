@@ -46,8 +46,10 @@ class Participant {
   void release_topic(eprosima::fastdds::dds::Topic& topic);
 
   // What an endpoint is created with, before the ROS profile is applied.
-  eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name) const;
-  eprosima::fastdds::dds::DataReaderQos reader_qos(const std::string& topic_name) const;
+  eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name,
+                                                   const message_type_support_callbacks_t& type) const;
+  eprosima::fastdds::dds::DataReaderQos reader_qos(const std::string& topic_name,
+                                                   const message_type_support_callbacks_t& type) const;
 
  private:
   class DiscoveryListener;

@@ -64,7 +64,7 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
                                   const std::string& topic_name, const rmw_qos_profile_t& profile,
                                   const rmw_publisher_options_t& options) {
   const auto& callbacks = callbacks_of(&type_support);
-  fdds::DataWriterQos qos = participant.writer_qos(topic_name);
+  fdds::DataWriterQos qos = participant.writer_qos(topic_name, callbacks);
   apply_profile(profile, qos);
 
   auto publisher = std::make_unique<Publisher>();

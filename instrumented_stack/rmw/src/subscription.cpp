@@ -82,7 +82,7 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options) {
   const auto& callbacks = callbacks_of(&type_support);
-  fdds::DataReaderQos qos = participant.reader_qos(topic_name);
+  fdds::DataReaderQos qos = participant.reader_qos(topic_name, callbacks);
   apply_profile(profile, qos);
 
   auto subscription = std::make_unique<Subscription>();

@@ -13,6 +13,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -35,9 +36,15 @@ using rmw_test::Node;
 using rmw_test::Publisher;
 using rmw_test::Subscription;
 
-// Remembers the user data of the last participant that was found.
+// Remembers the user data of the last participant that was found, and of the endpoints by topic.
 class FoundParticipants final : public fdds::DomainParticipantListener {
  public:
+  void on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
+    remember(info.info.topicName().to_string(), info.info.m_qos.m_userData.data_vec());
+  }
+  void on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
+    remember(info.info.topicName().to_string(), info.info.m_qos.m_userData.data_vec());
+  }
   void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
     if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
       const auto& data = info.info.m_userData.data_vec();
@@ -55,10 +62,22 @@ class FoundParticipants final : public fdds::DomainParticipantListener {
     return name_;
   }
 
+  // Of an endpoint on the DDS topic, "" if none was found.
+  std::string user_data_on(const std::string& topic) {
+    std::lock_guard lock(mutex_);
+    return endpoints_[topic];
+  }
+
  private:
+  void remember(const std::string& topic, const std::vector<rtps::octet>& data) {
+    std::lock_guard lock(mutex_);
+    endpoints_[topic].assign(data.begin(), data.end());
+  }
+
   std::mutex mutex_;
   std::string user_data_;
   std::string name_;
+  std::map<std::string, std::string> endpoints_;
 };
 
 constexpr uint32_t kDomain = 42;
@@ -138,6 +157,17 @@ TEST_F(Wire, ParticipantsAnnounceTheirEnclave) {
   wait_for([&] { return !found_.user_data().empty(); });
   EXPECT_STREQ(found_.user_data().c_str(), "enclave=/;");
   EXPECT_EQ(found_.name(), "/");
+}
+
+TEST_F(Wire, EndpointsAnnounceTheDefinitionOfTheirType) {
+  Node node(context_);
+  const Publisher<std_msgs::msg::String> publisher(node, "/chatter");
+  const Subscription<std_msgs::msg::String> subscription(node, "/heard");
+  for (const char* topic : {"rt/chatter", "rt/heard"}) {
+    wait_for([&] { return !found_.user_data_on(topic).empty(); });
+    EXPECT_EQ(found_.user_data_on(topic),
+              "typehash=RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18;");
+  }
 }
 
 TEST_F(Wire, NodesAreAnnouncedOnRosDiscoveryInfo) {
