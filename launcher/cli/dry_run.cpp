@@ -331,8 +331,9 @@ Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_en
 }  // namespace
 
 std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
-  Json root = plan_content_as_json(plan, launcher_environment);
+  Json root;
   root["outcome"] = "ok";
+  root.update(plan_content_as_json(plan, launcher_environment));
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

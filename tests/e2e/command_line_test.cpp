@@ -204,7 +204,9 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
   "logs": [],
   "python_includes": [],
   "includes": 0,
-  "shutdown": false
+  "shutdown": false,
+  "commands": [],
+  "handlers": []
 }
 )json");
 }
