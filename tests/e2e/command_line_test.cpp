@@ -204,9 +204,7 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
   "logs": [],
   "python_includes": [],
   "includes": 0,
-  "shutdown": false,
-  "commands": [],
-  "handlers": []
+  "shutdown": false
 }
 )json");
 }
