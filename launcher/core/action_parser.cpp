@@ -36,10 +36,14 @@ std::vector<std::string> tags_of(const std::vector<ItemSpec>& items) {
   return tags;
 }
 
-bool accepts(AttributeType type, const Scalar& scalar) {
+bool accepts(const AttributeSpec& spec, const Scalar& scalar) {
   using Type = Scalar::Type;
+  const AttributeType type = spec.type;
   if (scalar.type == Type::kUntyped || scalar.type == Type::kString) {
     return true;
+  }
+  if (spec.extension && type == AttributeType::kText) {
+    return scalar.type == Type::kInt || scalar.type == Type::kFloat;  // `exit_code: 0` needs no quotes
   }
   return (type == AttributeType::kBoolean && scalar.type == Type::kBool) ||
          (type == AttributeType::kFloat && scalar.type == Type::kFloat) ||
@@ -208,7 +212,7 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
     return words_of_list(entity, attribute);
   }
   const Scalar* const scalar = attribute.value.scalar();
-  if (scalar == nullptr || !accepts(spec.type, *scalar)) {
+  if (scalar == nullptr || !accepts(spec, *scalar)) {
     throw LaunchError(fmt::format("attribute '{}' of '{}' is expected to be of type {}, got {}", attribute.name,
                                   entity.type_name, expected_kind(spec.type), kind_of(attribute.value)),
                       attribute.value.where, help_for_type(spec.type, attribute.value));
