@@ -50,6 +50,7 @@ class IncludeLaunchDescription : public Action {
       note_python_include(path, context);
       return;
     }
+    const std::int64_t begin = monotonic_time();
     const auto included = load_launch_description(path, context.registry(), declaration_.file.where());
 
     std::vector<std::string> given;
@@ -67,6 +68,11 @@ class IncludeLaunchDescription : public Action {
     if (namespace_) {
       restore_namespace(outer_namespace, context.scope());
     }
+    context.requests().records.push_back({.kind = LaunchRecord::Kind::kInclude,
+                                          .name = path,
+                                          .where = where(),
+                                          .time = begin,
+                                          .duration = monotonic_time() - begin});
   }
 
  private:

@@ -27,6 +27,8 @@ EventValues made_up_event(const EventHandler& handler) {
     values.emplace_back("stream", io->pattern.stream() == "stderr" ? "stderr" : "stdout");
   } else if (std::holds_alternative<OnShutdown>(handler.event)) {
     values = {{"reason", ""}};
+  } else if (std::holds_alternative<OnceReady>(handler.event)) {
+    values.clear();
   }
   return values;
 }
@@ -61,6 +63,7 @@ class Planner {
   void collect(LaunchPlan& plan, std::multimap<Duration, TimerRequest>& timers, Duration now) {
     Requests requests = context_.take_requests();
     for (const auto& scope : requests.scopes) {
+      scope->expect(requests.processes);
       scopes_.push_back(scope.get());
     }
     append(plan.scopes, requests.scopes);

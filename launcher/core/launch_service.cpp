@@ -24,6 +24,13 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                     [this](const LaunchError& error) { fail(error); },
                     [this](LogLevel level, const std::string& process, const std::string& text) {
                       context_.message(level, process, text);
+                    },
+                    [this](const TrackedProcess& process) {
+                      for (const std::string& name : process.names) {
+                        if (ros_tasks_ && name.starts_with('/')) {
+                          ros_tasks_->on_skipped(name);
+                        }
+                      }
                     }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }
@@ -45,6 +52,7 @@ int LaunchService::run(const LaunchDescription& description) {
       loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
   loop_.post([this, &description] {
     const Duration before = loop_.now();
+    const std::int64_t begin = monotonic_time();
     try {
       context_.visit(description);
     } catch (const LaunchError& error) {
@@ -53,7 +61,9 @@ int LaunchService::run(const LaunchDescription& description) {
       return;
     }
     timing_.push_back({"visit", loop_.now() - before});
-    carry_out(context_.take_requests());
+    Requests requests = context_.take_requests();
+    record_visit(begin, {description.file, 0, 0}, requests);
+    carry_out(std::move(requests));
   });
   loop_.run();
   return exit_code_;
@@ -76,6 +86,7 @@ void LaunchService::on_signal(int signal) {
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
+  record(event);
   if (TrackedProcess* const process = table_.note(event)) {
     start_order_.on_process_event(*process);
   }
@@ -123,6 +134,7 @@ void LaunchService::on_timer(std::list<Timer>::iterator timer) {
 }
 
 void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
+  const std::int64_t begin = monotonic_time();
   try {
     context_.visit_in(std::move(scope), actions);
   } catch (const LaunchError& error) {
@@ -130,7 +142,9 @@ void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
     fail(error);
     return;
   }
-  carry_out(context_.take_requests());
+  Requests requests = context_.take_requests();
+  record_visit(begin, actions.empty() ? SourceRange() : actions.front()->where(), requests);
+  carry_out(std::move(requests));
 }
 
 // In a later turn: handlers start and stop processes, which observers of their events should not.
@@ -175,6 +189,7 @@ void LaunchService::begin_next() {
     if (next_scope_ < scopes.size()) {
       scope_is_beginning_ = true;
       guard(*scopes[next_scope_]);
+      scopes[next_scope_]->expect(waiting_.front().requests.processes);
       scopes[next_scope_]->begin(loop_, teller(), [this](std::exception_ptr error) { on_begun(std::move(error)); });
       return;
     }
@@ -215,12 +230,17 @@ void LaunchService::on_begun(std::exception_ptr error) {
 
 void LaunchService::start(Round round) {
   const Duration before = loop_.now();
+  begin_recording();
   Requests& requests = round.requests;
   for (const ProcessCommand& command : requests.commands) {
     execute(command);
   }
   for (EventHandler& handler : requests.handlers) {
-    handlers_.add(std::move(handler));
+    if (std::holds_alternative<OnceReady>(handler.event)) {
+      wait_for(std::move(handler));
+    } else {
+      handlers_.add(std::move(handler));
+    }
   }
   for (TimerRequest& request : requests.timers) {
     start_timer(std::move(request));
@@ -265,6 +285,7 @@ void LaunchService::start_process(ProcessSpec spec, TrackedProcess& process) {
       ros_tasks_->name_process(id, name);
     }
   }
+  record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
   supervisor_.start(std::move(spec));
 }
 
@@ -286,6 +307,20 @@ void LaunchService::start_ros_tasks(Requests& requests) {
   for (TransitionRequest& request : requests.transitions) {
     ros_tasks_->change_state(std::move(request));
   }
+}
+
+void LaunchService::wait_for(EventHandler handler) {
+  const auto place = waits_.insert(waits_.end(), std::make_shared<const EventHandler>(std::move(handler)));
+  std::get<OnceReady>((*place)->event)
+      .condition->watch(loop_, [this, place](const std::optional<std::string>& failure) {
+        const std::shared_ptr<const EventHandler> ready = *place;
+        waits_.erase(place);
+        if (failure) {
+          fail(LaunchError(*failure, ready->where));
+        } else {
+          invoke({{ready, {}}});
+        }
+      });
 }
 
 void LaunchService::execute(const ProcessCommand& command) {

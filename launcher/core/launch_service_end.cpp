@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "launcher/core/farewell.hpp"
 #include "launcher/core/launch_service.hpp"
@@ -23,6 +24,7 @@ void LaunchService::shutdown(const std::string& reason) {
     }
     timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
     start_order_.clear();
+    waits_.clear();
     if (ros_tasks_) {
       ros_tasks_->shutdown();
     }
@@ -121,6 +123,9 @@ void LaunchService::check_finished() {
 }
 
 void LaunchService::end_next_scope() {
+  if (std::exchange(recording_, false)) {
+    recorder_->end();
+  }
   if (active_scopes_.empty()) {
     loop_.quit();
     return;
