@@ -14,6 +14,7 @@
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
 #include "launcher/core/launch_service.hpp"
+#include "launcher/core/python_launch_file.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
 
@@ -122,6 +123,9 @@ int run_command(const CommandLine& command, Environment environment) {
   if (command.show_all_output) {
     environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
   }
+  if (command.debug) {
+    show_python_tracebacks();
+  }
   const Registry registry = builtin_actions();
   try {
     LaunchContext context(registry, environment, own_install_prefix(),
@@ -131,7 +135,8 @@ int run_command(const CommandLine& command, Environment environment) {
     set_arguments(command, context.scope());
 
     const auto before = std::chrono::steady_clock::now();
-    auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    auto description =
+        load_launch_description(find_launch_file(command.target, context.scope()), registry, context.scope());
     if (!command.arguments.empty()) {
       report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
     }

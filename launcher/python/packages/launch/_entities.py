@@ -1,0 +1,32 @@
+"""Turns the objects of a launch file into what the launcher reads (launcher/python/entity_reader.hpp)."""
+
+from collections.abc import Iterable
+
+from launch._values import LaunchFileError, name_of
+
+
+def entity(tag, place, attributes, children=(), obj=None, process_name=''):
+    """`attributes` are pairs; those whose value is None are left out."""
+    return (tag, place, [pair for pair in attributes if pair[1] is not None], list(children), obj, process_name)
+
+
+def entities(objects):
+    """The entities of actions, lists of them and launch descriptions, in order."""
+    result = []
+    _collect(objects, result)
+    return result
+
+
+def _collect(objects, result):
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    if objects is None:
+        return
+    if isinstance(objects, LaunchDescriptionEntity):
+        result.extend(objects._entities())
+    elif isinstance(objects, Iterable) and not isinstance(objects, (str, bytes)):
+        for item in objects:
+            if item is None:
+                raise LaunchFileError('expected an action, got None')
+            _collect(item, result)
+    else:
+        raise LaunchFileError(f'expected an action, got {name_of(objects)}')

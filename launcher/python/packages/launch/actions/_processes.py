@@ -1,0 +1,96 @@
+"""Actions that run programs."""
+
+from launch._entities import entity
+from launch._values import LaunchFileError, boolean, number, pairs, reject, text
+from launch.action import Action
+from launch.descriptions import Executable
+
+_OUTPUT_FORMAT = '[{this.process_description.final_name}] {line}'
+
+
+class _Process(Action):
+    """What programs and nodes have in common."""
+
+    _ARGUMENTS = ('name', 'cwd', 'env', 'additional_env', 'prefix', 'shell', 'sigterm_timeout', 'sigkill_timeout',
+                  'emulate_tty', 'output', 'output_format', 'log_cmd', 'cached_output', 'on_exit', 'respawn',
+                  'respawn_delay', 'respawn_max_retries', 'condition')
+
+    def _take(self, options, known=(), former=None):
+        """Keeps the options of the process; `known` are the arguments that the caller has taken."""
+        unknown = [name for name in options if name not in self._ARGUMENTS]
+        reject(type(self), unknown, [*self._ARGUMENTS, *known], former)
+        Action.__init__(self, condition=options.get('condition'))
+        if options.get('output_format', _OUTPUT_FORMAT) != _OUTPUT_FORMAT:
+            raise LaunchFileError('output_format is not supported: lines begin with the name of the process')
+        self._options = options
+        self._spoken_of = None
+
+    def _process_attributes(self):
+        options = self._options
+
+        def given(name, convert):
+            value = options.get(name)
+            return None if value is None else convert(value, name)
+
+        attributes = [('cwd', given('cwd', text)), ('launch-prefix', given('prefix', text)),
+                      ('respawn', given('respawn', boolean)), ('respawn_delay', given('respawn_delay', number)),
+                      ('respawn_max_retries', given('respawn_max_retries', number)), ('shell', given('shell', boolean)),
+                      ('emulate_tty', given('emulate_tty', boolean)),
+                      ('sigterm_timeout', given('sigterm_timeout', number)),
+                      ('sigkill_timeout', given('sigkill_timeout', number))]
+        return attributes + self._output() + self._on_exit() + self._when()
+
+    def _output(self):
+        output = self._options.get('output')
+        if output is None:
+            return []
+        if isinstance(output, dict):
+            raise LaunchFileError('output as a mapping of streams is not supported',
+                                  "write output='screen', 'log', 'both', 'own_log' or 'full'")
+        return [('output', text(output, 'output'))]
+
+    def _on_exit(self):
+        from launch.actions import Shutdown
+        action = self._options.get('on_exit')
+        if isinstance(action, (list, tuple)) and len(action) == 1:
+            action = action[0]
+        if action is None:
+            return []
+        if type(action) is Shutdown and action.condition is None:
+            return [('on_exit', 'shutdown')]
+        raise LaunchFileError('on_exit with other actions than Shutdown() is not supported')
+
+    def _environment_items(self):
+        place = self._place()
+        if self._options.get('env') is not None:
+            raise LaunchFileError('env, an environment that replaces that of the launcher, is not supported',
+                                  'additional_env adds variables')
+        return [entity('env', place, [('name', name), ('value', value)])
+                for name, value in pairs((self._options.get('additional_env') or {}).items(), 'additional_env')]
+
+
+class ExecuteLocal(_Process):
+
+    def __init__(self, *, process_description, **kwargs):
+        self._take({**process_description._options, **kwargs}, ['process_description'])
+        self._command = process_description._command
+        self.process_description = process_description
+
+    def _tags(self):
+        name = self._options.get('name')
+        return [entity('executable', self._place(),
+                       [('cmd', self._command), ('name', None if name is None else text(name, 'name')),
+                        *self._process_attributes()], self._environment_items())]
+
+
+class ExecuteProcess(ExecuteLocal):
+
+    def __init__(self, *, cmd, **kwargs):
+        of_executable = {name: kwargs.pop(name) for name in Executable._OPTIONS if name in kwargs}
+        super().__init__(process_description=Executable(cmd=cmd, **of_executable), **kwargs)
+
+    @property
+    def cmd(self):
+        return self._command
+
+
