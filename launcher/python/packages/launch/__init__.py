@@ -21,4 +21,3 @@ from launch import (  # noqa: I100  after the classes that they use
 
 _names.same_module('launch.some_types', 'launch.some_actions_type', 'launch.some_entities_type',
                    'launch.some_substitutions_type')
-_names.finish(__name__)

@@ -2,10 +2,11 @@
 
 import difflib
 import re
+import sys
 import sysconfig
 import traceback
+import types
 
-from launch._names import UnknownName
 from launch._places import is_own, resolve
 from launch._values import LaunchFileError
 
@@ -39,7 +40,7 @@ def _names_in(trace):
 def _help(error, trace):
     if isinstance(error, ModuleNotFoundError):
         top = (error.name or '').partition('.')[0]
-        if top in ('launch', 'launch_ros', 'launch_xml', 'launch_yaml', 'tracetools_launch', 'tracetools_trace'):
+        if top in _OWN:
             return f'this launcher has its own {top}, without that module'
         return f"install the Python package '{top}', or add its folder to PYTHONPATH"
     if isinstance(error, NameError):
@@ -52,12 +53,33 @@ def _help(error, trace):
     return ''
 
 
+_OWN = ('launch', 'launch_ros', 'launch_xml', 'launch_yaml', 'ament_index_python', 'tracetools_launch',
+        'tracetools_trace')
+
+
+def _unknown_name(error):
+    """(module, name) when one of the packages of the launcher lacks a name that was asked for; else None."""
+    if isinstance(error, ImportError) and not isinstance(error, ModuleNotFoundError):
+        found = re.match(r"cannot import name '([^']*)' from '([^']*)'", str(error))
+        module, name = (found[2], found[1]) if found else (None, None)
+    elif isinstance(error, AttributeError) and isinstance(error.obj, types.ModuleType):
+        module, name = error.obj.__name__, error.name
+    else:
+        return None
+    return (module, name) if module and module.partition('.')[0] in _OWN else None
+
+
 def explain(error, trace):
     """(message, place, help, traceback, number of what the launcher threw)."""
     text = ''.join(traceback.format_exception(type(error), error, trace))
     number = getattr(error, '_number', None)
-    if isinstance(error, (LaunchFileError, UnknownName)):
+    if isinstance(error, LaunchFileError):
         return str(error), _place(trace), error.help, text, number
+    if unknown := _unknown_name(error):
+        module, name = unknown
+        near = difflib.get_close_matches(name, dir(sys.modules.get(module)), 1)
+        return (f"this launcher's {module} has no '{name}'", _place(trace), f"did you mean '{near[0]}'?" if near else '',
+                text, number)
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
         begin = max((error.offset or 1) - 1, 0)
         end = (error.end_offset or 0) - 1 if error.end_lineno == error.lineno else 0

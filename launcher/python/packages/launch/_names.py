@@ -1,16 +1,7 @@
-"""Import names: the one-class modules of ROS 2's packages, and a clear error for names that don't exist here."""
+"""The import names of ROS 2's packages that hold one class each."""
 
-import difflib
 import re
 import sys
-
-
-class UnknownName(ImportError):
-    """A name of ROS 2's packages, or of none, that this launcher doesn't have."""
-
-    def __init__(self, message, help_=''):
-        super().__init__(message)
-        self.help = help_
 
 
 def same_module(module, *names):
@@ -24,25 +15,13 @@ def snake_case(name):
     return re.sub('([A-Z]+)([A-Z][a-z])', r'\1_\2', name).lower()
 
 
-def finish(module_name, one_class_modules=False):
+def one_class_modules(module_name):
     """
-    Answers for names that the module lacks.
+    Each class of the module can be imported from a module of its own, too.
 
-    With `one_class_modules`, each class can be imported from a module of its own, too, as in
-    `from launch.actions.execute_process import ExecuteProcess`.
+    So that `from launch.actions.execute_process import ExecuteProcess` means what it means in ROS 2.
     """
     module = sys.modules[module_name]
-    if one_class_modules:
-        for name, value in list(vars(module).items()):
-            if isinstance(value, type) and name[0] != '_':
-                sys.modules.setdefault(f'{module_name}.{snake_case(name)}', module)
-
-    def unknown(name):
-        if name[:2] == '__':
-            raise AttributeError(name)
-        known = [known for known in vars(module) if known[0] != '_']
-        near = difflib.get_close_matches(name, known, 1)
-        raise UnknownName(f"this launcher's {module_name} has no '{name}'",
-                          f"did you mean '{near[0]}'?" if near else '')
-
-    module.__getattr__ = unknown
+    for name, value in list(vars(module).items()):
+        if isinstance(value, type) and name[0] != '_':
+            sys.modules.setdefault(f'{module_name}.{snake_case(name)}', module)

@@ -24,6 +24,6 @@ class YAMLLaunchDescriptionSource(_FileSource):
     pass
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 __all__ = ['AnyLaunchDescriptionSource', 'FrontendLaunchDescriptionSource', 'LaunchDescriptionSource',
            'PythonLaunchDescriptionSource', 'XMLLaunchDescriptionSource', 'YAMLLaunchDescriptionSource']

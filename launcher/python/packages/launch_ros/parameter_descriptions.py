@@ -2,7 +2,6 @@
 
 from typing import List
 
-from launch import _names
 from launch._places import Located
 from launch._values import LaunchFileError, text
 
@@ -46,6 +45,3 @@ class ParameterFile(Located):
     @property
     def param_file(self):
         return self._path
-
-
-_names.finish(__name__)

@@ -4,5 +4,4 @@ from launch import _names
 from launch.launch_description_sources import YAMLLaunchDescriptionSource
 
 _names.same_module('launch.launch_description_sources', __name__ + '.launch_description_sources')
-_names.finish(__name__)
 __all__ = ['YAMLLaunchDescriptionSource']

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 
-from launch import _names
 from launch._entities import entity
 from launch._values import LaunchFileError, boolean, number, text, words
 from launch.action import Action
@@ -54,6 +53,3 @@ class Trace(Action):
 
     def _tags(self):
         return [entity('trace', self._place(), [*self._attributes, *self._when()])]
-
-
-_names.finish(__name__)

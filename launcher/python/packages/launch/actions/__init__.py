@@ -12,5 +12,5 @@ from launch.actions._groups import (
 from launch.actions._processes import ExecuteLocal, ExecuteProcess
 from launch.actions._events import EmitEvent, RegisterEventHandler, UnregisterEventHandler  # noqa: I100
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 _names.same_module(__name__, __name__ + '.shutdown_action')

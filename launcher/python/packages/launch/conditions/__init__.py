@@ -68,6 +68,6 @@ def evaluate_condition_expression(context, expression):
         f"invalid condition expression, expected one of [true, 1, false, 0] but got '{value}'")
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 __all__ = ['IfCondition', 'InvalidConditionExpressionError', 'LaunchConfigurationEquals',
            'LaunchConfigurationNotEquals', 'SubstitutionFailure', 'UnlessCondition', 'evaluate_condition_expression']

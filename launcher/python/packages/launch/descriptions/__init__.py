@@ -16,4 +16,4 @@ class Executable(Located):
         self._options = {name: value for name, value in self._options.items() if value is not None}
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)

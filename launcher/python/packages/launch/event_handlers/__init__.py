@@ -2,4 +2,4 @@
 
 from launch import _names
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)

@@ -18,6 +18,6 @@ class Shutdown(Located, Event):
         return [entity('shutdown', place, [('reason', self._reason), *when])]
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 
 from launch.events import process  # noqa: E402  it takes names of this module

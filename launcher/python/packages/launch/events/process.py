@@ -1,5 +1,1 @@
 """Events of processes."""
-
-from launch import _names
-
-_names.finish(__name__)

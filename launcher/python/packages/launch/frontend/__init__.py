@@ -19,5 +19,5 @@ def expose_substitution(_name):
     return lambda cls: cls
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 _names.same_module(__name__, __name__ + '.expose')

@@ -277,5 +277,5 @@ class LocalSubstitution(Substitution):
 
 
 _names.same_module(__name__, __name__ + '.this_launch_file')
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 del _launch_engine

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 
-from launch import _names
 from launch._values import text
 from launch.substitution import Substitution
 
@@ -35,6 +34,3 @@ def ensure_argument_type(argument, types, argument_name, caller=None):
         names = ', '.join(getattr(known, '__name__', str(known)) for known in types)
         raise TypeError(f"{caller + ': ' if caller else ''}expected '{argument_name}' to be one of [{names}], "
                         f"got {type(argument).__name__}")
-
-
-_names.finish(__name__)

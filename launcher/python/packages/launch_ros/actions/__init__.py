@@ -6,4 +6,4 @@ from launch_ros.actions._settings import (
     PushROSNamespace, PushRosNamespace, ROSTimer, RosTimer, SetParameter, SetParametersFromFile, SetRemap, SetROSLogDir,
     SetUseSimTime)
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)

@@ -46,5 +46,5 @@ class ComposableLifecycleNode(ComposableNode):
         self._attributes.append(('autostart', boolean(autostart, 'autostart')))
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 __all__ = ['ComposableLifecycleNode', 'ComposableNode', 'Parameter', 'ParameterFile', 'ParameterValue']

@@ -38,5 +38,5 @@ class Parameter(_Builtin):
         self._take(name, default)
 
 
-_names.finish(__name__, one_class_modules=True)
+_names.one_class_modules(__name__)
 _names.same_module(__name__, __name__ + '.find_package')

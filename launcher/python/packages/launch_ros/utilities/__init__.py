@@ -27,4 +27,3 @@ def prefix_namespace(base_namespace=None, namespace=None):
 
 
 _names.same_module(__name__, __name__ + '.namespace_utils')
-_names.finish(__name__)
