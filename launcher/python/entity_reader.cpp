@@ -83,7 +83,11 @@ Entity read_entity(const py::tuple& tuple) {
   entity.where = read_place(tuple[1]);
   for (const py::handle item : tuple[2]) {
     const auto attribute = item.cast<py::tuple>();
-    entity.attributes.emplace_back(attribute[0].cast<std::string>(), read_value(attribute[1]));
+    Value value = read_value(attribute[1]);
+    if (attribute.size() > 2) {
+      value.where = read_place(attribute[2]);
+    }
+    entity.attributes.emplace_back(attribute[0].cast<std::string>(), std::move(value));
   }
   entity.children = read_entities(tuple[3]);
   if (!tuple[4].is_none()) {

@@ -6,18 +6,18 @@ from launch._values import LaunchFileError, name_of
 
 
 def entity(tag, place, attributes, children=(), obj=None, process_name=''):
-    """`attributes` are pairs; those whose value is None are left out."""
+    """`attributes` are names with values, and places if they have their own; those whose value is None are left out."""
     return (tag, place, [pair for pair in attributes if pair[1] is not None], list(children), obj, process_name)
 
 
-def entities(objects):
-    """The entities of actions, lists of them and launch descriptions, in order."""
+def entities(objects, place=None):
+    """The entities of actions, lists of them and launch descriptions, in order. `place` is of what holds them."""
     result = []
-    _collect(objects, result)
+    _collect(objects, result, place)
     return result
 
 
-def _collect(objects, result):
+def _collect(objects, result, place):
     from launch.launch_description_entity import LaunchDescriptionEntity
     if objects is None:
         return
@@ -26,7 +26,7 @@ def _collect(objects, result):
     elif isinstance(objects, Iterable) and not isinstance(objects, (str, bytes)):
         for item in objects:
             if item is None:
-                raise LaunchFileError('expected an action, got None')
-            _collect(item, result)
+                raise LaunchFileError('expected an action, got None', '', place)
+            _collect(item, result, place)
     else:
-        raise LaunchFileError(f'expected an action, got {name_of(objects)}')
+        raise LaunchFileError(f'expected an action, got {name_of(objects)}', '', place)

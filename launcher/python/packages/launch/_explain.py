@@ -74,7 +74,7 @@ def explain(error, trace):
     text = ''.join(traceback.format_exception(type(error), error, trace))
     number = getattr(error, '_number', None)
     if isinstance(error, LaunchFileError):
-        return str(error), _place(trace), error.help, text, number
+        return str(error), _place(trace) or error.place, error.help, text, number
     if unknown := _unknown_name(error):
         module, name = unknown
         near = difflib.get_close_matches(name, dir(sys.modules.get(module)), 1)

@@ -5,6 +5,7 @@ import types
 
 from launch import LaunchDescription
 from launch._entities import entities
+from launch._places import of_function
 from launch._environment import replace_os_environ
 from launch._values import LaunchFileError, name_of
 
@@ -35,5 +36,5 @@ def load(path, source):
     if not isinstance(description, LaunchDescription):
         raise LaunchFileError(
             f'generate_launch_description() must return a LaunchDescription, got {name_of(description)}',
-            f'return LaunchDescription({"[…]" if description is None else "…"})')
+            'write return LaunchDescription([…])', of_function(generate))
     return entities(description)

@@ -35,6 +35,12 @@ def resolve(instruction):
     return code.co_filename, line, 0, 0
 
 
+def of_function(function):
+    """The first line of a function; None for what isn't written in Python."""
+    code = getattr(function, '__code__', None)
+    return code and (code.co_filename, code.co_firstlineno, 0, 0)
+
+
 class Located:
     """Remembers where it was made."""
 

@@ -14,9 +14,10 @@ from launch.substitution import Substitution
 class LaunchFileError(Exception):
     """Something in a launch file that can't be right. Told without a Python traceback."""
 
-    def __init__(self, message, help_=''):
+    def __init__(self, message, help_='', place=None):
         super().__init__(message)
         self.help = help_
+        self.place = place  # for when nothing of the launch file is being executed
 
 
 def name_of(value):

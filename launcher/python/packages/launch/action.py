@@ -2,6 +2,7 @@
 
 from launch._entities import entities, entity
 from launch._values import LaunchFileError, reject
+from launch._places import of_function
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 
@@ -46,7 +47,10 @@ class Action(LaunchDescriptionEntity):
 
     def _execute(self):
         from launch.launch_context import LaunchContext
-        return entities(self.execute(LaunchContext._of_launch()))
+        return entities(self.execute(LaunchContext._of_launch()), self._place_of_execute())
+
+    def _place_of_execute(self):
+        return of_function(type(self).execute)
 
 
 class _Plain(LaunchDescriptionEntity):

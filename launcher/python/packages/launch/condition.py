@@ -17,9 +17,9 @@ class Condition(Located):
     def describe(self):
         return f'{type(self).__name__}()'
 
-    # As an attribute of an action: (`if` or `unless`, text).
+    # As an attribute of an action: `if` or `unless`, text, and its place.
     def _attribute(self):
-        return ('if', self)
+        return ('if', self, self._place())
 
     # The launcher takes it for a substitution that gives true or false.
     def _part(self):

@@ -28,4 +28,4 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self._contents
 
     def _entities(self):
-        return entities(self._contents)
+        return entities(self._contents, self._place())

@@ -1,6 +1,6 @@
 """Substitution: text that is known when it is visited."""
 
-from launch._places import Located
+from launch._places import Located, of_function
 
 
 class Substitution(Located):
@@ -21,5 +21,6 @@ class Substitution(Located):
         from launch._values import LaunchFileError
         result = self.perform(LaunchContext._of_launch())
         if not isinstance(result, str):
-            raise LaunchFileError(f'{type(self).__name__}.perform() must return a str, got {type(result).__name__}')
+            raise LaunchFileError(f'{type(self).__name__}.perform() must return a str, got {type(result).__name__}',
+                                  '', of_function(type(self).perform))
         return result

@@ -6,9 +6,19 @@ from collections.abc import Iterable, Mapping
 from launch._entities import entity
 from launch._values import LaunchFileError, boolean, name_of, text
 from launch.substitution import Substitution
+from launch.substitutions import _Builtin
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 _SCALARS = (bool, int, float)
+
+
+class _TypedText(_Builtin):
+    """A text that is typed when it is performed, even if it holds no substitution."""
+
+    _call = 'string-join'
+
+    def __init__(self, value):
+        self._take('', value)
 
 
 def parameter_items(parameters, place):
@@ -63,8 +73,7 @@ def _list(values):
         return text(values, 'a parameter')
     if any(isinstance(value, float) for value in values) and all(type(value) in (int, float) for value in values):
         return [float(value) for value in values]
-    return [value if isinstance(value, (str, *_SCALARS)) else text(value, 'an item of a parameter')
-            for value in values]
+    return [value if isinstance(value, (str, *_SCALARS)) else (_TypedText(value),) for value in values]
 
 
 def as_yaml(value):

@@ -134,7 +134,7 @@ class TimerAction(Action):
         from launch._entities import entities
         return [entity(self._tag, self._place(),
                        [('period', self._period), ('cancel_on_shutdown', self._cancel), *self._when()],
-                       entities(self._actions))]
+                       entities(self._actions, self._place()))]
 
 
 class _OfEngine(Action):

@@ -1,6 +1,7 @@
 """Actions that hold others, or that make them when they are visited."""
 
 from launch._entities import entities, entity
+from launch._places import of_function
 from launch._values import LaunchFileError, boolean, pairs, text
 from launch.action import Action
 from launch.launch_description_source import LaunchDescriptionSource
@@ -24,7 +25,7 @@ class GroupAction(Action):
         keep = [entity('keep', self._place(), [('name', name), ('value', value)]) for name, value in self._keep]
         attributes = [] if self._scoped == 'true' else [('scoped', self._scoped)]
         attributes += [] if self._forwarding == 'true' else [('forwarding', self._forwarding)]
-        return [entity('group', self._place(), [*attributes, *self._when()], keep + entities(self._actions))]
+        return [entity('group', self._place(), [*attributes, *self._when()], keep + entities(self._actions, self._place()))]
 
 
 class IncludeLaunchDescription(Action):
@@ -67,6 +68,9 @@ class OpaqueFunction(Action):
 
     def execute(self, context):
         return self._function(context, *self._args, **self._kwargs)
+
+    def _place_of_execute(self):
+        return of_function(self._function) or self._place()
 
 
 class OpaqueCoroutine(Action):

@@ -25,7 +25,7 @@ class IfCondition(Condition):
         return evaluate_condition_expression(context, self._expression)
 
     def _attribute(self):
-        return (self._name, self._expression)
+        return (self._name, self._expression, self._place())
 
 
 class UnlessCondition(IfCondition):
