@@ -80,6 +80,25 @@ function(stack_node pkg executable)
   stack_package(${pkg})
 endfunction()
 
+# stack_plugin(<pkg> <library> SOURCES <file>... LINK <target>...)
+#
+# A shared library that is loaded by name at run time, such as one with components; nobody links it. The CMake target is
+# <library>.
+function(stack_plugin pkg library)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "SOURCES;LINK")
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "stack_plugin(${pkg} ${library}): unexpected ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  add_library(${library} SHARED ${ARG_SOURCES})
+  _stack_place(${library} lib "$ORIGIN")
+  if(TARGET project_options)
+    target_link_libraries(${library} PRIVATE project_options)
+  endif()
+  target_link_libraries(${library} PRIVATE ${ARG_LINK})
+  install(TARGETS ${library} LIBRARY DESTINATION lib)
+  stack_package(${pkg})
+endfunction()
+
 # stack_package(<pkg>)
 #
 # Enters the package into the ament index and puts its package.xml beside it, in both prefixes. stack_library and

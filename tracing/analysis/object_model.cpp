@@ -1,5 +1,7 @@
 #include "tracing/analysis/object_model.hpp"
 
+#include <utility>
+
 namespace tracing {
 
 namespace {
@@ -32,11 +34,22 @@ ObjectId ObjectModel::find(const Index& index, Vpid vpid, ros2::Handle handle) {
   return found == index.end() ? kNoObject : found->second;
 }
 
-RmwLookup ObjectModel::find_rmw(const Index& index, Vpid vpid, ros2::Handle handle) {
+RmwLookup ObjectModel::find_rmw(const RmwIndex& index, Vpid vpid, ros2::Handle handle) {
   const auto found = index.find({vpid, handle});
   if (found == index.end()) return {RmwHandle::kUnknown, kNoObject};
-  if (found->second == kNoObject) return {RmwHandle::kInternal, kNoObject};
-  return {RmwHandle::kKnown, found->second};
+  if (found->second.endpoint == kNoObject) return {RmwHandle::kInternal, kNoObject};
+  return {RmwHandle::kKnown, found->second.endpoint};
+}
+
+void ObjectModel::add_rmw(RmwIndex& index, Vpid vpid, ros2::Handle handle, const ros2::Gid& gid) {
+  RmwEndpoint& entry = index[{vpid, handle}];
+  if (entry.gid != gid || gid.size == 0) entry = {gid, kNoObject};
+}
+
+bool ObjectModel::is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, Vpid vpid,
+                              ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) {
+  const ObjectId id = find(index, vpid, handle);
+  return id != kNoObject && rmw.id == id && endpoints[id] == endpoint;
 }
 
 ObjectId ObjectModel::topic(std::string_view name) {
@@ -46,49 +59,70 @@ ObjectId ObjectModel::topic(std::string_view name) {
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclNodeInit& event) {
-  node_index_[{origin.vpid, event.node_handle}] =
-      append(nodes_, NodeObject{origin.vpid, qualified_name(event.namespace_, event.node_name)});
+  NodeObject node{origin.vpid, qualified_name(event.namespace_, event.node_name)};
+  const ObjectId id = find(node_index_, origin.vpid, event.node_handle);
+  if (id != kNoObject && nodes_[id].name == node.name) return;
+  node_index_[{origin.vpid, event.node_handle}] = append(nodes_, std::move(node));
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RmwPublisherInit& event) {
-  rmw_publisher_index_[{origin.vpid, event.rmw_publisher_handle}] = kNoObject;
+  add_rmw(rmw_publisher_index_, origin.vpid, event.rmw_publisher_handle, event.gid);
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclPublisherInit& event) {
-  const ObjectId topic_id = topic(event.topic_name);
-  ++topics_[topic_id].publishers;
-  const ObjectId id = append(publishers_, EndpointObject{find(node_index_, origin.vpid, event.node_handle), topic_id});
+  const EndpointObject endpoint{find(node_index_, origin.vpid, event.node_handle), topic(event.topic_name)};
+  if (is_endpoint(publisher_index_, publishers_, origin.vpid, event.publisher_handle,
+                  rmw_publisher(origin.vpid, event.rmw_publisher_handle), endpoint)) {
+    return;
+  }
+  ++topics_[endpoint.topic].publishers;
+  const ObjectId id = append(publishers_, endpoint);
   publisher_index_[{origin.vpid, event.publisher_handle}] = id;
-  rmw_publisher_index_[{origin.vpid, event.rmw_publisher_handle}] = id;
+  rmw_publisher_index_[{origin.vpid, event.rmw_publisher_handle}].endpoint = id;
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RmwSubscriptionInit& event) {
-  rmw_subscription_index_[{origin.vpid, event.rmw_subscription_handle}] = kNoObject;
+  add_rmw(rmw_subscription_index_, origin.vpid, event.rmw_subscription_handle, event.gid);
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclSubscriptionInit& event) {
-  const ObjectId topic_id = topic(event.topic_name);
-  ++topics_[topic_id].subscriptions;
-  const ObjectId id =
-      append(subscriptions_, EndpointObject{find(node_index_, origin.vpid, event.node_handle), topic_id});
+  const EndpointObject endpoint{find(node_index_, origin.vpid, event.node_handle), topic(event.topic_name)};
+  if (is_endpoint(subscription_index_, subscriptions_, origin.vpid, event.subscription_handle,
+                  rmw_subscription(origin.vpid, event.rmw_subscription_handle), endpoint)) {
+    return;
+  }
+  ++topics_[endpoint.topic].subscriptions;
+  const ObjectId id = append(subscriptions_, endpoint);
   subscription_index_[{origin.vpid, event.subscription_handle}] = id;
-  rmw_subscription_index_[{origin.vpid, event.rmw_subscription_handle}] = id;
+  rmw_subscription_index_[{origin.vpid, event.rmw_subscription_handle}].endpoint = id;
 }
 
 // The two events of a subscription object come in either order: with intra-process communication its callback is
-// announced first. An object that has already had the event is an older one at the same address.
+// announced first. Whether a callback announced again is that of the same object, the other event tells.
 void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionInit& event) {
   const ObjectId subscription = find(subscription_index_, origin.vpid, event.subscription_handle);
-  const ObjectId object = find(subscription_object_index_, origin.vpid, event.subscription);
-  if (object != kNoObject && subscription_objects_[object].subscription == kNoObject) {
-    subscription_objects_[object].subscription = subscription;
-  } else {
+  const ObjectId id = find(subscription_object_index_, origin.vpid, event.subscription);
+  if (id == kNoObject) {
     add_subscription_object(origin.vpid, event.subscription, {subscription, false});
+    return;
+  }
+  SubscriptionObject& object = subscription_objects_[id];
+  const bool callback_repeated = std::exchange(object.callback_repeated, false);
+  if (object.subscription == kNoObject) {
+    object.subscription = subscription;
+  } else if (object.subscription != subscription) {  // a new object at the address of an older one
+    const ObjectId added = add_subscription_object(origin.vpid, event.subscription, {subscription, callback_repeated});
+    if (callback_repeated) move_callback(origin.vpid, CallbackObject::Owner::kSubscription, id, added);
   }
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionCallbackAdded& event) {
   ObjectId object = find(subscription_object_index_, origin.vpid, event.subscription);
+  if (object != kNoObject && subscription_objects_[object].has_callback &&
+      is_callback_of(origin.vpid, event.callback, CallbackObject::Owner::kSubscription, object)) {
+    subscription_objects_[object].callback_repeated = true;
+    return;
+  }
   if (object != kNoObject && !subscription_objects_[object].has_callback) {
     subscription_objects_[object].has_callback = true;
   } else {
@@ -98,8 +132,10 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionCallbac
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclServiceInit& event) {
-  service_index_[{origin.vpid, event.service_handle}] = append(
-      services_, ServiceObject{find(node_index_, origin.vpid, event.node_handle), std::string(event.service_name)});
+  ServiceObject service{find(node_index_, origin.vpid, event.node_handle), std::string(event.service_name)};
+  const ObjectId id = find(service_index_, origin.vpid, event.service_handle);
+  if (id != kNoObject && services_[id] == service) return;
+  service_index_[{origin.vpid, event.service_handle}] = append(services_, std::move(service));
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppServiceCallbackAdded& event) {
@@ -108,6 +144,8 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppServiceCallbackAdde
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclTimerInit& event) {
+  const ObjectId id = find(timer_index_, origin.vpid, event.timer_handle);
+  if (id != kNoObject && timers_[id].period_ns == event.period) return;
   timer_index_[{origin.vpid, event.timer_handle}] = append(timers_, TimerObject{kNoObject, event.period});
 }
 
@@ -118,15 +156,27 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerCallbackAdded&
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerLinkNode& event) {
   const ObjectId timer = find(timer_index_, origin.vpid, event.timer_handle);
-  if (timer != kNoObject) timers_[timer].node = find(node_index_, origin.vpid, event.node_handle);
+  const ObjectId node = find(node_index_, origin.vpid, event.node_handle);
+  if (timer == kNoObject) return;
+  if (timers_[timer].node == kNoObject) {
+    timers_[timer].node = node;
+  } else if (timers_[timer].node != node) {  // a new timer at the address of an older one
+    const ObjectId added = append(timers_, TimerObject{node, timers_[timer].period_ns});
+    timer_index_[{origin.vpid, event.timer_handle}] = added;
+    move_callback(origin.vpid, CallbackObject::Owner::kTimer, timer, added);
+  }
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppCallbackRegister& event) {
   ObjectId id = find(callback_index_, origin.vpid, event.callback);
-  if (id == kNoObject || !callbacks_[id].symbol.empty()) {  // its *_callback_added is not in the trace
+  if (id == kNoObject) {  // its *_callback_added is not in the trace
     id = add_callback(origin.vpid, event.callback, CallbackObject::Owner::kUnknown, kNoObject);
   }
-  if (event.symbol != kNullString) callbacks_[id].symbol = event.symbol;
+  if (event.symbol == kNullString || callbacks_[id].symbol == event.symbol) return;
+  if (!callbacks_[id].symbol.empty()) {  // a new callback of an object that looks like the one before
+    id = append_callback(CallbackObject(callbacks_[id]));
+  }
+  callbacks_[id].symbol = event.symbol;
 }
 
 ObjectId ObjectModel::publisher(Vpid vpid, ros2::Handle rcl_handle) const {
@@ -151,10 +201,39 @@ ObjectId ObjectModel::subscription_of(const CallbackObject& callback) const {
   return subscription_objects_[callback.owner_id].subscription;
 }
 
+bool ObjectModel::is_callback_of(Vpid vpid, ros2::Handle address, CallbackObject::Owner owner,
+                                 ObjectId owner_id) const {
+  const ObjectId id = find(callback_index_, vpid, address);
+  return id != kNoObject && callbacks_[id].owner == owner && callbacks_[id].owner_id == owner_id;
+}
+
 ObjectId ObjectModel::add_callback(Vpid vpid, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id) {
-  const ObjectId id = append(callbacks_, CallbackObject{vpid, address, owner, owner_id, ""});
-  callback_index_[{vpid, address}] = id;
-  return id;
+  if (is_callback_of(vpid, address, owner, owner_id)) return find(callback_index_, vpid, address);
+  const ObjectId id = find(callback_index_, vpid, address);
+  if (id != kNoObject && callbacks_[id].owner == CallbackObject::Owner::kUnknown) {
+    // It ran before the state dump told of it.
+    callbacks_[id].owner = owner;
+    callbacks_[id].owner_id = owner_id;
+    return id;
+  }
+  return append_callback({vpid, address, owner, owner_id, ""});
+}
+
+ObjectId ObjectModel::append_callback(CallbackObject callback) {
+  callback_index_[{callback.vpid, callback.address}] = static_cast<ObjectId>(callbacks_.size());
+  return append(callbacks_, std::move(callback));
+}
+
+void ObjectModel::move_callback(Vpid vpid, CallbackObject::Owner owner, ObjectId from, ObjectId to) {
+  for (ObjectId id = 0; id < callbacks_.size(); ++id) {
+    const CallbackObject& callback = callbacks_[id];
+    if (callback.vpid != vpid || find(callback_index_, vpid, callback.address) != id) continue;
+    if (callback.owner != owner || callback.owner_id != from) continue;
+    CallbackObject moved = callback;
+    moved.owner_id = to;
+    append_callback(std::move(moved));
+    return;
+  }
 }
 
 ObjectId ObjectModel::add_subscription_object(Vpid vpid, ros2::Handle handle, SubscriptionObject object) {

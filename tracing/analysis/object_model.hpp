@@ -1,8 +1,12 @@
 // The ROS 2 objects of a trace, built from its initialisation events as they come by.
 //
 // Handles are addresses: two processes may use the same one, and one process may use it again for another object
-// (there are no destruction events). An object is therefore found by process, handle and time: fed in the order of
+// (ROS 2 records no end of objects). An object is therefore found by process, handle and time: fed in the order of
 // time, the model answers with the newest object that had the handle, and never forgets an older one's results.
+//
+// The init events of living objects come again when another session starts (a state dump). Repeated events change
+// nothing: endpoints have a gid, which tells the same from a new one; of the other objects, one that is announced with
+// the same facts at the same address counts as the same.
 #pragma once
 
 #include <cstdint>
@@ -39,12 +43,14 @@ struct TopicObject {
 struct EndpointObject {  // publisher or subscription
   ObjectId node = kNoObject;
   ObjectId topic = kNoObject;
+  bool operator==(const EndpointObject&) const = default;
 };
 
 // rclcpp's object around a subscription: one, or two with intra-process communication.
 struct SubscriptionObject {
   ObjectId subscription = kNoObject;
   bool has_callback = false;
+  bool callback_repeated = false;  // of this object, unless the next rclcpp_subscription_init tells of another one
 };
 
 struct TimerObject {
@@ -55,6 +61,7 @@ struct TimerObject {
 struct ServiceObject {
   ObjectId node = kNoObject;
   std::string name;
+  bool operator==(const ServiceObject&) const = default;
 };
 
 struct CallbackObject {
@@ -123,11 +130,25 @@ class ObjectModel {
     std::size_t operator()(const Key& key) const;
   };
   using Index = std::unordered_map<Key, ObjectId, HashKey>;
+  struct RmwEndpoint {
+    ros2::Gid gid;
+    ObjectId endpoint = kNoObject;  // kNoObject while no rcl object claimed the handle
+  };
+  using RmwIndex = std::unordered_map<Key, RmwEndpoint, HashKey>;
 
   static ObjectId find(const Index& index, Vpid vpid, ros2::Handle handle);
-  static RmwLookup find_rmw(const Index& index, Vpid vpid, ros2::Handle handle);
+  static RmwLookup find_rmw(const RmwIndex& index, Vpid vpid, ros2::Handle handle);
+  static void add_rmw(RmwIndex& index, Vpid vpid, ros2::Handle handle, const ros2::Gid& gid);
+  // Whether the handle, and the rmw handle that `rmw` was looked up with, are those of this very endpoint already.
+  static bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, Vpid vpid,
+                          ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint);
   ObjectId topic(std::string_view name);
+  bool is_callback_of(Vpid vpid, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id) const;
+  // The callback at `address`: as it is if it has this owner, with this owner if it had none, else a new one.
   ObjectId add_callback(Vpid vpid, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id);
+  ObjectId append_callback(CallbackObject callback);
+  // A new callback like the newest of owner `from`, for `to`.
+  void move_callback(Vpid vpid, CallbackObject::Owner owner, ObjectId from, ObjectId to);
   ObjectId add_subscription_object(Vpid vpid, ros2::Handle handle, SubscriptionObject object);
 
   std::vector<NodeObject> nodes_;
@@ -141,9 +162,9 @@ class ObjectModel {
 
   Index node_index_;
   Index publisher_index_;
-  Index rmw_publisher_index_;  // to publishers_; kNoObject while no rcl publisher claimed the handle
+  RmwIndex rmw_publisher_index_;  // to publishers_
   Index subscription_index_;
-  Index rmw_subscription_index_;
+  RmwIndex rmw_subscription_index_;  // to subscriptions_
   Index subscription_object_index_;
   Index timer_index_;
   Index service_index_;

@@ -69,6 +69,7 @@ rcl_ret_t rcl_client_fini(rcl_client_t* client, rcl_node_t* node) {
   }
   rmw_ret_t result = RMW_RET_OK;
   if (client->impl != nullptr) {
+    TRACETOOLS_EXT_TRACEPOINT(rcl_client_fini, static_cast<const void*>(client));
     result = rmw_destroy_client(rcl_node_get_rmw_handle(node), client->impl->rmw_handle);
     delete client->impl;
     client->impl = nullptr;

@@ -1,5 +1,7 @@
 #include "rcl/context.h"
 
+#include <tracetools/tracetools.h>
+
 #include <atomic>
 
 #include "context_impl.hpp"
@@ -27,6 +29,7 @@ rcl_ret_t rcl_context_fini(rcl_context_t* context) {
     RCL_SET_ERROR_MSG("the context must be shut down before it is finalized");
     return RCL_RET_INVALID_ARGUMENT;
   }
+  TRACETOOLS_EXT_TRACEPOINT(rcl_context_fini, static_cast<const void*>(context));
   const rmw_ret_t result = rmw_context_fini(&context->impl->rmw_context);
   if (result != RMW_RET_OK) {
     return result;

@@ -168,6 +168,7 @@ rcl_ret_t rcl_node_fini(rcl_node_t* node) {
   if (node->impl->has_rosout) {
     result = rcl_logging_rosout_fini_publisher_for_node(node);
   }
+  TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini, static_cast<const void*>(node));
   destroy(node->impl);
   *node = rcl_get_zero_initialized_node();
   return result;

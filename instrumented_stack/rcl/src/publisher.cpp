@@ -65,6 +65,7 @@ rcl_ret_t rcl_publisher_fini(rcl_publisher_t* publisher, rcl_node_t* node) {
   }
   rmw_ret_t result = RMW_RET_OK;
   if (publisher->impl != nullptr) {
+    TRACETOOLS_EXT_TRACEPOINT(rcl_publisher_fini, static_cast<const void*>(publisher));
     result = rmw_destroy_publisher(rcl_node_get_rmw_handle(node), publisher->impl->rmw_handle);
     delete publisher->impl;
     publisher->impl = nullptr;

@@ -69,6 +69,7 @@ rcl_ret_t rcl_service_fini(rcl_service_t* service, rcl_node_t* node) {
   }
   rmw_ret_t result = RMW_RET_OK;
   if (service->impl != nullptr) {
+    TRACETOOLS_EXT_TRACEPOINT(rcl_service_fini, static_cast<const void*>(service));
     result = rmw_destroy_service(rcl_node_get_rmw_handle(node), service->impl->rmw_handle);
     delete service->impl;
     service->impl = nullptr;

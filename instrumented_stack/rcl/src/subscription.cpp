@@ -62,6 +62,7 @@ rcl_ret_t rcl_subscription_fini(rcl_subscription_t* subscription, rcl_node_t* no
   }
   rmw_ret_t result = RMW_RET_OK;
   if (subscription->impl != nullptr) {
+    TRACETOOLS_EXT_TRACEPOINT(rcl_subscription_fini, static_cast<const void*>(subscription));
     result = rmw_destroy_subscription(rcl_node_get_rmw_handle(node), subscription->impl->rmw_handle);
     delete subscription->impl;
     subscription->impl = nullptr;

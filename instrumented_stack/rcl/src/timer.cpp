@@ -122,6 +122,7 @@ rcl_ret_t rcl_timer_fini(rcl_timer_t* timer) {
   if (timer == nullptr || timer->impl == nullptr) {
     return RCL_RET_OK;
   }
+  TRACETOOLS_EXT_TRACEPOINT(rcl_timer_fini, static_cast<const void*>(timer));
   rcl_timer_impl_t* impl = timer->impl;
   timer->impl = nullptr;
   rcl_ret_t result = RCL_RET_OK;

@@ -8,7 +8,7 @@
 namespace rclcpp::detail {
 
 void CallbackSymbol::trace_registration(const void* callback) const {
-  // Demangling is expensive: only when somebody records it.
+  // Demangling is expensive: only where tracing is possible.
   if (TRACETOOLS_TRACEPOINT_ENABLED(rclcpp_callback_register)) {
     char* symbol = function_ ? tracetools::detail::get_symbol_funcptr(function_)
                              : tracetools::detail::demangle_symbol(type_->name());

@@ -2,6 +2,7 @@
 
 #include <rcl/graph.h>
 #include <rcl/wait.h>
+#include <tracetools/tracetools.h>
 
 #include <algorithm>
 
@@ -151,6 +152,7 @@ bool ClientBase::take_type_erased_response(void* response_out, rmw_request_id_t&
 }
 
 void ClientBase::execute() {
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_client, static_cast<const void*>(client_handle_.get()));
   rmw_request_id_t header{};
   std::shared_ptr<void> response = create_response();
   // A response that cannot be read costs that response, not the program.
@@ -162,7 +164,11 @@ void ClientBase::execute() {
                  error.what());
   }
   if (taken) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_start, static_cast<const void*>(client_handle_.get()),
+                              header.sequence_number);
     handle_response(header, std::move(response));
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_end, static_cast<const void*>(client_handle_.get()),
+                              header.sequence_number);
   }
 }
 

@@ -51,6 +51,11 @@ NodeOptions& NodeOptions::parameter_event_qos(const QoS& parameter_event_qos) {
   return *this;
 }
 
+NodeOptions& NodeOptions::use_intra_process_comms(bool use_intra_process_comms) {
+  use_intra_process_comms_ = use_intra_process_comms;
+  return *this;
+}
+
 NodeOptions& NodeOptions::allow_undeclared_parameters(bool allow_undeclared_parameters) {
   allow_undeclared_parameters_ = allow_undeclared_parameters;
   return *this;

@@ -45,6 +45,9 @@ ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
 }
 
 ServiceBase::~ServiceBase() {
+  if (traced_callback_) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, traced_callback_);
+  }
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
   }
@@ -75,6 +78,7 @@ bool ServiceBase::take_type_erased_request(void* request_out, rmw_request_id_t& 
 }
 
 void ServiceBase::execute() {
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_service, static_cast<const void*>(service_handle_.get()));
   auto header = std::make_shared<rmw_request_id_t>();
   std::shared_ptr<void> request = create_request();
   // A request that cannot be read costs that request, not the program.
@@ -104,6 +108,7 @@ void ServiceBase::send_type_erased_response(rmw_request_id_t& request_id, void* 
 }
 
 void ServiceBase::trace_creation(const AnyServiceCallbackBase& callback) {
+  traced_callback_ = &callback;
   TRACETOOLS_TRACEPOINT(rclcpp_service_callback_added, static_cast<const void*>(service_handle_.get()),
                         static_cast<const void*>(&callback));
   callback.trace_registration();

@@ -38,6 +38,10 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
 }
 
 SubscriptionBase::~SubscriptionBase() {
+  if (traced_callback_) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, traced_callback_);
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_subscription_fini, static_cast<const void*>(this));
+  }
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
   }
@@ -129,6 +133,7 @@ void SubscriptionBase::return_message(std::shared_ptr<void> message) {
 }
 
 void SubscriptionBase::trace_creation(const AnySubscriptionCallbackBase& callback) {
+  traced_callback_ = &callback;
   TRACETOOLS_TRACEPOINT(rclcpp_subscription_init, static_cast<const void*>(subscription_handle_.get()),
                         static_cast<const void*>(this));
   TRACETOOLS_TRACEPOINT(rclcpp_subscription_callback_added, static_cast<const void*>(this),

@@ -42,6 +42,9 @@ TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Co
 }
 
 TimerBase::~TimerBase() {
+  if (callback_) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, callback_);
+  }
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
   }

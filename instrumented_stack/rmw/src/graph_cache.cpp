@@ -40,7 +40,13 @@ void GraphCache::remove_participant(const Gid& gid) {
     participants_.erase(gid);
     std::erase_if(endpoints_, [&](const auto& entry) { return same_participant(entry.first, gid); });
   }
+  participant_removed_.notify_all();
   on_change_();
+}
+
+bool GraphCache::wait_until_unknown(const Gid& gid, std::chrono::steady_clock::time_point deadline) {
+  std::unique_lock lock(mutex_);
+  return participant_removed_.wait_until(lock, deadline, [&] { return participants_.count(gid) == 0; });
 }
 
 void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {

@@ -4,6 +4,8 @@
 // names of its nodes and the endpoints of each. Thread safe.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -42,6 +44,8 @@ class GraphCache {
   void add_participant(const Gid& gid, std::string enclave);
   // Also forgets its nodes and endpoints.
   void remove_participant(const Gid& gid);
+  // Returns when the participant is not, or no longer, known: true; at the deadline: false.
+  bool wait_until_unknown(const Gid& gid, std::chrono::steady_clock::time_point deadline);
   void add_endpoint(const Gid& gid, Endpoint endpoint);
   void remove_endpoint(const Gid& gid);
   // What a participant has told of its nodes; replaces what was known.
@@ -74,6 +78,7 @@ class GraphCache {
 
   std::function<void()> on_change_;
   mutable std::mutex mutex_;
+  std::condition_variable participant_removed_;
   std::map<Gid, Participant> participants_;
   std::map<Gid, Endpoint> endpoints_;
 };

@@ -6,6 +6,7 @@
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -15,8 +16,10 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <mutex>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "dds_gid.hpp"
 #include "message_type.hpp"
@@ -114,6 +117,21 @@ fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_pr
   return fdds::SYNCHRONOUS_PUBLISH_MODE;
 }
 
+// The participants of this process. The lock is held while one of them is created or taken apart.
+struct Siblings {
+  std::mutex mutex;
+  std::vector<Participant*> all;
+};
+
+Siblings& siblings() {
+  // Never destroyed: a context may outlive the static objects of this library.
+  static auto* siblings = new Siblings;
+  return *siblings;
+}
+
+// How long a participant that goes waits for its siblings to notice. It takes them a millisecond.
+constexpr std::chrono::seconds kFarewell{1};
+
 }  // namespace
 
 class Participant::DiscoveryListener final : public fdds::DomainParticipantListener {
@@ -154,7 +172,7 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
 };
 
 Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
-    : listener_(std::make_unique<DiscoveryListener>(graph)) {
+    : graph_(graph), listener_(std::make_unique<DiscoveryListener>(graph)) {
   const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
   qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
 
@@ -175,6 +193,7 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
     qos.wire_protocol().builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   }
 
+  std::lock_guard lock(siblings().mutex);
   participant_ = factory->create_participant(domain_id, qos, listener_.get(), fdds::StatusMask::none());
   if (participant_ == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
@@ -184,14 +203,25 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   subscriber_ = participant_->create_subscriber(participant_->get_default_subscriber_qos());
   gid_ = to_gid(participant_->guid());
   graph.add_participant(gid_, enclave);
+  siblings().all.push_back(this);
 }
 
 Participant::~Participant() {
+  std::lock_guard lock(siblings().mutex);
+  std::erase(siblings().all, this);
   // No callback may come while, or after, the participant is taken apart.
   participant_->set_listener(nullptr);
   participant_->delete_publisher(publisher_);
   participant_->delete_subscriber(subscriber_);
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+
+  // Participants of one process write into each other's built-in readers directly, and learn of each other's end over
+  // the transport. In between, the next endpoint that a sibling announces would be written into a reader that is gone
+  // (mended in later releases of Fast DDS by its pull request 5034).
+  const auto deadline = std::chrono::steady_clock::now() + kFarewell;
+  for (const Participant* sibling : siblings().all) {
+    sibling->graph_.wait_until_unknown(gid_, deadline);
+  }
 }
 
 fdds::Topic& Participant::acquire_topic(const std::string& dds_name,

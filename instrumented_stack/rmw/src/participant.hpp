@@ -31,6 +31,7 @@ class Participant {
  public:
   // Finds go to `graph`, which must outlive the participant.
   Participant(const rmw_init_options_t& options, GraphCache& graph);
+  // Waits until the other participants of the process have noticed, at most a second.
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
@@ -56,6 +57,7 @@ class Participant {
     std::size_t users;
   };
 
+  GraphCache& graph_;
   std::unique_ptr<DiscoveryListener> listener_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;

@@ -90,6 +90,7 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
 }
 
 void destroy_publisher(rmw_publisher_t* handle) {
+  TRACETOOLS_EXT_TRACEPOINT(rmw_publisher_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Publisher> publisher(&publisher_of(*handle));
   publisher->writer->set_listener(nullptr);
   publisher->participant->publisher().delete_datawriter(publisher->writer);

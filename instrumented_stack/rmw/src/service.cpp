@@ -77,6 +77,8 @@ rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_t
     service->close();
     throw;
   }
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, static_cast<const void*>(&service->handle),
+                            service->reader_identity().gid.data());
   return &service.release()->handle;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());
@@ -87,6 +89,7 @@ rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
   std::lock_guard lock(node->context->impl->mutex);
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, static_cast<const void*>(service));
   const std::unique_ptr<Service> owned(&service_of(*service));
   owned->close();
   rmw_fastrtps::leave_graph(node, {owned->reader_identity(), owned->writer_identity()});

@@ -113,6 +113,7 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
 }
 
 void destroy_subscription(rmw_subscription_t* handle) {
+  TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Subscription> subscription(&subscription_of(*handle));
   subscription->reader->set_listener(nullptr);
   subscription->participant->subscriber().delete_datareader(subscription->reader);

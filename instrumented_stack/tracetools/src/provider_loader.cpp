@@ -10,6 +10,9 @@
 #include <string>
 #include <string_view>
 
+#include "object_state.hpp"
+#include "state_dump_request.h"
+
 namespace tracetools {
 namespace {
 
@@ -32,21 +35,39 @@ std::string provider_path() {
 
 bool loaded = false;
 
+bool is_verbose() {
+  return environment_says_yes("TRACETOOLS_VERBOSE");
+}
+
+// Sessions that start later get the objects that live then.
+void offer_state_dumps(void* provider) {
+  const auto on_state_dump = reinterpret_cast<decltype(&tracetools_provider_on_state_dump)>(
+      dlsym(provider, "tracetools_provider_on_state_dump"));
+  const bool offered = on_state_dump && on_state_dump([] { ObjectState::instance().record_again(); }) == 0;
+  if (!offered && is_verbose()) {
+    std::fputs("tracetools: this lttng-ust cannot ask for the state of objects: start sessions before processes\n",
+               stderr);
+  }
+}
+
 // Runs when the library is loaded, before main and before the static objects of whatever links it. There is no
 // counterpart: threads may fire events until the very end of the process, when closing the probes would pull the code
 // from under them.
 [[gnu::constructor]] void open_provider() {
   if (environment_says_yes("TRACETOOLS_RUNTIME_DISABLE")) {
-    if (environment_says_yes("TRACETOOLS_VERBOSE")) {
+    if (is_verbose()) {
       std::fputs("tracetools: tracing is disabled by TRACETOOLS_RUNTIME_DISABLE\n", stderr);
     }
     return;
   }
   // Global, for the tracepoints of this library look the probes' symbols up.
-  loaded = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL) != nullptr;
-  if (!loaded) {
+  void* provider = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (provider == nullptr) {
     std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
+    return;
   }
+  loaded = true;
+  offer_state_dumps(provider);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// The functions of tracetools.h, one trio per row of events.h, and the definitions of their tracepoints. The probes
-/// that write the records are in libtracetools_provider.so: see provider_loader.cpp.
+/// The functions of tracetools.h, one trio per row of events.h and events_ext.h, and the definitions of their
+/// tracepoints. The probes that write the records are in libtracetools_provider.so: see provider_loader.cpp.
 #include "tracetools/tracetools.h"
 
 // Not every function hands on every parameter (rclcpp_publish), and none does when tracepoints are excluded.
@@ -7,12 +7,15 @@
 
 #ifdef TRACETOOLS_TRACEPOINTS_EXCLUDED
 
-#define DEFINE_EVENT(name, parameters, arguments) \
-  void ros_trace_##name parameters {}             \
-  bool ros_trace_enabled_##name(void) {           \
-    return false;                                 \
-  }                                               \
-  void ros_trace_do_##name parameters {}
+#define DEFINE_FUNCTIONS(prefix, name, parameters) \
+  void prefix##_##name parameters {}               \
+  bool prefix##_enabled_##name(void) {             \
+    return false;                                  \
+  }                                                \
+  void prefix##_do_##name parameters {}
+
+#define DEFINE_EVENT(name, parameters, arguments) DEFINE_FUNCTIONS(ros_trace, name, parameters)
+#define DEFINE_EXT_EVENT(name, parameters, arguments) DEFINE_FUNCTIONS(ros_trace_ext, name, parameters)
 
 bool ros_trace_compile_status(void) {
   return false;
@@ -23,25 +26,61 @@ bool ros_trace_runtime_status(void) {
 
 #else
 
+#include "init_events.hpp"
+
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
 #include "provider.h"
+#include "provider_ext.h"
 #include "provider_loader.hpp"
 
-// The provider's name stands here literally because LTTng's macros paste it before expanding it.
+// Providers stand here literally because LTTng's macros paste the name before expanding it.
 #define RECORD_IF_ENABLED(name, ...) lttng_ust_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__)
 #define RECORD(name, ...) lttng_ust_do_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__)
+#define RECORD_EXT_IF_ENABLED(name, ...) lttng_ust_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__)
+#define RECORD_EXT(name, ...) lttng_ust_do_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__)
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 
-#define DEFINE_EVENT(name, parameters, arguments)           \
-  void ros_trace_##name parameters {                        \
-    RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments); \
-  }                                                         \
-  bool ros_trace_enabled_##name(void) {                     \
-    return lttng_ust_tracepoint_enabled(ros2, name);        \
-  }                                                         \
-  void ros_trace_do_##name parameters {                     \
-    RECORD(name, WITHOUT_PARENTHESES arguments);            \
+// What is kept for a session that starts late: nothing where no session can start.
+#define NOTE(record, name, ...)                                                            \
+  if constexpr (tracetools::is_noted<tracetools::event::name>) {                           \
+    if (tracetools::provider_is_loaded()) {                                                \
+      tracetools::note<tracetools::event::name>(#name, record __VA_OPT__(, ) __VA_ARGS__); \
+    }                                                                                      \
+  }
+#define IS_WANTED(name, enabled) \
+  (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::provider_is_loaded())
+
+#define DEFINE_EVENT(name, parameters, arguments)                     \
+  static void record_##name parameters {                              \
+    RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
+  }                                                                   \
+  void ros_trace_##name parameters {                                  \
+    NOTE(record_##name, name, WITHOUT_PARENTHESES arguments)          \
+    RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
+  }                                                                   \
+  bool ros_trace_enabled_##name(void) {                               \
+    return IS_WANTED(name, lttng_ust_tracepoint_enabled(ros2, name)); \
+  }                                                                   \
+  void ros_trace_do_##name parameters {                               \
+    NOTE(record_##name, name, WITHOUT_PARENTHESES arguments)          \
+    RECORD(name, WITHOUT_PARENTHESES arguments);                      \
+  }
+
+#define DEFINE_EXT_EVENT(name, parameters, arguments)                     \
+  static void record_ext_##name parameters {                              \
+    RECORD_EXT_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
+  }                                                                       \
+  void ros_trace_ext_##name parameters {                                  \
+    NOTE(record_ext_##name, name, WITHOUT_PARENTHESES arguments)          \
+    RECORD_EXT_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
+  }                                                                       \
+  bool ros_trace_ext_enabled_##name(void) {                               \
+    return IS_WANTED(name, lttng_ust_tracepoint_enabled(ros2_ext, name)); \
+  }                                                                       \
+  void ros_trace_ext_do_##name parameters {                               \
+    NOTE(record_ext_##name, name, WITHOUT_PARENTHESES arguments)          \
+    RECORD_EXT(name, WITHOUT_PARENTHESES arguments);                      \
   }
 
 bool ros_trace_compile_status(void) {
@@ -54,3 +93,4 @@ bool ros_trace_runtime_status(void) {
 #endif
 
 TRACETOOLS_EVENTS(DEFINE_EVENT)
+TRACETOOLS_EXT_EVENTS(DEFINE_EXT_EVENT)

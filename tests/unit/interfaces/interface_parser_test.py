@@ -1,4 +1,4 @@
-"""What the parser of .msg and .srv files accepts, and what it says about mistakes."""
+"""What the parser of .msg, .srv and .action files accepts, and what it says about mistakes."""
 
 import unittest
 
@@ -63,7 +63,27 @@ class AcceptedText(unittest.TestCase):
     def test_service(self):
         file = parse_file('srv/Add.srv', 'int64 a\n---\nint64 sum\n', 'pkg', 'srv', KNOWN)
         self.assertEqual([m.name for m in file.messages], ['Add_Request', 'Add_Response'])
-        self.assertEqual(file.service.response.fields[0].name, 'sum')
+        self.assertEqual(file.services[0].response.fields[0].name, 'sum')
+
+    def test_action(self):
+        file = parse_file('action/Count.action', 'int32 to\n---\nPoint end\n---\nint32 at\n', 'pkg', 'action',
+                          KNOWN | {'unique_identifier_msgs/msg/UUID'})
+        fields = {m.name: [(f'{f.type.package}/{f.type.namespace}/{f.type.name}' if f.type.is_message else f.type.name,
+                            f.name) for f in m.fields] for m in file.messages}
+        goal_id = ('unique_identifier_msgs/msg/UUID', 'goal_id')
+        self.assertEqual(fields, {
+            'Count_Goal': [('int32', 'to')],
+            'Count_Result': [('pkg/msg/Point', 'end')],
+            'Count_Feedback': [('int32', 'at')],
+            'Count_SendGoal_Request': [goal_id, ('pkg/action/Count_Goal', 'goal')],
+            'Count_SendGoal_Response': [('bool', 'accepted'), ('builtin_interfaces/msg/Time', 'stamp')],
+            'Count_GetResult_Request': [goal_id],
+            'Count_GetResult_Response': [('int8', 'status'), ('pkg/action/Count_Result', 'result')],
+            'Count_FeedbackMessage': [goal_id, ('pkg/action/Count_Feedback', 'feedback')]})
+        self.assertEqual([s.cpp for s in file.services],
+                         ['pkg::action::Count_SendGoal', 'pkg::action::Count_GetResult'])
+        self.assertEqual(file.action.cpp, 'pkg::action::Count')
+        self.assertEqual([t.name for t in file.messages_of_others], ['Point', 'UUID', 'Time'])
 
     def test_file_names_are_those_of_ros(self):
         for name, expected in (('String', 'string'), ('ColorRGBA', 'color_rgba'), ('PointCloud2', 'point_cloud2'),
@@ -143,6 +163,15 @@ class Mistakes(unittest.TestCase):
                    path='srv/Add.srv', namespace='srv')
         self.check('---\n---', "srv/Add.srv:2:1: error: only a .srv file has '---', and only one\n  ---\n  ^",
                    path='srv/Add.srv', namespace='srv')
+        self.check('---\nint8 a',
+                   "action/Do.action:2:1: error: no '---' between the result and the feedback\n  int8 a\n  ^",
+                   'action/Do.action', 'action')
+        self.check('---\n---\n---', "action/Do.action:3:1: error: an .action file has two '---'\n  ---\n  ^",
+                   'action/Do.action', 'action')
+        self.check('int8 a\n---\n---',
+                   'action/Do.action:1:1: error: an action uses unique_identifier_msgs/msg/UUID: name '
+                   "'unique_identifier_msgs' among the DEPENDENCIES of rosidl_generate_interfaces\n  int8 a\n  ^",
+                   'action/Do.action', 'action')
         self.check('int8 a\n---', "msg/Test.msg:2:1: error: a .msg file has no '---'\n  ---\n  ^")
 
 

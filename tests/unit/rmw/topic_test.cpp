@@ -203,6 +203,17 @@ TEST_F(Topic, ReportsItsActualQos) {
   EXPECT_TRUE(rmw_time_equal(actual.liveliness_lease_duration, RMW_DURATION_INFINITE));
 }
 
+// Fast DDS lets participants of one process write into each other's memory: one must not go before the other knows.
+TEST(Contexts, EndOneAfterAnotherInOneProcess) {
+  test_support::Sandbox sandbox;
+  for (int i = 0; i < 100; ++i) {
+    Context first_context;
+    Context second_context;
+    Node first(first_context, "first");
+    Node second(second_context, "second");
+  }
+}
+
 TEST_F(Topic, RefusesAnotherTypeInTheSameContext) {
   Publisher<String> publisher(sender_, "/chatter");
   const rmw_publisher_options_t options = rmw_get_default_publisher_options();

@@ -1,5 +1,4 @@
 // The events of ROS 2, compared with what LTTng wrote and babeltrace2 reads: neither is ours.
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,6 +62,35 @@ message_link_periodic_async: _subs_length u64 2, subs ptr[_subs_length] [ 0x51 0
 message_link_partial_sync: _subs_length u64 1, subs ptr[_subs_length] [ 0x51 ], _pubs_length u64 0, pubs ptr[_pubs_length] [ ]
 )rows";
 
+// The same of provider ros2_ext.
+constexpr const char* kExtEvents = R"rows(
+rcl_context_fini: context_handle ptr 0x1
+rcl_node_fini: node_handle ptr 0x1
+rmw_publisher_fini: rmw_publisher_handle ptr 0x1
+rcl_publisher_fini: publisher_handle ptr 0x1
+rmw_subscription_fini: rmw_subscription_handle ptr 0x1
+rcl_subscription_fini: subscription_handle ptr 0x1
+rclcpp_subscription_fini: subscription ptr 0x1
+rmw_service_fini: rmw_service_handle ptr 0x1
+rcl_service_fini: service_handle ptr 0x1
+rmw_client_fini: rmw_client_handle ptr 0x1
+rcl_client_fini: client_handle ptr 0x1
+rcl_timer_fini: timer_handle ptr 0x1
+rclcpp_callback_fini: callback ptr 0x1
+rcl_lifecycle_state_machine_fini: state_machine ptr 0x1
+rclcpp_ipb_fini: ipb ptr 0x1
+rclcpp_ring_buffer_fini: buffer ptr 0x1
+rmw_service_init: rmw_service_handle ptr 0x1, gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ]
+rclcpp_client_callback_start: client_handle ptr 0x1, sequence_number i64 3
+rclcpp_client_callback_end: client_handle ptr 0x1, sequence_number i64 3
+rclcpp_executor_execute_service: service_handle ptr 0x1
+rclcpp_executor_execute_client: client_handle ptr 0x1
+rclcpp_executor_execute_waitable: waitable ptr 0x1
+state_dump_begin: events u64 2
+state_dump_end: events u64 2
+rcl_lifecycle_state: state_machine ptr 0x1, label str "active"
+)rows";
+
 // Fields of an event: "name type" each, in order, or "name = value".
 using Fields = std::vector<std::string>;
 using EventTable = std::map<std::string, Fields>;
@@ -77,11 +105,11 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
   return parts;
 }
 
-// From kEvents, made by `field` from the name, type and value of each field.
+// From `rows`, made by `field` from the name, type and value of each field.
 template <typename MakeField>
-EventTable expected(MakeField field) {
+EventTable expected(const char* rows, MakeField field) {
   EventTable table;
-  for (const std::string& row : split(kEvents, "\n")) {
+  for (const std::string& row : split(rows, "\n")) {
     const std::size_t colon = row.find(':');
     Fields& fields = table[row.substr(0, colon)];
     for (const std::string& text : split(row.substr(colon + 1), ",")) {
@@ -123,11 +151,11 @@ std::string without_underscore(const std::string& name) {
 
 // From the trace's metadata in CTF's language: what every reader knows of the events. A field is a line such as
 //   integer { size = 8; … base = 10; } _gid[16];
-EventTable declared_events(const std::string& metadata) {
+EventTable declared_events(const std::string& provider, const std::string& metadata) {
   EventTable table;
   Fields* fields = nullptr;
   for (const std::string& line : split(metadata, "\n")) {
-    if (const std::string event = between(line, "name = \"ros2:", "\""); !event.empty()) {
+    if (const std::string event = between(line, "name = \"" + provider + ":", "\""); !event.empty()) {
       fields = &table[event];
     } else if (line == "};") {
       fields = nullptr;
@@ -150,10 +178,10 @@ EventTable declared_events(const std::string& metadata) {
 
 // What babeltrace2 prints for each event, as "name = value". A line is such as
 //   [1795257084.1] (+0.1) host ros2:rmw_client_init: { cpu_id = 1 }, { rmw_client_handle = 0x1, gid = [ [0] = 1, … ] }
-EventTable printed_events(const std::string& text) {
+EventTable printed_events(const std::string& provider, const std::string& text) {
   EventTable table;
   for (const std::string& line : split(text, "\n")) {
-    const std::string event = between(line, " ros2:", ":");
+    const std::string event = between(line, " " + provider + ":", ":");
     if (event.empty()) continue;
     Fields& fields = table[event];
     for (const std::string& part : split(between(line, "}, {", "}"), ",")) {
@@ -177,7 +205,7 @@ class RecordedEvents : public testing::Test {
     for (const std::vector<std::string>& argv :
          std::vector<std::vector<std::string>>{{"lttng-sessiond", "--daemonize"},
                                                {"lttng", "create", "payload", "--output=" + trace_.string()},
-                                               {"lttng", "enable-event", "--userspace", "ros2:*"},
+                                               {"lttng", "enable-event", "--userspace", "ros2:*,ros2_ext:*"},
                                                {"lttng", "start"},
                                                {FIRE_ALL_EVENTS},
                                                {"lttng", "destroy"}}) {
@@ -197,48 +225,36 @@ TEST_F(RecordedEvents, HaveTheNamesFieldsOrderAndTypesOfRos2) {
   }
   const auto metadata = run_command({"babeltrace2", "--output-format=ctf-metadata", folder.string()});
   ASSERT_EQ(metadata.exit_code, 0) << metadata.err;
-  EXPECT_EQ(declared_events(metadata.out),
-            expected([](const auto& name, const auto& type, const auto&) { return name + " " + type; }));
+  const auto declaration = [](const auto& name, const auto& type, const auto&) { return name + " " + type; };
+  EXPECT_EQ(declared_events("ros2", metadata.out), expected(kEvents, declaration));
+  EXPECT_EQ(declared_events("ros2_ext", metadata.out), expected(kExtEvents, declaration));
 }
 
 TEST_F(RecordedEvents, HoldTheArgumentsOfTheFunctions) {
   const auto text = run_command({"babeltrace2", trace_.string()});
   ASSERT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_EQ(printed_events(text.out),
-            expected([](const auto& name, const auto&, const auto& value) { return name + " = " + value; }));
+  const auto printed = [](const auto& name, const auto&, const auto& value) { return name + " = " + value; };
+  EXPECT_EQ(printed_events("ros2", text.out), expected(kEvents, printed));
+  EXPECT_EQ(printed_events("ros2_ext", text.out), expected(kExtEvents, printed));
 }
 
 #define EVENT_NAME(name, ...) #name,
 const std::set<std::string> kDeclaredNames = {TRACETOOLS_EVENTS(EVENT_NAME)};
+const std::set<std::string> kDeclaredExtNames = {TRACETOOLS_EXT_EVENTS(EVENT_NAME)};
 #undef EVENT_NAME
 
-TEST(EventFunctions, AreThoseOfTheEvents) {
+std::set<std::string> expected_names(const char* rows) {
   std::set<std::string> names;
-  for (const auto& [name, fields] : expected([](const auto&name, const auto&, const auto&) { return name; })) {
+  for (const auto& [name, fields] : expected(rows, [](const auto&each, const auto&, const auto&) { return each; })) {
     names.insert(name);
   }
-  EXPECT_EQ(kDeclaredNames, names);
-  EXPECT_EQ(names.size(), 42u);
+  return names;
 }
 
-// A stack built with one configuration runs with the library of another.
-TEST(EventFunctions, AreTheSameWhenTracepointsAreExcluded) {
-  void* excluded = dlopen(EXCLUDED_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-  ASSERT_NE(excluded, nullptr) << dlerror();
-  for (void* library : {excluded, RTLD_DEFAULT}) {
-    for (const std::string& name : kDeclaredNames) {
-      EXPECT_NE(dlsym(library, ("ros_trace_" + name).c_str()), nullptr) << name;
-      EXPECT_NE(dlsym(library, ("ros_trace_do_" + name).c_str()), nullptr) << name;
-      EXPECT_NE(dlsym(library, ("ros_trace_enabled_" + name).c_str()), nullptr) << name;
-    }
-  }
-  for (const std::string& name : kDeclaredNames) {
-    EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(excluded, ("ros_trace_enabled_" + name).c_str()))()) << name;
-  }
-  for (const char* status : {"ros_trace_compile_status", "ros_trace_runtime_status"}) {
-    EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(excluded, status))()) << status;
-  }
-  dlclose(excluded);
+TEST(EventFunctions, AreThoseOfTheEvents) {
+  EXPECT_EQ(kDeclaredNames, expected_names(kEvents));
+  EXPECT_EQ(kDeclaredNames.size(), 42u);
+  EXPECT_EQ(kDeclaredExtNames, expected_names(kExtEvents));
 }
 
 }  // namespace

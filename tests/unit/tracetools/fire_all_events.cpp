@@ -1,8 +1,10 @@
-// Fires every event once, with arguments that event_payload_test.cpp expects in the trace. Prints how many threads the
-// process has.
+// Fires every event once, with arguments that event_payload_test.cpp expects in the trace, and prints how many threads
+// the process has. With --stay nothing ends the objects, and the process waits for the end of its input, so that a
+// session can start late; with --stay-empty all objects end first.
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <string_view>
 
 #include "tracetools/tracetools.h"
 
@@ -12,9 +14,45 @@ const void* at(uintptr_t address) {
   return reinterpret_cast<const void*>(address);
 }
 
+void end_objects() {
+  TRACETOOLS_EXT_TRACEPOINT(rcl_context_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rmw_publisher_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_publisher_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_subscription_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_subscription_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_service_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rmw_client_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_client_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_timer_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state_machine_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_ipb_fini, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_ring_buffer_fini, at(0x1));
+}
+
+// The objects to which end_objects() does not come, because another argument of their events has the address 0x1.
+void end_remaining_objects() {
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_subscription_fini, at(0x2));
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, at(0x2));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state_machine_fini, at(0x2));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_subscription_fini, at(0x52));
+  TRACETOOLS_EXT_TRACEPOINT(rcl_subscription_fini, at(0x51));
+}
+
+void wait_for_end_of_input() {
+  std::puts("ready");
+  std::fflush(stdout);
+  while (std::getchar() != EOF) {
+  }
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const std::string_view option = argc > 1 ? argv[1] : "";
   const uint8_t gid[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 30, 255};
   const void* subs[] = {at(0x51), at(0x52)};
   const void* pubs[] = {at(0x61)};
@@ -64,6 +102,28 @@ int main() {
   TRACETOOLS_TRACEPOINT(rclcpp_ring_buffer_clear, at(0x1));
   TRACETOOLS_TRACEPOINT(message_link_periodic_async, subs, 2, pubs, 1);
   TRACETOOLS_TRACEPOINT(message_link_partial_sync, subs, 1, pubs, 0);
+
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, at(0x1), gid);
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_start, at(0x1), 3);
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_end, at(0x1), 3);
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_service, at(0x1));
+  TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_client, at(0x1));
+  if (TRACETOOLS_EXT_TRACEPOINT_ENABLED(rclcpp_executor_execute_waitable)) {
+    TRACETOOLS_DO_EXT_TRACEPOINT(rclcpp_executor_execute_waitable, at(0x1));
+  }
+  if (option == "--stay") {
+    wait_for_end_of_input();
+    return 0;
+  }
+  end_objects();
+  if (option == "--stay-empty") {
+    end_remaining_objects();
+    wait_for_end_of_input();
+    return 0;
+  }
+  TRACETOOLS_EXT_TRACEPOINT(state_dump_begin, 2);
+  TRACETOOLS_EXT_TRACEPOINT(state_dump_end, 2);
+  TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state, at(0x1), "active");
 
   const auto threads = std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   std::printf("%d\n", static_cast<int>(threads));

@@ -54,6 +54,10 @@ class NodeOptions {
   const QoS& parameter_event_qos() const { return parameter_event_qos_; }
   NodeOptions& parameter_event_qos(const QoS& parameter_event_qos);
 
+  // Whether messages to subscriptions of this process go there directly. Default false.
+  bool use_intra_process_comms() const { return use_intra_process_comms_; }
+  NodeOptions& use_intra_process_comms(bool use_intra_process_comms);
+
   // Whether parameters may be set without having been declared. Default false.
   bool allow_undeclared_parameters() const { return allow_undeclared_parameters_; }
   NodeOptions& allow_undeclared_parameters(bool allow_undeclared_parameters);
@@ -82,6 +86,7 @@ class NodeOptions {
   bool start_parameter_services_ = true;
   bool start_parameter_event_publisher_ = true;
   QoS parameter_event_qos_ = ParameterEventsQoS();
+  bool use_intra_process_comms_ = false;
   bool allow_undeclared_parameters_ = false;
   bool automatically_declare_parameters_from_overrides_ = false;
   rcl_clock_type_t clock_type_ = RCL_ROS_TIME;

@@ -55,6 +55,7 @@ class ServiceBase {
  private:
   std::shared_ptr<rcl_service_t> service_handle_;
   CallbackGroup::WeakPtr callback_group_;
+  const void* traced_callback_ = nullptr;  // as trace_creation() told it
 };
 
 }  // namespace rclcpp

@@ -65,6 +65,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;
   CallbackGroup::WeakPtr callback_group_;
+  const void* traced_callback_ = nullptr;  // as trace_creation() told it
   // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
   // run such a callback several times at once.
   std::mutex spare_mutex_;

@@ -1,8 +1,9 @@
 # rosidl_generate_interfaces(<pkg> <file>... [DEPENDENCIES <pkg>...])
 #
-# Makes a package of messages and services: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the headers
-# <pkg>/msg/<name>.hpp and <pkg>/srv/<name>.hpp. Files are given as "msg/<Name>.msg" or "srv/<Name>.srv", relative to
-# the current folder. DEPENDENCIES are the packages whose messages they use; outside the stack find_package them first.
+# Makes a package of messages, services and actions: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the
+# headers <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. Files are given as "msg/<Name>.msg",
+# "srv/<Name>.srv" or "action/<Name>.action", relative to the current folder. DEPENDENCIES are the packages whose
+# messages they use; outside the stack find_package them first. What actions need is added by itself.
 # SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
 include_guard(GLOBAL)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
@@ -20,9 +21,9 @@ function(rosidl_generate_interfaces pkg)
   set(headers ${output}/include/${pkg}/detail/cdr_codecs.hpp)
   set(types "")
   foreach(file IN LISTS files)
-    if(NOT file MATCHES "^(msg|srv)/([A-Za-z0-9_]+)\\.(msg|srv)$")
-      message(FATAL_ERROR
-        "rosidl_generate_interfaces(${pkg}): '${file}' is neither msg/<Name>.msg nor srv/<Name>.srv")
+    if(NOT file MATCHES "^(msg|srv|action)/([A-Za-z0-9_]+)\\.(msg|srv|action)$")
+      message(FATAL_ERROR "rosidl_generate_interfaces(${pkg}): "
+        "'${file}' is none of msg/<Name>.msg, srv/<Name>.srv and action/<Name>.action")
     endif()
     set(namespace ${CMAKE_MATCH_1})
     list(APPEND types ${pkg}/${namespace}/${CMAKE_MATCH_2})
@@ -39,6 +40,15 @@ function(rosidl_generate_interfaces pkg)
     endif()
   endforeach()
 
+  if(types MATCHES "/action/")
+    foreach(dependency IN ITEMS action_msgs unique_identifier_msgs builtin_interfaces)
+      if(NOT TARGET ${dependency}::${dependency})
+        find_package(${dependency} REQUIRED)
+      endif()
+      list(APPEND ARG_DEPENDENCIES ${dependency})
+    endforeach()
+    list(REMOVE_DUPLICATES ARG_DEPENDENCIES)
+  endif()
   set(known "")
   set(libraries "")
   foreach(dependency IN LISTS ARG_DEPENDENCIES)

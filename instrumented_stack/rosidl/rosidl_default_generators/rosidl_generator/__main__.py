@@ -1,7 +1,7 @@
 """python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... FILE...
 
 Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp. The
-folder of a file, msg or srv, is the namespace of its types. --known names the messages of other packages that may be
+folder of a file, msg, srv or action, is the namespace of its types. --known names the messages of other packages that may be
 used.
 """
 

@@ -38,7 +38,7 @@ def _namespaces(messages: Iterable[Message]) -> List[str]:
 
 def source(package: str, files: List[InterfaceFile]) -> str:
     messages = [message for file in files for message in file.messages]
-    packages = {package} | {str(t.package) for m in messages for t in cpp_types.messages_used(m)}
+    packages = {package} | {str(t.package) for m in messages for t in m.messages_used}
     includes = [*(f'#include "{file.header}"' for file in files),
                 *(f'#include "{codec_header_path(p)}"' for p in sorted(packages)),
                 '#include "rosidl_runtime_cpp/yaml.hpp"',
@@ -104,11 +104,15 @@ const rosidl_message_type_support_t* get_message_type_support_handle<{m.cpp}>() 
   return rosidl_typesupport_fastrtps_cpp::message_type_support<{m.cpp}>("{m.package}::{m.namespace}", "{m.name}");
 }}
 ''' for m in file.messages)
-    if file.service:
-        s = file.service
-        text += f'''template <>
+    text += ''.join(f'''template <>
 const rosidl_service_type_support_t* get_service_type_support_handle<{s.cpp}>() {{
-  return rosidl_typesupport_fastrtps_cpp::service_type_support<{s.cpp}>("{s.package}::srv", "{s.name}");
+  return rosidl_typesupport_fastrtps_cpp::service_type_support<{s.cpp}>("{s.package}::{s.namespace}", "{s.name}");
+}}
+''' for s in file.services)
+    if file.action:
+        text += f'''template <>
+const rosidl_action_type_support_t* get_action_type_support_handle<{file.action.cpp}>() {{
+  return action_type_support<{file.action.cpp}>();
 }}
 '''
     return text

@@ -3,7 +3,7 @@
 from typing import List
 
 from . import cpp_types
-from .interface_definition import Constant, Field, InterfaceFile, Message, Type, snake_case
+from .interface_definition import Action, Constant, Field, InterfaceFile, Message, Type, snake_case
 
 
 def main_header(file: InterfaceFile) -> str:
@@ -13,11 +13,33 @@ def main_header(file: InterfaceFile) -> str:
 
 def struct_header(file: InterfaceFile) -> str:
     body = '\n'.join(_struct(message) for message in file.messages)
-    if file.service:
-        name = file.service.name
+    for service in file.services:
+        name = service.name
         body += f'\nstruct {name} {{\n  using Request = {name}_Request;\n  using Response = {name}_Response;\n}};\n'
+    if file.action:
+        body += _action(file.action)
     body = cpp_types.namespace_blocks(file.package, file.namespace, body)
     return cpp_types.header(file.detail_header('struct'), _includes(file), body)
+
+
+def _action(action: Action) -> str:
+    name = action.name
+    return f'''
+struct {name} {{
+  using Goal = {name}_Goal;
+  using Result = {name}_Result;
+  using Feedback = {name}_Feedback;
+
+  /// How the action is carried.
+  struct Impl {{
+    using SendGoalService = {name}_SendGoal;
+    using GetResultService = {name}_GetResult;
+    using FeedbackMessage = {name}_FeedbackMessage;
+    using CancelGoalService = action_msgs::srv::CancelGoal;
+    using GoalStatusMessage = action_msgs::msg::GoalStatusArray;
+  }};
+}};
+'''
 
 
 def _includes(file: InterfaceFile) -> List[str]:
@@ -36,9 +58,10 @@ def _includes(file: InterfaceFile) -> List[str]:
     ours = {'"rosidl_runtime_cpp/message_initialization.hpp"'}
     if any(t.sequence_bound is not None for t in types):
         ours.add('"rosidl_runtime_cpp/bounded_vector.hpp"')
-    for message in file.messages:
-        for used_type in cpp_types.messages_used(message):
-            ours.add(f'"{used_type.package}/msg/detail/{snake_case(used_type.name)}__struct.hpp"')
+    for used_type in file.messages_of_others:
+        ours.add(f'"{used_type.package}/msg/detail/{snake_case(used_type.name)}__struct.hpp"')
+    if file.action:
+        ours |= {'"action_msgs/msg/goal_status_array.hpp"', '"action_msgs/srv/cancel_goal.hpp"'}
     return [*sorted(used), *sorted(ours)]
 
 

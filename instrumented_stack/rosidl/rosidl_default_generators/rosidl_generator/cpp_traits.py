@@ -9,20 +9,32 @@ from .interface_definition import Field, InterfaceFile, Message
 def traits_header(file: InterfaceFile) -> str:
     printing = '\n'.join(_printing_declarations(message) for message in file.messages)
     traits = '\n'.join(_message_traits(message) for message in file.messages)
-    if file.service:
-        traits += '\n' + _names(file.service) + f'''
+    for service in file.services:
+        traits += '\n' + _names(service) + f'''
 template <>
-struct is_service<{file.service.cpp}> : std::true_type {{}};
+struct is_service<{service.cpp}> : std::true_type {{}};
 template <>
-struct is_service_request<{file.service.request.cpp}> : std::true_type {{}};
+struct is_service_request<{service.request.cpp}> : std::true_type {{}};
 template <>
-struct is_service_response<{file.service.response.cpp}> : std::true_type {{}};
+struct is_service_response<{service.response.cpp}> : std::true_type {{}};
+'''
+    if file.action:
+        name = file.action.cpp
+        traits += '\n' + _names(file.action) + f'''
+template <>
+struct is_action<{name}> : std::true_type {{}};
+template <>
+struct is_action_goal<{name}_Goal> : std::true_type {{}};
+template <>
+struct is_action_result<{name}_Result> : std::true_type {{}};
+template <>
+struct is_action_feedback<{name}_Feedback> : std::true_type {{}};
 '''
     body = (cpp_types.namespace_blocks(file.package, file.namespace, printing)
             + f'\nnamespace rosidl_generator_traits {{\n\n{traits}\n}}  // namespace rosidl_generator_traits\n')
     includes = ['<cstddef>', '<iosfwd>', '<string>', f'"{file.detail_header("struct")}"']
-    nested = {t for message in file.messages for t in cpp_types.messages_used(message)}
-    includes += sorted(f'"{InterfaceFile(str(t.package), "msg", t.name, []).detail_header("traits")}"' for t in nested)
+    includes += sorted(f'"{InterfaceFile(str(t.package), "msg", t.name, []).detail_header("traits")}"'
+                       for t in file.messages_of_others)
     return cpp_types.header(file.detail_header('traits'), [*includes, '"rosidl_runtime_cpp/traits.hpp"'], body)
 
 
@@ -79,10 +91,15 @@ def type_support_header(file: InterfaceFile) -> str:
 const rosidl_message_type_support_t* get_message_type_support_handle<{message.cpp}>();
 ''' for message in file.messages)
     includes = [f'"{file.detail_header("struct")}"', '"rosidl_typesupport_cpp/message_type_support.hpp"']
-    if file.service:
-        handles += f'''template <>
-const rosidl_service_type_support_t* get_service_type_support_handle<{file.service.cpp}>();
-'''
+    handles += ''.join(f'''template <>
+const rosidl_service_type_support_t* get_service_type_support_handle<{service.cpp}>();
+''' for service in file.services)
+    if file.services:
         includes.append('"rosidl_typesupport_cpp/service_type_support.hpp"')
+    if file.action:
+        handles += f'''template <>
+const rosidl_action_type_support_t* get_action_type_support_handle<{file.action.cpp}>();
+'''
+        includes.append('"rosidl_typesupport_cpp/action_type_support.hpp"')
     body = f'namespace rosidl_typesupport_cpp {{\n\n{handles}\n}}  // namespace rosidl_typesupport_cpp\n'
     return cpp_types.header(file.detail_header('type_support'), includes, body)

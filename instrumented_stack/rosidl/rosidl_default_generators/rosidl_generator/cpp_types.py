@@ -2,7 +2,7 @@
 
 from typing import Any, Iterable, List
 
-from .interface_definition import Message, Type
+from .interface_definition import Type
 
 PRIMITIVES = {'bool': 'bool', 'byte': 'unsigned char', 'char': 'unsigned char', 'float32': 'float', 'float64': 'double',
               'string': 'std::string', 'wstring': 'std::u16string',
@@ -10,7 +10,7 @@ PRIMITIVES = {'bool': 'bool', 'byte': 'unsigned char', 'char': 'unsigned char', 
 
 
 def element_type(type_: Type) -> str:
-    return f'{type_.package}::msg::{type_.name}' if type_.is_message else PRIMITIVES[type_.name]
+    return f'{type_.package}::{type_.namespace}::{type_.name}' if type_.is_message else PRIMITIVES[type_.name]
 
 
 def member_type(type_: Type) -> str:
@@ -79,8 +79,3 @@ def header(path: str, includes: Iterable[str], body: str) -> str:
     guard = path.upper().replace('/', '__').replace('.', '_') + '_'
     lines = '\n'.join(f'#include {include}' for include in includes)
     return f'#ifndef {guard}\n#define {guard}\n\n{lines}\n\n{body}\n#endif  // {guard}\n'
-
-
-def messages_used(message: Message) -> List[Type]:
-    """The distinct messages among the fields' types, in the order of their first use."""
-    return list(dict.fromkeys(Type(f.type.name, f.type.package) for f in message.members if f.type.is_message))

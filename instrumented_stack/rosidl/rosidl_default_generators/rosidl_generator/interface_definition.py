@@ -1,4 +1,4 @@
-"""What a .msg or .srv file says: the parser's result and the emitters' input."""
+"""What a .msg, .srv or .action file says: the parser's result and the emitters' input."""
 
 import re
 from dataclasses import dataclass, field
@@ -21,6 +21,7 @@ class Type:
     array_size: Optional[int] = None  # N of [N]
     sequence_bound: Optional[int] = None  # N of [<=N]
     is_sequence: bool = False  # [] and [<=N]
+    namespace: str = 'msg'  # of a message
 
     @property
     def is_message(self) -> bool:
@@ -36,7 +37,7 @@ class Type:
 
     @property
     def element(self) -> 'Type':
-        return Type(self.name, self.package, self.string_bound)
+        return Type(self.name, self.package, self.string_bound, namespace=self.namespace)
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ PLACEHOLDER = Field(Type('uint8'), 'structure_needs_at_least_one_member')
 @dataclass
 class Message:
     package: str
-    namespace: str  # 'msg' or 'srv': the folder of the file
+    namespace: str  # 'msg', 'srv' or 'action': the folder of the file
     name: str
     fields: List[Field] = field(default_factory=list)
     constants: List[Constant] = field(default_factory=list)
@@ -74,15 +75,34 @@ class Message:
     def cpp(self) -> str:
         return f'{self.package}::{self.namespace}::{self.name}'
 
+    @property
+    def messages_used(self) -> List[Type]:
+        """The distinct messages among the fields' types, in the order of their first use."""
+        return list(dict.fromkeys(Type(f.type.name, f.type.package, namespace=f.type.namespace)
+                                  for f in self.members if f.type.is_message))
+
 
 @dataclass
 class Service:
     package: str
+    namespace: str  # 'srv', or 'action' for the services of an action
     name: str
     request: Message
     response: Message
 
-    namespace = 'srv'
+    @property
+    def cpp(self) -> str:
+        return f'{self.package}::{self.namespace}::{self.name}'
+
+
+@dataclass
+class Action:
+    """The messages and services of an action have its name and more: Fibonacci_Goal, Fibonacci_SendGoal."""
+
+    package: str
+    name: str
+
+    namespace = 'action'
 
     @property
     def cpp(self) -> str:
@@ -91,13 +111,18 @@ class Service:
 
 @dataclass
 class InterfaceFile:
-    """One file: its messages (one, or the request and response of its service)."""
+    """One file: its messages and what is made of them.
+
+    A .msg file has one message, a .srv file the request and response of its service. An .action file has goal, result
+    and feedback, and what carries them: two services and the feedback message.
+    """
 
     package: str
     namespace: str
     name: str
     messages: List[Message]
-    service: Optional[Service] = None
+    services: List[Service] = field(default_factory=list)
+    action: Optional[Action] = None
 
     @property
     def header(self) -> str:
@@ -105,3 +130,33 @@ class InterfaceFile:
 
     def detail_header(self, part: str) -> str:
         return f'{self.package}/{self.namespace}/detail/{snake_case(self.name)}__{part}.hpp'
+
+    @property
+    def messages_of_others(self) -> List[Type]:
+        """The distinct messages from other files among the fields' types, in the order of their first use."""
+        own = {(message.package, message.namespace, message.name) for message in self.messages}
+        used = [t for message in self.messages for t in message.messages_used]
+        return list(dict.fromkeys(t for t in used if (t.package, t.namespace, t.name) not in own))
+
+
+def action_file(package: str, name: str, goal: Message, result: Message, feedback: Message) -> InterfaceFile:
+    """The file of an action, with the services and the message by which ROS 2 carries its three parts."""
+    goal_id = Field(Type('UUID', 'unique_identifier_msgs'), 'goal_id')
+
+    def part(message: Message) -> Type:
+        return Type(message.name, package, namespace='action')
+
+    def make(suffix: str, *fields: Field) -> Message:
+        return Message(package, 'action', f'{name}_{suffix}', list(fields))
+
+    send_goal = Service(package, 'action', f'{name}_SendGoal',
+                        make('SendGoal_Request', goal_id, Field(part(goal), 'goal')),
+                        make('SendGoal_Response', Field(Type('bool'), 'accepted'),
+                             Field(Type('Time', 'builtin_interfaces'), 'stamp')))
+    get_result = Service(package, 'action', f'{name}_GetResult',
+                         make('GetResult_Request', goal_id),
+                         make('GetResult_Response', Field(Type('int8'), 'status'), Field(part(result), 'result')))
+    feedback_message = make('FeedbackMessage', goal_id, Field(part(feedback), 'feedback'))
+    messages = [goal, result, feedback, send_goal.request, send_goal.response, get_result.request, get_result.response,
+                feedback_message]
+    return InterfaceFile(package, 'action', name, messages, [send_goal, get_result], Action(package, name))

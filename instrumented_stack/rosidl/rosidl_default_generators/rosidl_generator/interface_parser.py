@@ -1,6 +1,7 @@
-"""Reads the text of .msg and .srv files.
+"""Reads the text of .msg, .srv and .action files.
 
-A line is `type name [default]`, `type NAME=value`, a comment, or `---` between the request and response of a service.
+A line is `type name [default]`, `type NAME=value`, a comment, or `---` between the request and response of a service,
+and between the goal, result and feedback of an action.
 A type is a primitive, `Name`, `package/Name` or `package/msg/Name`, strings with an optional bound `<=N`, followed by
 `[]`, `[N]` or `[<=N]` for many.
 """
@@ -9,7 +10,7 @@ import difflib
 import re
 from typing import Any, Callable, Collection, List, Optional, Tuple
 
-from .interface_definition import Constant, Field, InterfaceFile, Message, Service, Type
+from .interface_definition import Constant, Field, InterfaceFile, Message, Service, Type, action_file
 
 INTEGER_BITS = {'byte': (0, 8), 'char': (0, 8), 'int8': (1, 8), 'uint8': (0, 8), 'int16': (1, 16), 'uint16': (0, 16),
                 'int32': (1, 32), 'uint32': (0, 32), 'int64': (1, 64), 'uint64': (0, 64)}
@@ -21,6 +22,9 @@ FIELD_NAME = re.compile(r'(?!.*__)[a-z]([a-z0-9_]*[a-z0-9])?')
 CONSTANT_NAME = re.compile(r'(?!.*__)[A-Z]([A-Z0-9_]*[A-Z0-9])?')
 MESSAGE_NAME = re.compile(r'[A-Z][A-Za-z0-9]*')
 PACKAGE_NAME = re.compile(r'(?!.*__)[a-z]([a-z0-9_]*[a-z0-9])?')
+PARTS = {'msg': (), 'srv': ('Request', 'Response'), 'action': ('Goal', 'Result', 'Feedback')}
+TOO_MANY_PARTS = {'msg': "a .msg file has no '---'", 'srv': "only a .srv file has '---', and only one",
+                  'action': "an .action file has two '---'"}
 ESCAPES = {'n': '\n', 't': '\t', 'r': '\r', '\\': '\\', '"': '"', "'": "'"}
 
 
@@ -43,9 +47,8 @@ def parse_file(path: str, text: str, package: str, namespace: str, known_types: 
     if not MESSAGE_NAME.fullmatch(name):
         raise InterfaceError(path, 1, 0, lines[0] if lines else '',
                              f"'{name}' is not a type name: it must be letters and digits, starting with a capital")
-    parts = [Message(package, namespace, name)]
-    if namespace == 'srv':
-        parts = [Message(package, namespace, f'{name}_{part}') for part in ('Request', 'Response')]
+    names = [f'{name}_{part}' for part in PARTS[namespace]] or [name]
+    parts = [Message(package, namespace, part) for part in names]
     part = 0
     for number, line in enumerate(lines, start=1):
         def error(column: int, what: str) -> InterfaceError:
@@ -54,15 +57,21 @@ def parse_file(path: str, text: str, package: str, namespace: str, known_types: 
         if line.strip() == '---':
             part += 1
             if part == len(parts):
-                raise error(line.index('-'), "only a .srv file has '---', and only one" if namespace == 'srv'
-                            else "a .msg file has no '---'")
+                raise error(line.index('-'), TOO_MANY_PARTS[namespace])
             continue
         _parse_line(_Line(line, error), parts[part], known_types)
     if part + 1 < len(parts):
         raise InterfaceError(path, max(len(lines), 1), 0, lines[-1] if lines else '',
-                             "no '---' between the request and the response")
-    service = Service(package, name, *parts) if namespace == 'srv' else None
-    return InterfaceFile(package, namespace, name, parts, service)
+                             "no '---' between the {} and the {}".format(*PARTS[namespace][part:part + 2]).lower())
+    if namespace == 'action':
+        for used in ('unique_identifier_msgs/msg/UUID', 'builtin_interfaces/msg/Time'):
+            if used not in known_types:
+                raise InterfaceError(path, 1, 0, lines[0] if lines else '',
+                                     f"an action uses {used}: name '{used.split('/')[0]}' among the DEPENDENCIES of "
+                                     'rosidl_generate_interfaces')
+        return action_file(package, name, *parts)
+    services = [Service(package, namespace, name, *parts)] if namespace == 'srv' else []
+    return InterfaceFile(package, namespace, name, parts, services)
 
 
 class _Line:

@@ -13,6 +13,9 @@
 ///     TRACETOOLS_DO_TRACEPOINT(rmw_publisher_init, handle, gid);
 ///   }
 ///
+/// The same with _EXT_ in the name for the events of provider `ros2_ext`: TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini,
+/// node).
+///
 /// A tracepoint that no session records costs a call, a load and a branch. All functions may be called from any thread.
 
 #include "tracetools/config.h"
@@ -22,6 +25,9 @@
 #define TRACETOOLS_TRACEPOINT(...) ((void)0)
 #define TRACETOOLS_TRACEPOINT_ENABLED(event) false
 #define TRACETOOLS_DO_TRACEPOINT(...) ((void)0)
+#define TRACETOOLS_EXT_TRACEPOINT(...) ((void)0)
+#define TRACETOOLS_EXT_TRACEPOINT_ENABLED(event) false
+#define TRACETOOLS_DO_EXT_TRACEPOINT(...) ((void)0)
 
 #else
 
@@ -30,10 +36,14 @@
 #include <stdint.h>
 
 #include "tracetools/events.h"
+#include "tracetools/events_ext.h"
 
 #define TRACETOOLS_TRACEPOINT(event, ...) ros_trace_##event(__VA_ARGS__)
 #define TRACETOOLS_TRACEPOINT_ENABLED(event) ros_trace_enabled_##event()
 #define TRACETOOLS_DO_TRACEPOINT(event, ...) ros_trace_do_##event(__VA_ARGS__)
+#define TRACETOOLS_EXT_TRACEPOINT(event, ...) ros_trace_ext_##event(__VA_ARGS__)
+#define TRACETOOLS_EXT_TRACEPOINT_ENABLED(event) ros_trace_ext_enabled_##event()
+#define TRACETOOLS_DO_EXT_TRACEPOINT(event, ...) ros_trace_ext_do_##event(__VA_ARGS__)
 
 #ifdef __cplusplus
 extern "C" {
@@ -46,14 +56,23 @@ bool ros_trace_compile_status(void);
 /// False with TRACETOOLS_RUNTIME_DISABLE=1 in the environment and when libtracetools_provider.so could not be opened.
 bool ros_trace_runtime_status(void);
 
-/// For each event: record it if a session wants it; whether a session wants it; record it without asking.
+/// For each event: record it if it is wanted; whether it is wanted; record it without asking.
+///
+/// An event is wanted when a session records it. An init event is always wanted where tracing is enabled at run time:
+/// it is kept for sessions that start later (see object_state.hpp).
 #define TRACETOOLS_DECLARE_EVENT(name, parameters, arguments) \
   void ros_trace_##name parameters;                           \
   bool ros_trace_enabled_##name(void);                        \
   void ros_trace_do_##name parameters;
+#define TRACETOOLS_DECLARE_EXT_EVENT(name, parameters, arguments) \
+  void ros_trace_ext_##name parameters;                           \
+  bool ros_trace_ext_enabled_##name(void);                        \
+  void ros_trace_ext_do_##name parameters;
 
 TRACETOOLS_EVENTS(TRACETOOLS_DECLARE_EVENT)
+TRACETOOLS_EXT_EVENTS(TRACETOOLS_DECLARE_EXT_EVENT)
 
+#undef TRACETOOLS_DECLARE_EXT_EVENT
 #undef TRACETOOLS_DECLARE_EVENT
 
 #ifdef __cplusplus

@@ -27,6 +27,17 @@ struct is_service_request : std::false_type {};
 template <typename T>
 struct is_service_response : std::false_type {};
 
+template <typename T>
+struct is_action : std::false_type {};
+
+/// T is a part of an action.
+template <typename T>
+struct is_action_goal : std::false_type {};
+template <typename T>
+struct is_action_result : std::false_type {};
+template <typename T>
+struct is_action_feedback : std::false_type {};
+
 /// Every object of the type has the same serialised size.
 template <typename T>
 struct has_fixed_size : std::false_type {};

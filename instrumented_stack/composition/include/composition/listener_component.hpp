@@ -1,0 +1,17 @@
+// Prints what is said on topic chatter.
+#pragma once
+
+#include "rclcpp/rclcpp.hpp"
+#include "std_msgs/msg/string.hpp"
+
+namespace composition {
+
+class Listener : public rclcpp::Node {
+ public:
+  explicit Listener(const rclcpp::NodeOptions& options);
+
+ private:
+  rclcpp::Subscription<std_msgs::msg::String>::SharedPtr subscription_;
+};
+
+}  // namespace composition

@@ -1,0 +1,20 @@
+// A listener that has a node instead of being one: a component needs no more than get_node_base_interface().
+#pragma once
+
+#include "rclcpp/rclcpp.hpp"
+#include "std_msgs/msg/string.hpp"
+
+namespace composition {
+
+class NodeLikeListener {
+ public:
+  explicit NodeLikeListener(const rclcpp::NodeOptions& options);
+
+  rclcpp::node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() const;
+
+ private:
+  rclcpp::Node::SharedPtr node_;
+  rclcpp::Subscription<std_msgs::msg::String>::SharedPtr subscription_;
+};
+
+}  // namespace composition

@@ -1,0 +1,75 @@
+// A container in which every component has an executor and a thread of its own.
+#pragma once
+
+#include <pthread.h>
+
+#include <chrono>
+#include <future>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "rclcpp_components/component_manager.hpp"
+
+namespace rclcpp_components {
+
+template <typename ExecutorT = rclcpp::executors::SingleThreadedExecutor>
+class ComponentManagerIsolated : public ComponentManager {
+ public:
+  using ComponentManager::ComponentManager;
+
+  ~ComponentManagerIsolated() override {
+    for (auto& [id, dedicated] : dedicated_executors_) {
+      dedicated.end();
+    }
+    node_wrappers_.clear();
+  }
+
+ protected:
+  void add_node_to_executor(uint64_t node_id) override {
+    const auto node = node_wrappers_.at(node_id).get_node_base_interface();
+    const auto executor = std::make_shared<ExecutorT>();
+    executor->add_node(node);
+    Dedicated dedicated;
+    dedicated.executor = executor;
+    std::promise<void> ended;
+    dedicated.ended = ended.get_future();
+    dedicated.thread = std::thread([executor, ended = std::move(ended)]() mutable {
+      executor->spin();
+      ended.set_value();
+    });
+    // Shows in traces and debuggers. A thread's name has 15 characters.
+    pthread_setname_np(dedicated.thread.native_handle(), std::string(node->get_name()).substr(0, 15).c_str());
+    dedicated_executors_.emplace(node_id, std::move(dedicated));
+  }
+
+  void remove_node_from_executor(uint64_t node_id) override {
+    const auto dedicated = dedicated_executors_.find(node_id);
+    if (dedicated != dedicated_executors_.end()) {
+      dedicated->second.end();
+      dedicated_executors_.erase(dedicated);
+    }
+  }
+
+ private:
+  struct Dedicated {
+    // Returns when the callback that runs now, if any, has returned.
+    void end() {
+      // Again and again: a cancel() that comes before spin() has begun is without effect.
+      do {
+        executor->cancel();
+      } while (ended.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready);
+      thread.join();
+    }
+
+    std::shared_ptr<rclcpp::Executor> executor;
+    std::thread thread;
+    std::future<void> ended;  // when spin() has returned
+  };
+
+  std::map<uint64_t, Dedicated> dedicated_executors_;
+};
+
+}  // namespace rclcpp_components

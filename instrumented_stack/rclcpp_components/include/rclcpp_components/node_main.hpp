@@ -1,0 +1,37 @@
+// The program of one component, as rclcpp_components_register_node(EXECUTABLE) makes it.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+
+#include "rclcpp/rclcpp.hpp"
+#include "rclcpp_components/component_library.hpp"
+
+namespace rclcpp_components {
+
+// Spins an instance of a component that the program is linked with. An exception is one line on stderr. Returns the
+// exit code of the program.
+template <typename ExecutorT>
+int node_main(const char* class_name, int argc, char** argv) {
+  try {
+    const auto arguments = rclcpp::init_and_remove_ros_arguments(argc, argv);
+    const std::shared_ptr<NodeFactory> factory = create_component_factory(class_name);
+    if (!factory) {
+      std::fprintf(stderr, "no library of this program has component '%s'\n", class_name);
+      return EXIT_FAILURE;
+    }
+    const NodeInstanceWrapper component = factory->create_node_instance(rclcpp::NodeOptions().arguments(arguments));
+    ExecutorT executor;
+    executor.add_node(component.get_node_base_interface());
+    executor.spin();
+    rclcpp::shutdown();
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", argc > 0 ? argv[0] : class_name, error.what());
+    return EXIT_FAILURE;
+  }
+}
+
+}  // namespace rclcpp_components

@@ -1,0 +1,25 @@
+// A process for components, each with an executor and a thread of its own.
+//
+// Option: --use_multi_threaded_executor  each with several threads
+#include <algorithm>
+
+#include "container_main.hpp"
+#include "rclcpp_components/component_manager_isolated.hpp"
+
+namespace {
+
+template <typename ExecutorT>
+void run() {
+  const auto executor = std::make_shared<rclcpp::executors::SingleThreadedExecutor>();
+  const auto manager = std::make_shared<rclcpp_components::ComponentManagerIsolated<ExecutorT>>(executor);
+  executor->add_node(manager);
+  executor->spin();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return rclcpp_components::container_main(
+      "component_container_isolated", argc, argv,
+      [](const std::vector<std::string>&) { run<rclcpp::executors::SingleThreadedExecutor>(); });
+}

@@ -1,0 +1,16 @@
+#ifndef ROSIDL_RUNTIME_C__ACTION_TYPE_SUPPORT_STRUCT_H_
+#define ROSIDL_RUNTIME_C__ACTION_TYPE_SUPPORT_STRUCT_H_
+
+#include "rosidl_runtime_c/message_type_support_struct.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+
+/// The services and messages that carry an action. It has static storage duration.
+typedef struct rosidl_action_type_support_t {
+  const rosidl_service_type_support_t* goal_service_type_support;
+  const rosidl_service_type_support_t* result_service_type_support;
+  const rosidl_service_type_support_t* cancel_service_type_support;
+  const rosidl_message_type_support_t* feedback_message_type_support;
+  const rosidl_message_type_support_t* status_message_type_support;
+} rosidl_action_type_support_t;
+
+#endif  // ROSIDL_RUNTIME_C__ACTION_TYPE_SUPPORT_STRUCT_H_

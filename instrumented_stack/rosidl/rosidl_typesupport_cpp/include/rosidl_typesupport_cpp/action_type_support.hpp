@@ -1,0 +1,28 @@
+#ifndef ROSIDL_TYPESUPPORT_CPP__ACTION_TYPE_SUPPORT_HPP_
+#define ROSIDL_TYPESUPPORT_CPP__ACTION_TYPE_SUPPORT_HPP_
+
+#include "rosidl_runtime_c/action_type_support_struct.h"
+#include "rosidl_typesupport_cpp/message_type_support.hpp"
+#include "rosidl_typesupport_cpp/service_type_support.hpp"
+
+namespace rosidl_typesupport_cpp {
+
+/// The type support of action type T; every interface package specialises it for its types. Never null.
+template <typename T>
+const rosidl_action_type_support_t* get_action_type_support_handle();
+
+/// Made of the type supports of what carries the action.
+template <typename T>
+const rosidl_action_type_support_t* action_type_support() {
+  static const rosidl_action_type_support_t handle{
+      get_service_type_support_handle<typename T::Impl::SendGoalService>(),
+      get_service_type_support_handle<typename T::Impl::GetResultService>(),
+      get_service_type_support_handle<typename T::Impl::CancelGoalService>(),
+      get_message_type_support_handle<typename T::Impl::FeedbackMessage>(),
+      get_message_type_support_handle<typename T::Impl::GoalStatusMessage>()};
+  return &handle;
+}
+
+}  // namespace rosidl_typesupport_cpp
+
+#endif  // ROSIDL_TYPESUPPORT_CPP__ACTION_TYPE_SUPPORT_HPP_

@@ -1,0 +1,182 @@
+#ifndef TRACETOOLS__INIT_EVENTS_HPP_
+#define TRACETOOLS__INIT_EVENTS_HPP_
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "object_state.hpp"
+#include "tracetools/events.h"
+#include "tracetools/events_ext.h"
+#include "tracetools/tracetools.h"
+
+/// Which events begin and end which objects, and how their arguments are kept for a state dump.
+namespace tracetools {
+
+/// One empty type per event, to tell about it at compile time.
+namespace event {
+#define DECLARE_TAG(name, parameters, arguments) \
+  struct name {};
+TRACETOOLS_EVENTS(DECLARE_TAG)
+TRACETOOLS_EXT_EVENTS(DECLARE_TAG)
+#undef DECLARE_TAG
+}  // namespace event
+
+/// An init event: the kind of the object that it belongs to, and which argument is that object's address.
+template <typename Event>
+struct Begins {
+  static constexpr bool value = false;
+};
+/// The end of an object: its kind; the only argument is its address.
+template <typename Event>
+struct Ends {
+  static constexpr bool value = false;
+};
+
+#define BEGINS(event_, kind_, argument_)                  \
+  template <>                                             \
+  struct Begins<event::event_> {                          \
+    static constexpr bool value = true;                   \
+    static constexpr ObjectKind kind = ObjectKind::kind_; \
+    static constexpr std::size_t argument = argument_;    \
+  };
+#define ENDS(event_, kind_)                               \
+  template <>                                             \
+  struct Ends<event::event_> {                            \
+    static constexpr bool value = true;                   \
+    static constexpr ObjectKind kind = ObjectKind::kind_; \
+  };
+
+BEGINS(rcl_init, kContext, 0)
+BEGINS(rcl_node_init, kNode, 0)
+BEGINS(rmw_publisher_init, kRmwPublisher, 0)
+BEGINS(rcl_publisher_init, kPublisher, 0)
+BEGINS(rmw_subscription_init, kRmwSubscription, 0)
+BEGINS(rcl_subscription_init, kSubscription, 0)
+BEGINS(rclcpp_subscription_init, kRclcppSubscription, 1)
+BEGINS(rclcpp_subscription_callback_added, kRclcppSubscription, 0)
+BEGINS(rmw_service_init, kRmwService, 0)
+BEGINS(rcl_service_init, kService, 0)
+BEGINS(rclcpp_service_callback_added, kCallback, 1)
+BEGINS(rmw_client_init, kRmwClient, 0)
+BEGINS(rcl_client_init, kClient, 0)
+BEGINS(rcl_timer_init, kTimer, 0)
+BEGINS(rclcpp_timer_callback_added, kCallback, 1)
+BEGINS(rclcpp_timer_link_node, kTimer, 0)
+BEGINS(rclcpp_callback_register, kCallback, 0)
+BEGINS(rcl_lifecycle_state_machine_init, kStateMachine, 1)
+BEGINS(rclcpp_ipb_to_subscription, kIntraProcessBuffer, 0)
+BEGINS(rclcpp_buffer_to_ipb, kRingBuffer, 0)
+BEGINS(rclcpp_construct_ring_buffer, kRingBuffer, 0)
+
+ENDS(rcl_context_fini, kContext)
+ENDS(rcl_node_fini, kNode)
+ENDS(rmw_publisher_fini, kRmwPublisher)
+ENDS(rcl_publisher_fini, kPublisher)
+ENDS(rmw_subscription_fini, kRmwSubscription)
+ENDS(rcl_subscription_fini, kSubscription)
+ENDS(rclcpp_subscription_fini, kRclcppSubscription)
+ENDS(rmw_service_fini, kRmwService)
+ENDS(rcl_service_fini, kService)
+ENDS(rmw_client_fini, kRmwClient)
+ENDS(rcl_client_fini, kClient)
+ENDS(rcl_timer_fini, kTimer)
+ENDS(rclcpp_callback_fini, kCallback)
+ENDS(rcl_lifecycle_state_machine_fini, kStateMachine)
+ENDS(rclcpp_ipb_fini, kIntraProcessBuffer)
+ENDS(rclcpp_ring_buffer_fini, kRingBuffer)
+
+#undef BEGINS
+#undef ENDS
+
+/// Links between messages: init events of all the endpoints that they name.
+template <typename Event>
+inline constexpr bool is_message_link = false;
+template <>
+inline constexpr bool is_message_link<event::message_link_periodic_async> = true;
+template <>
+inline constexpr bool is_message_link<event::message_link_partial_sync> = true;
+
+template <typename Event>
+inline constexpr bool is_init_event = Begins<Event>::value || is_message_link<Event>;
+
+template <typename Event>
+inline constexpr bool is_transition = std::is_same_v<Event, event::rcl_lifecycle_transition>;
+
+/// Events that change what is kept.
+template <typename Event>
+inline constexpr bool is_noted = is_init_event<Event> || Ends<Event>::value || is_transition<Event>;
+
+/// An argument that outlives the call.
+template <typename Argument>
+struct Kept {
+  explicit Kept(Argument argument) : value(argument) {}
+  Argument get() const { return value; }
+  Argument value;
+};
+template <>
+struct Kept<const char*> {
+  explicit Kept(const char* text) {
+    if (text != nullptr) value = text;
+  }
+  const char* get() const { return value ? value->c_str() : nullptr; }
+  std::optional<std::string> value;
+};
+template <>
+struct Kept<const std::uint8_t*> {  // a gid
+  explicit Kept(const std::uint8_t* gid) { std::memcpy(value.data(), gid, value.size()); }
+  const std::uint8_t* get() const { return value.data(); }
+  std::array<std::uint8_t, 16> value;
+};
+
+/// Keeps a link between messages. A node may link several pairs: none takes the place of another.
+inline void keep_message_link(void (*record)(const void**, std::size_t, const void**, std::size_t), const void** subs,
+                              std::size_t num_subs, const void** pubs, std::size_t num_pubs) {
+  std::vector<ObjectKey> objects;
+  for (std::size_t i = 0; i < num_subs; ++i) objects.push_back({ObjectKind::kSubscription, subs[i]});
+  for (std::size_t i = 0; i < num_pubs; ++i) objects.push_back({ObjectKind::kPublisher, pubs[i]});
+  if (objects.empty()) return;
+  ObjectState::instance().keep(std::move(objects), nullptr,
+                               [record, kept_subs = std::vector<const void*>(subs, subs + num_subs),
+                                kept_pubs = std::vector<const void*>(pubs, pubs + num_pubs)]() mutable {
+                                 record(kept_subs.data(), kept_subs.size(), kept_pubs.data(), kept_pubs.size());
+                               });
+}
+
+/// Keeps the state that a state machine is in now: no init event tells it.
+inline void keep_lifecycle_state(const void* state_machine, const char* /*start_label*/, const char* goal_label) {
+  ObjectState::instance().keep({{ObjectKind::kStateMachine, state_machine}}, "rcl_lifecycle_state",
+                               [state_machine, label = Kept<const char*>(goal_label)] {
+                                 ros_trace_ext_rcl_lifecycle_state(state_machine, label.get());
+                               });
+}
+
+/// Keeps an init event and forgets an object that ends; does nothing about other events. `record` writes the event with
+/// these arguments, if a session wants it.
+template <typename Event, typename Function, typename... Arguments>
+void note(const char* name, Function record, Arguments... arguments) {
+  if constexpr (Begins<Event>::value) {
+    const void* object = std::get<Begins<Event>::argument>(std::tie(arguments...));
+    ObjectState::instance().keep({{Begins<Event>::kind, object}}, name,
+                                 [record, kept = std::tuple(Kept<Arguments>(arguments)...)] {
+                                   std::apply([&](const auto&... each) { record(each.get()...); }, kept);
+                                 });
+  } else if constexpr (is_message_link<Event>) {
+    keep_message_link(record, arguments...);
+  } else if constexpr (Ends<Event>::value) {
+    ObjectState::instance().forget({Ends<Event>::kind, arguments...});
+  } else if constexpr (is_transition<Event>) {
+    keep_lifecycle_state(arguments...);
+  }
+}
+
+}  // namespace tracetools
+
+#endif  // TRACETOOLS__INIT_EVENTS_HPP_

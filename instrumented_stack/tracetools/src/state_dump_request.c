@@ -1,0 +1,34 @@
+/* lttng-ust tells the state of a process (which files are loaded where) to each session that starts: the tracepoint
+ * lttng_ust_statedump:start is the beginning of that. It has no public hook for the state of applications, but any
+ * function can be attached to a tracepoint, and this one fires in every process, without thread or polling of ours.
+ *
+ * The function that attaches is exported by liblttng-ust-tracepoint.so and called by liblttng-ust.so; it is in no
+ * public header, hence looked up. Found in lttng-ust 2.13; without it there are no state dumps. */
+#include "state_dump_request.h"
+
+#include <dlfcn.h>
+#include <stdatomic.h>
+#include <stddef.h>
+
+typedef int (*register_probe)(const char *provider, const char *event, void (*probe)(void), void *data,
+                              const char *signature);
+
+static void (*_Atomic dump_state)(void);
+
+/* Once for each session that starts. */
+static void on_lttng_ust_statedump_start(void *data, void *session) {
+  (void)data;
+  (void)session;
+  atomic_load(&dump_state)();
+}
+
+int tracetools_provider_on_state_dump(void (*dump)(void)) {
+  register_probe attach = (register_probe)dlsym(RTLD_DEFAULT, "lttng_ust_tp_probe_register_queue_release");
+  if (attach == NULL) {
+    return -1;
+  }
+  atomic_store(&dump_state, dump);
+  /* The signature must be that of the tracepoint, letter by letter. */
+  return attach("lttng_ust_statedump", "start", (void (*)(void))on_lttng_ust_statedump_start, NULL,
+                "struct lttng_ust_session *, session");
+}

@@ -1,0 +1,99 @@
+// What provider ros2_ext adds: the end of every object, what executors do with services and clients, and what clients
+// do with responses.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "tests/e2e/recorded_trace.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::ElementsAre;
+using testing::SizeIs;
+
+constexpr const char* kLaunchFile = R"(<launch>
+  <trace session-name="ext" events-ust="ros2:* ros2_ext:*" context-fields="procname vpid vtid" subbuffer-size-ust="1048576"/>
+  <node pkg="demo_nodes" exec="add_two_ints_server" name="server"/>
+  <node pkg="demo_nodes" exec="add_two_ints_client" name="client" on_exit="shutdown">
+    <param name="count" value="3"/>
+  </node>
+</launch>
+)";
+
+// Init event, the event of the object's end, and the field that both name the object by.
+struct Life {
+  const char* begin;
+  const char* end;
+  const char* field;
+};
+constexpr Life kLives[] = {
+    {"ros2:rcl_init", "ros2_ext:rcl_context_fini", "context_handle"},
+    {"ros2:rcl_node_init", "ros2_ext:rcl_node_fini", "node_handle"},
+    {"ros2:rmw_publisher_init", "ros2_ext:rmw_publisher_fini", "rmw_publisher_handle"},
+    {"ros2:rcl_publisher_init", "ros2_ext:rcl_publisher_fini", "publisher_handle"},
+    {"ros2:rmw_subscription_init", "ros2_ext:rmw_subscription_fini", "rmw_subscription_handle"},
+    {"ros2_ext:rmw_service_init", "ros2_ext:rmw_service_fini", "rmw_service_handle"},
+    {"ros2:rcl_service_init", "ros2_ext:rcl_service_fini", "service_handle"},
+    {"ros2:rmw_client_init", "ros2_ext:rmw_client_fini", "rmw_client_handle"},
+    {"ros2:rcl_client_init", "ros2_ext:rcl_client_fini", "client_handle"},
+    {"ros2:rcl_timer_init", "ros2_ext:rcl_timer_fini", "timer_handle"},
+    {"ros2:rclcpp_callback_register", "ros2_ext:rclcpp_callback_fini", "callback"},
+};
+
+std::vector<RecordedEvent> with_name(const RecordedTrace& trace, const std::string& name) {
+  std::vector<RecordedEvent> found;
+  for (const RecordedEvent& event : trace.events) {
+    if (event.name == name) found.push_back(event);
+  }
+  return found;
+}
+
+TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
+  Sandbox sandbox;
+  const std::filesystem::path file = sandbox.directory() / "ext.launch.xml";
+  std::ofstream(file) << kLaunchFile;
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+  const RecordedTrace trace = read_trace(sandbox.trace_directory() / "ext");
+  EXPECT_EQ(trace.losses, 0U);
+
+  for (const Life& life : kLives) {
+    SCOPED_TRACE(life.begin);
+    std::map<std::int64_t, std::set<std::uint64_t>> living;
+    std::size_t begun = 0;
+    for (const RecordedEvent& event : trace.events) {
+      if (event.name == life.begin) {
+        EXPECT_TRUE(living[event.vpid].insert(event.number(life.field)).second) << "begins twice";
+        ++begun;
+      } else if (event.name == life.end) {
+        EXPECT_EQ(living[event.vpid].erase(event.number(life.field)), 1U) << "ends without having begun";
+      }
+    }
+    EXPECT_GT(begun, 0U);
+    for (const auto& [vpid, handles] : living) EXPECT_THAT(handles, SizeIs(0)) << "of process " << vpid;
+  }
+
+  const std::uint64_t client = with_name(trace, "ros2:rcl_client_init").at(0).number("client_handle");
+  std::vector<std::string> with_responses;
+  for (const RecordedEvent& event : trace.events) {
+    if (event.name.starts_with("ros2_ext:rclcpp_client_callback")) {
+      EXPECT_EQ(event.number("client_handle"), client);
+      with_responses.push_back(event.name.substr(23) + " " + std::to_string(event.number("sequence_number")));
+    }
+  }
+  EXPECT_THAT(with_responses, ElementsAre("callback_start 1", "callback_end 1", "callback_start 2", "callback_end 2",
+                                          "callback_start 3", "callback_end 3"));
+  EXPECT_EQ(with_name(trace, "ros2_ext:rclcpp_executor_execute_service").size(), 3U);
+  for (const RecordedEvent& event : with_name(trace, "ros2_ext:rclcpp_executor_execute_client")) {
+    EXPECT_EQ(event.number("client_handle"), client);
+  }
+  // Nothing was there before the session: no state dump.
+  EXPECT_THAT(with_name(trace, "ros2_ext:state_dump_begin"), SizeIs(0));
+}
+
+}  // namespace
