@@ -15,6 +15,7 @@ namespace launch {
   ACTION(include)                      \
   ACTION(let)                          \
   ACTION(lifecycle_node)               \
+  ACTION(lifecycle_transition)         \
   ACTION(load_composable_node)         \
   ACTION(log)                          \
   ACTION(log_debug)                    \

@@ -62,14 +62,14 @@ ComposableNodes::ComposableNodes(const Fields& fields) {
   }
 }
 
-void ComposableNodes::request(LaunchContext& context, const std::string& target, const SourceRange& where) const {
+void ComposableNodes::request(LaunchContext& context, const std::string& target, const Environment& environment,
+                              const SourceRange& where) const {
   LoadRequest request;
   request.target = target;
+  request.environment = environment;
   request.origin = where;
   for (const Description& node : nodes_) {
     if (node.condition.holds(context.scope())) {
-      context.cannot_run("composable nodes can't be loaded: this launcher can't call the container's services",
-                         node.where, "run the node as a process of its own: <node pkg=… exec=…>");
       request.nodes.push_back(evaluate(node, context));
     }
   }
@@ -86,10 +86,7 @@ ComposableNode ComposableNodes::evaluate(const Description& node, LaunchContext&
   result.plugin = node.plugin.perform(scope);
   result.name = node.name.perform(scope);
   result.name_space = resolve_namespace(node.name_space, scope, node.where).value_or("");
-  if (node.autostart.perform(scope)) {
-    context.cannot_run("autostart can't be carried out: this launcher can't call the node's services", node.where,
-                       "leave it out");
-  }
+  result.autostart = node.autostart.perform(scope);
   const std::string full_name = qualified_name(result.name_space, result.name);
   if (!result.name_space.empty()) {
     context.note_node(full_name);

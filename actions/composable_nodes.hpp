@@ -19,8 +19,10 @@ class ComposableNodes {
   explicit ComposableNodes(const Fields& fields);
 
   bool empty() const { return nodes_.empty(); }
-  // Asks for those nodes to be loaded into the container `target` whose conditions hold.
-  void request(LaunchContext& context, const std::string& target, const SourceRange& where) const;
+  // Asks for those nodes to be loaded into the container `target` whose conditions hold. `environment` is that of the
+  // container, as far as it is known.
+  void request(LaunchContext& context, const std::string& target, const Environment& environment,
+               const SourceRange& where) const;
 
  private:
   struct Description {

@@ -8,24 +8,22 @@ namespace {
 class LifecycleNode : public Action {
  public:
   explicit LifecycleNode(const Fields& fields)
-      : Action(fields.where(), fields.condition()),
-        node_(fields),
-        autostart_(fields.boolean("autostart", false)),
-        autostart_where_(fields.where("autostart")) {}
+      : Action(fields.where(), fields.condition()), node_(fields), autostart_(fields.boolean("autostart", false)) {}
 
  protected:
   void execute(LaunchContext& context) const override {
-    if (autostart_.perform(context.scope())) {
-      context.cannot_run("autostart can't be carried out: this launcher can't call the node's services",
-                         autostart_where_, "leave it out, and run: ros2 lifecycle set NODE configure, then activate");
+    const bool autostart = autostart_.perform(context.scope());
+    const std::string name = node_.request(context);
+    if (autostart) {
+      Requests& requests = context.requests();
+      requests.transitions.push_back(
+          {name, {"configure", "activate"}, true, requests.processes.back().environment, where()});
     }
-    node_.request(context);
   }
 
  private:
   NodeProcess node_;
   BooleanField autostart_;
-  SourceRange autostart_where_;
 };
 
 }  // namespace

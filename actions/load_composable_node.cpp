@@ -16,7 +16,8 @@ class LoadComposableNodes : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    nodes_.request(context, target_.perform(context.scope()), where());
+    Scope& scope = context.scope();
+    nodes_.request(context, target_.perform(scope), scope.environment, where());
   }
 
  private:

@@ -14,7 +14,7 @@ class ComposableNodeContainer : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     const std::string name = container_.request(context);
-    nodes_.request(context, name, where());
+    nodes_.request(context, name, context.requests().processes.back().environment, where());
   }
 
  private:

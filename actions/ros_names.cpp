@@ -76,6 +76,17 @@ void push_namespace(const Template& given, Scope& scope) {
   scope.configurations.insert_or_assign(kNamespaceConfiguration, *resolve_namespace(given, scope, given.where()));
 }
 
+std::string resolve_name(const Template& given, Scope& scope) {
+  const auto pushed = scope.configurations.find(kNamespaceConfiguration);
+  const std::string text = given.perform(scope);
+  const std::string name = combine_namespaces(pushed == scope.configurations.end() ? "" : pushed->second, text);
+  if (text.empty() || text.ends_with('/') || !is_valid_namespace(name)) {
+    throw LaunchError(fmt::format("'{}' is no valid name", text), given.where(),
+                      "each part is letters, digits and underscores, not starting with a digit");
+  }
+  return name;
+}
+
 std::string qualified_name(const std::string& name_space, const std::string& name) {
   return (name_space == "/" ? "" : name_space) + "/" + name;
 }

@@ -92,6 +92,9 @@ Json load_request_as_json(const LoadRequest& request) {
     }
     node["remaps"] = std::move(remaps);
     node["extra_arguments"] = named(component.extra_arguments);
+    if (component.autostart) {
+      node["autostart"] = true;
+    }
     nodes.push_back(std::move(node));
   }
   return {{"target", request.target}, {"nodes", std::move(nodes)}};
@@ -174,8 +177,15 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
       for (const auto& [from, to] : node.remaps) {
         text += fmt::format("    {}:={}\n", from, to);
       }
+      if (node.autostart) {
+        text += "    then configure, activate\n";
+      }
     }
     text += '\n';
+  }
+  for (const TransitionRequest& request : plan.transitions) {
+    text += fmt::format("change state of {} ({})\n  {}\n\n", request.node, to_string(request.origin),
+                        fmt::join(request.transitions, ", "));
   }
   text += fmt::format("{}, {}; nothing was started\n", counted(plan.processes.size(), "process", "processes"),
                       counted(plan.scopes.size(), "trace", "traces"));
@@ -197,6 +207,10 @@ std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_env
   for (const LoadRequest& request : plan.loads) {
     loads.push_back(load_request_as_json(request));
   }
+  Json transitions = Json::array();
+  for (const TransitionRequest& request : plan.transitions) {
+    transitions.push_back({{"node", request.node}, {"transitions", request.transitions}});
+  }
   Json traces = Json::array();
   for (const auto& scope : plan.scopes) {
     Json trace;
@@ -210,6 +224,9 @@ std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_env
   root["outcome"] = "ok";
   root["processes"] = std::move(processes);
   root["composable"] = std::move(loads);
+  if (!transitions.empty()) {
+    root["transitions"] = std::move(transitions);
+  }
   root["traces"] = std::move(traces);
   root["logs"] = plan.logs;
   root["python_includes"] = plan.python_includes;

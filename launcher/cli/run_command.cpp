@@ -17,6 +17,7 @@
 #include "launcher/core/python_launch_file.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
+#include "launcher/ros_client/ros_client_process.hpp"
 
 namespace launch {
 
@@ -86,6 +87,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   ProcessSupervisor supervisor(*loop, guarded_runner, output);
   supervisor.observe(process_messages(output));
 
+  RosClientProcess ros_client(*loop);
   LaunchContext context(registry, environment, own_install_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
@@ -94,6 +96,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   set_arguments(command, context.scope());
 
   LaunchService service(context, *loop, supervisor, print_error);
+  service.use_ros_client(ros_client);
   service.guard_scopes(guardian);
   const int exit_code = service.run(*description);
   if (command.timing) {

@@ -1,4 +1,4 @@
-// What a launch asks component containers to load.
+// What a launch asks of component containers and of nodes with a managed life cycle.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "launcher/base/source.hpp"
 #include "launcher/substitution/parameter.hpp"
+#include "launcher/substitution/scope.hpp"
 
 namespace launch {
 
@@ -18,6 +19,7 @@ struct ComposableNode {
   std::vector<NamedParameter> parameters;                   // in order, the last of a name wins
   std::vector<std::pair<std::string, std::string>> remaps;  // from, to
   std::vector<NamedParameter> extra_arguments;
+  bool autostart = false;  // configure and activate it once it is loaded
   SourceRange origin;
 };
 
@@ -25,6 +27,16 @@ struct ComposableNode {
 struct LoadRequest {
   std::string target;  // node name of the container
   std::vector<ComposableNode> nodes;
+  Environment environment;  // tells the ROS graph, by ROS_DOMAIN_ID and the like
+  SourceRange origin;
+};
+
+// Transitions of one node, made one after another until one fails.
+struct TransitionRequest {
+  std::string node;                      // fully qualified name
+  std::vector<std::string> transitions;  // configure, activate, deactivate, cleanup, shutdown
+  bool autostart = false;                // again whenever the node's process starts again
+  Environment environment;
   SourceRange origin;
 };
 

@@ -17,6 +17,7 @@
 #include "launcher/core/composable_node.hpp"
 #include "launcher/core/launch_description.hpp"
 #include "launcher/core/registry.hpp"
+#include "launcher/core/ros_client.hpp"
 #include "launcher/core/run_scope.hpp"
 #include "launcher/process/output_router.hpp"
 #include "launcher/process/process_spec.hpp"
@@ -50,6 +51,7 @@ struct Requests {
   std::vector<ProcessSpec> processes;
   std::vector<NodeDescription> nodes;
   std::vector<LoadRequest> loads;
+  std::vector<TransitionRequest> transitions;
   std::vector<TimerRequest> timers;
   std::optional<ShutdownRequest> shutdown;
   std::vector<std::string> logs;             // messages of `log` actions
@@ -77,6 +79,10 @@ class LaunchContext {
   // For what a launch file may ask for and this launcher can't carry out: throws LaunchError, before anything has been
   // started, unless the visit is only to know what would run.
   void cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const;
+
+  // Who answers what actions ask of the ROS graph; it must outlive the context. Null while nothing is carried out.
+  void use_ros_client(RosClient& client) { ros_client_ = &client; }
+  RosClient* ros_client() const { return ros_client_; }
 
   // Visits actions in order, in the current scope. Throws LaunchError.
   void visit(const std::vector<ActionPtr>& actions);
@@ -108,6 +114,7 @@ class LaunchContext {
   bool plan_only_ = false;
   std::vector<Scope> pushed_environments_;
   std::vector<Scope> pushed_configurations_;
+  RosClient* ros_client_ = nullptr;
   std::unordered_map<std::string, int> nodes_;
 };
 

@@ -19,6 +19,7 @@ void collect(LaunchPlan& plan, Requests requests, std::multimap<Duration, TimerR
     plan.nodes.push_back(std::move(node));
   }
   append(plan.loads, requests.loads);
+  append(plan.transitions, requests.transitions);
   append(plan.logs, requests.logs);
   append(plan.python_includes, requests.python_includes);
   plan.includes += requests.includes;

@@ -13,6 +13,7 @@ struct LaunchPlan {
   std::vector<ProcessSpec> processes;  // in the order of their start
   std::vector<NodeDescription> nodes;  // those of the processes that are ROS nodes
   std::vector<LoadRequest> loads;
+  std::vector<TransitionRequest> transitions;
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // Python launch files, which count as empty
   int includes = 0;

@@ -13,6 +13,12 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }
 
+void LaunchService::use_ros_client(RosClient& client) {
+  context_.use_ros_client(client);
+  ros_tasks_ = std::make_unique<RosTasks>(
+      context_, loop_, client, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); });
+}
+
 int LaunchService::run(const LaunchDescription& description) {
   const EventLoop::SourcePtr signals =
       loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
@@ -58,7 +64,17 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
                      fmt::format("process[{}] was required: shutting down launched system", event.label));
     shutdown();
   }
-  if (std::holds_alternative<ProcessDone>(event.what) && !check_posted_) {
+  if (ros_tasks_) {
+    ros_tasks_->on_process_event(event);
+  }
+  if (std::holds_alternative<ProcessDone>(event.what)) {
+    post_check();
+  }
+}
+
+// Later, for whoever tells of an end may still be at work.
+void LaunchService::post_check() {
+  if (!check_posted_) {
     check_posted_ = true;
     loop_.post([this] {
       check_posted_ = false;
@@ -142,15 +158,39 @@ void LaunchService::start(Requests requests) {
     const auto timer = std::prev(timers_.end());
     timer->source = loop_.after(timer->request.period, [this, timer] { on_timer(timer); });
   }
-  for (ProcessSpec& spec : requests.processes) {
+  auto node = requests.nodes.begin();
+  for (std::size_t i = 0; i < requests.processes.size(); ++i) {
+    ProcessSpec& spec = requests.processes[i];
     for (const auto& scope : active_scopes_) {
       scope->prepare(spec);
     }
-    supervisor_.start(std::move(spec));
+    const ProcessId id = supervisor_.start(std::move(spec));
+    if (node != requests.nodes.end() && node->process == i) {
+      if (ros_tasks_ && node->name) {
+        const std::string name_space = node->name_space.value_or("/");
+        ros_tasks_->name_process(id, (name_space == "/" ? "" : name_space) + "/" + *node->name);
+      }
+      ++node;
+    }
   }
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
+  start_ros_tasks(requests);
   if (requests.shutdown) {
     shutdown();
+  }
+}
+
+void LaunchService::start_ros_tasks(Requests& requests) {
+  if (!ros_tasks_ && !(requests.loads.empty() && requests.transitions.empty())) {
+    fail(LaunchError("there is no ROS client to load components and change states",
+                     requests.loads.empty() ? requests.transitions.front().origin : requests.loads.front().origin));
+    return;
+  }
+  for (LoadRequest& request : requests.loads) {
+    ros_tasks_->load(std::move(request));
+  }
+  for (TransitionRequest& request : requests.transitions) {
+    ros_tasks_->change_state(std::move(request));
   }
 }
 
@@ -169,16 +209,23 @@ void LaunchService::shutdown() {
     }
     timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
     supervisor_.shutdown();
+    if (ros_tasks_) {
+      ros_tasks_->shutdown();
+    }
   }
   check_finished();
 }
 
 void LaunchService::check_finished() {
-  if (ending_ || scope_is_beginning_ || !waiting_.empty() || !timers_.empty() || supervisor_.active() != 0) {
+  if (ending_ || scope_is_beginning_ || !waiting_.empty() || !timers_.empty() || supervisor_.active() != 0 ||
+      (ros_tasks_ && !ros_tasks_->idle())) {
     return;
   }
   ending_ = true;
   shutting_down_ = true;
+  if (ros_tasks_) {
+    ros_tasks_->shutdown();
+  }
   end_next_scope();
 }
 

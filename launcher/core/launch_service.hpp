@@ -15,6 +15,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/core/launch_context.hpp"
+#include "launcher/core/ros_tasks.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
@@ -30,6 +31,10 @@ class LaunchService {
 
   // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
   void guard_scopes(Guardian& guardian) { guardian_ = &guardian; }
+
+  // Who loads components and changes states. Without a client a launch that asks for either fails. It must outlive the
+  // service.
+  void use_ros_client(RosClient& client);
 
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
   // the launch itself, a process that could not be started included. How processes ended doesn't count.
@@ -53,9 +58,11 @@ class LaunchService {
   void begin_next();
   void on_begun(std::exception_ptr error);
   void start(Requests requests);
+  void start_ros_tasks(Requests& requests);
   void fail(const LaunchError& error);
   void shutdown();
   void check_finished();
+  void post_check();
   void end_next_scope();
   void guard(const RunScope& scope);
   void unguard(const RunScope& scope);
@@ -66,6 +73,7 @@ class LaunchService {
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
   Guardian* guardian_ = nullptr;
+  std::unique_ptr<RosTasks> ros_tasks_;                // null without a client
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
   std::deque<Requests> waiting_;  // the first one may be beginning its scopes

@@ -56,7 +56,12 @@ INSTANTIATE_TEST_SUITE_P(
                         Example{"07_services",
                                 {},
                                 {"the client will ask 3 times", "[add_two_ints_server]: 2 + 3 = 5",
-                                 "[add_two_ints_client]: 2 + 3 = 5"}}),
+                                 "[add_two_ints_client]: 2 + 3 = 5"}},
+                        Example{"08_composition",
+                                {},
+                                {"Loaded node '/talker' in container '/container'",
+                                 "Loaded node '/ear/listener' in container '/container'",
+                                 "[ear.listener]: I heard: [Hello World: 1]", "trace is complete"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

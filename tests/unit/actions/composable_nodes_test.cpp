@@ -1,4 +1,4 @@
-// node_container and load_composable_node: what is asked to be loaded, and that a run refuses it before it starts.
+// node_container and load_composable_node: what is asked to be loaded and started.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -85,19 +85,28 @@ TEST(ComposableNodes, AMissingParameterFileIsAnError) {
               HasSubstr("parameter file path is not a file: /nowhere.yaml"));
 }
 
-TEST(ComposableNodes, ARunRefusesThemAtTheirLine) {
-  EXPECT_EQ(
-      run_error("<node_container exec=\"c\" name=\"c\" namespace=\"\">\n"
-                "<composable_node pkg=\"p\" plugin=\"p::T\" name=\"t\"/>\n"
-                "</node_container>"),
-      "/test/system.launch.xml:3:2: error: composable nodes can't be loaded: this launcher can't call the container's "
-      "services\n"
-      "    3 | <composable_node pkg=\"p\" plugin=\"p::T\" name=\"t\"/>\n"
-      "      |  ^~~~~~~~~~~~~~~\n"
-      "      = help: run the node as a process of its own: <node pkg=… exec=…>");
-  EXPECT_EQ(run_error("<node_container exec=\"c\" name=\"c\" namespace=\"\"/>"), "");
-  EXPECT_THAT(run_error(R"xml(<lifecycle_node exec="n" name="x" namespace="" autostart="true"/>)xml"),
-              HasSubstr("autostart can't be carried out"));
+TEST(ComposableNodes, AutostartIsNotedForComponentsAndAskedForNodes) {
+  const Planned planned = plan_actions(R"xml(
+    <set_env name="ROS_DOMAIN_ID" value="7"/>
+    <node_container exec="container" name="c" namespace="">
+      <env name="ROS_DOMAIN_ID" value="8"/>
+      <composable_lifecycle_node pkg="p" plugin="p::T" name="t" autostart="true"/>
+      <composable_lifecycle_node pkg="p" plugin="p::T" name="u"/>
+    </node_container>
+    <load_composable_node target="c"><composable_node pkg="p" plugin="p::T" name="v"/></load_composable_node>
+    <lifecycle_node exec="n" name="x" namespace="left" autostart="true"/>
+    <lifecycle_node exec="n" name="y" namespace="left"/>)xml");
+  ASSERT_EQ(planned.error, "");
+  ASSERT_EQ(planned.plan.loads.size(), 2U);
+  EXPECT_TRUE(planned.plan.loads[0].nodes[0].autostart);
+  EXPECT_FALSE(planned.plan.loads[0].nodes[1].autostart);
+  EXPECT_EQ(planned.plan.loads[0].environment.at("ROS_DOMAIN_ID"), "8");  // where the container is
+  EXPECT_EQ(planned.plan.loads[1].environment.at("ROS_DOMAIN_ID"), "7");
+  ASSERT_EQ(planned.plan.transitions.size(), 1U);
+  EXPECT_EQ(planned.plan.transitions[0].node, "/left/x");
+  EXPECT_TRUE(planned.plan.transitions[0].autostart);
+  EXPECT_THAT(planned.plan.transitions[0].transitions, ElementsAre("configure", "activate"));
+  EXPECT_EQ(planned.plan.transitions[0].environment.at("ROS_DOMAIN_ID"), "7");
 }
 
 TEST(ComposableNodes, ItemsAreCheckedLikeActions) {
