@@ -49,7 +49,18 @@ class LaunchContext:
         self._globals.update(extensions)
 
     def get_locals_as_dict(self):
-        return {**self._globals, **self._locals}
+        return {**self._globals, **self._event(), **self._locals}
+
+    def _event(self):
+        """The event that is being handled, for LocalSubstitution('event.…')."""
+        from launch.events import process
+        values = {name[len('event.'):]: value for name, value in self.launch_configurations.items()
+                  if name.startswith('event.')}
+        if 'process' not in values:
+            return {'event': types.SimpleNamespace(**values)} if values else {}
+        kind = (process.ProcessExited if 'exit_code' in values else
+                process.ProcessIO if 'text' in values else process.ProcessStarted)
+        return {'event': kind(None, values)}
 
     @property
     def locals(self):  # noqa: A003  ROS 2's name

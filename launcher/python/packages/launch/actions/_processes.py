@@ -1,11 +1,31 @@
 """Actions that run programs."""
 
+import os
+
 from launch._entities import entity
 from launch._values import LaunchFileError, boolean, number, pairs, reject, text
 from launch.action import Action
 from launch.descriptions import Executable
 
 _OUTPUT_FORMAT = '[{this.process_description.final_name}] {line}'
+
+
+_names_given = {}
+
+
+def name_of_process(action, what):
+    """A name by which event handlers and commands mean the processes of one action, and no others."""
+    if not isinstance(action, _Process):
+        raise LaunchFileError(f'{what} must be an action that runs a process, got {type(action).__name__}')
+    if action._spoken_of is None:
+        if action._was_read:
+            raise LaunchFileError(f'{what} has been visited already',
+                                  'make its event handlers before the description that holds it is returned')
+        file, line, *_ = action._place() or ('', 0)
+        name = f'{type(action).__name__} of {os.path.basename(file)}:{line}'
+        count = _names_given[name] = _names_given.get(name, 0) + 1
+        action._spoken_of = name if count == 1 else f'{name} ({count})'
+    return (action._spoken_of,)
 
 
 class _Process(Action):
@@ -24,6 +44,7 @@ class _Process(Action):
             raise LaunchFileError('output_format is not supported: lines begin with the name of the process')
         self._options = options
         self._spoken_of = None
+        self._was_read = False
 
     def _process_attributes(self):
         options = self._options
@@ -50,15 +71,27 @@ class _Process(Action):
         return [('output', text(output, 'output'))]
 
     def _on_exit(self):
+        return [('on_exit', 'shutdown')] if self._ends_launch() else []
+
+    def _ends_launch(self):
         from launch.actions import Shutdown
         action = self._options.get('on_exit')
         if isinstance(action, (list, tuple)) and len(action) == 1:
             action = action[0]
-        if action is None:
-            return []
-        if type(action) is Shutdown and action.condition is None:
-            return [('on_exit', 'shutdown')]
-        raise LaunchFileError('on_exit with other actions than Shutdown() is not supported')
+        return type(action) is Shutdown and action.condition is None
+
+    def _with_handlers(self, tag, attributes, items):
+        """The process, and before it what shall happen when it ends."""
+        from launch.event_handlers import OnProcessExit
+        handlers = []
+        on_exit = self._options.get('on_exit')
+        if on_exit is not None and not self._ends_launch():
+            handler = OnProcessExit(target_action=self, on_exit=on_exit)
+            handler._made_at = self._made_at
+            handlers = handler._tags(self._place(), [])
+        self._was_read = True
+        return [*handlers, entity(tag, self._place(), [*attributes, *self._process_attributes()],
+                                  [*self._environment_items(), *items], process_name=self._spoken_of or '')]
 
     def _environment_items(self):
         place = self._place()
@@ -78,9 +111,8 @@ class ExecuteLocal(_Process):
 
     def _tags(self):
         name = self._options.get('name')
-        return [entity('executable', self._place(),
-                       [('cmd', self._command), ('name', None if name is None else text(name, 'name')),
-                        *self._process_attributes()], self._environment_items())]
+        return self._with_handlers(
+            'executable', [('cmd', self._command), ('name', None if name is None else text(name, 'name'))], [])
 
 
 class ExecuteProcess(ExecuteLocal):

@@ -1,13 +1,16 @@
-"""Events that a launch file can emit, and what is told of those that a handler gets."""
+"""Events that a launch file can emit, and what handlers are told."""
 
 from launch import _names
 from launch._entities import entity
 from launch._places import Located
 from launch._values import text
 from launch.event import Event
+from launch.events import process
+from launch.events.process import matches_action
 
 
 class Shutdown(Located, Event):
+    name = 'launch.events.Shutdown'
 
     def __init__(self, *, reason='reason not given', due_to_sigint=False):
         self.reason = reason
@@ -19,5 +22,5 @@ class Shutdown(Located, Event):
 
 
 _names.one_class_modules(__name__)
-
-from launch.events import process  # noqa: E402  it takes names of this module
+_names.same_module('launch.events.process', 'launch.events.matchers')
+__all__ = ['Shutdown', 'matches_action', 'process']

@@ -7,6 +7,7 @@ from launch.actions._processes import _Process
 from launch.substitution import Substitution
 from launch_ros._parameters import parameter_items
 from launch_ros.descriptions import ComposableNode
+from launch_ros.events.lifecycle import name_of_transition
 
 _NODE_ARGUMENTS = ('package', 'executable', 'name', 'namespace', 'exec_name', 'parameters', 'remappings', 'ros_arguments',
                    'arguments')
@@ -40,8 +41,7 @@ class Node(_Process):
     def _tags(self):
         place = self._place()
         remaps = [entity('remap', place, [('from', from_), ('to', to)]) for from_, to in self._remappings]
-        return [entity(self._tag, place, [*self._attributes, *self._process_attributes()],
-                       [*self._environment_items(), *self._parameters, *remaps, *self._more_items()])]
+        return self._with_handlers(self._tag, self._attributes, [*self._parameters, *remaps, *self._more_items()])
 
     def _more_items(self):
         return []
@@ -76,17 +76,23 @@ class ComposableNodeContainer(Node):
         return [description._item() for description in self._descriptions]
 
 
-class _FullName(Substitution):
-    """The fully qualified name of a container."""
+def full_name(node):
+    """The fully qualified name of a node that has a name, as a substitution."""
+    if node._name is None:
+        raise LaunchFileError(f'the {type(node).__name__} needs a name')
+    return _FullName(node)
 
-    def __init__(self, container):
-        self._container = container
+
+class _FullName(Substitution):
+
+    def __init__(self, node):
+        self._node = node
 
     def perform(self, context):
-        namespace = context._perform(self._container._namespace)
+        namespace = context._perform(self._node._namespace or '')
         if not namespace.startswith('/'):
             namespace = context.launch_configurations.get('ros_namespace', '').rstrip('/') + '/' + namespace
-        return ('/' + namespace.strip('/')).rstrip('/') + '/' + context._perform(self._container._name)
+        return ('/' + namespace.strip('/')).rstrip('/') + '/' + context._perform(self._node._name)
 
 
 class LoadComposableNodes(Action):
@@ -94,7 +100,7 @@ class LoadComposableNodes(Action):
     def __init__(self, *, composable_node_descriptions, target_container, **kwargs):
         super().__init__(**kwargs)
         if isinstance(target_container, ComposableNodeContainer):
-            target_container = _FullName(target_container)
+            target_container = full_name(target_container)
         self._target = text(target_container, 'target_container')
         self._descriptions = _descriptions(composable_node_descriptions)
 
@@ -103,3 +109,16 @@ class LoadComposableNodes(Action):
             return []
         return [entity('load_composable_node', self._place(), [('target', self._target), *self._when()],
                        [description._item() for description in self._descriptions])]
+
+
+class LifecycleTransition(Action):
+    """Changes the state of nodes: each goes through the transitions in turn."""
+
+    def __init__(self, *, lifecycle_node_names, transition_ids, **kwargs):
+        super().__init__(**kwargs)
+        self._nodes = words(lifecycle_node_names, 'lifecycle_node_names')
+        self._transitions = [(name_of_transition(number),) for number in transition_ids]
+
+    def _tags(self):
+        return [entity('lifecycle_transition', self._place(),
+                       [('node', node), ('transitions', self._transitions), *self._when()]) for node in self._nodes]
