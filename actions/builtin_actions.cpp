@@ -24,11 +24,16 @@ namespace launch {
   ACTION(log_warning)                  \
   ACTION(node)                         \
   ACTION(node_container)               \
+  ACTION(on_process_exit)              \
+  ACTION(on_process_io)                \
+  ACTION(on_process_start)             \
+  ACTION(on_shutdown)                  \
   ACTION(push_ros_namespace)           \
   ACTION(push_ros_namespace_alias)     \
   ACTION(rep_env)                      \
   ACTION(reset)                        \
   ACTION(reset_env)                    \
+  ACTION(restart)                      \
   ACTION(ros_timer)                    \
   ACTION(set_env)                      \
   ACTION(set_parameter)                \
@@ -37,6 +42,8 @@ namespace launch {
   ACTION(set_ros_log_dir)              \
   ACTION(set_use_sim_time)             \
   ACTION(shutdown)                     \
+  ACTION(signal)                       \
+  ACTION(stop)                         \
   ACTION(timer)                        \
   ACTION(trace)                        \
   ACTION(unset)                        \

@@ -1,4 +1,5 @@
 // <group>: actions in a scope of their own.
+#include "actions/ros_names.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 
@@ -12,6 +13,7 @@ class Group : public Action {
       : Action(fields.where(), fields.condition()),
         scoped_(fields.boolean("scoped", true)),
         forwarding_(fields.boolean("forwarding", true)),
+        namespace_(fields.optional_text("ns")),
         actions_(fields.actions()) {
     for (const Fields* keep : fields.items("keep")) {
       keep_.emplace_back(keep->text("name"), keep->text("value"));
@@ -28,12 +30,19 @@ class Group : public Action {
       kept.insert_or_assign(name.perform(inner), value.perform(inner));
     }
     const bool scoped = scoped_.perform(inner);
+    if (namespace_ && !scoped) {
+      throw LaunchError("ns needs a scoped group: it ends with the group", namespace_->where(),
+                        "use push_ros_namespace for a namespace that stays");
+    }
     if (scoped && !forwarding_.perform(inner)) {
       inner.clear_configurations();
       inner.environment = context.initial_environment();
     }
     for (auto& [name, value] : kept) {
       inner.configurations.insert_or_assign(name, value);
+    }
+    if (namespace_) {
+      push_namespace(*namespace_, inner);
     }
     if (scoped) {
       context.visit_in(std::move(inner), actions_);
@@ -46,6 +55,7 @@ class Group : public Action {
  private:
   BooleanField scoped_;
   BooleanField forwarding_;
+  std::optional<Template> namespace_;
   std::vector<std::pair<Template, Template>> keep_;
   std::vector<ActionPtr> actions_;
 };
@@ -59,7 +69,8 @@ ActionType group_action() {
       .attributes = {{"scoped", AttributeType::kBoolean, false, "true",
                       "restore configurations and environment at the end"},
                      {"forwarding", AttributeType::kBoolean, false, "true",
-                      "false: start without configurations and with the launcher's own environment"}},
+                      "false: start without configurations and with the launcher's own environment"},
+                     {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true}},
       .items = {{"keep",
                  "a configuration to set inside, evaluated outside",
                  {{"name", AttributeType::kText, true, "", "name of the configuration"},

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "actions/ros_names.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_context.hpp"
@@ -24,7 +25,8 @@ int include_depth(const SourceRange& where) {
 
 class IncludeLaunchDescription : public Action {
  public:
-  explicit IncludeLaunchDescription(const Fields& fields) : Action(fields.where(), fields.condition()) {
+  explicit IncludeLaunchDescription(const Fields& fields)
+      : Action(fields.where(), fields.condition()), namespace_(fields.optional_text("ns")) {
     declaration_.file = fields.text("file");
     declaration_.where = fields.where();
     // All `arg` come first, then all `let`, whatever their order in the file: ros2 launch does so.
@@ -59,7 +61,14 @@ class IncludeLaunchDescription : public Action {
     check_required_arguments(*included, context.registry(), context.scope(), given, where());
     ++context.requests().includes;
     // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
+    const std::optional<std::string> outer_namespace = pushed_namespace(context.scope());
+    if (namespace_) {
+      push_namespace(*namespace_, context.scope());
+    }
     context.visit(*included, [&] { set_arguments(context.scope()); });
+    if (namespace_) {
+      restore_namespace(outer_namespace, context.scope());
+    }
   }
 
  private:
@@ -80,6 +89,7 @@ class IncludeLaunchDescription : public Action {
   }
 
   IncludeDeclaration declaration_;
+  std::optional<Template> namespace_;
 };
 
 }  // namespace
@@ -92,7 +102,9 @@ ActionType include_action() {
       .tag = "include",
       .help = "Visits another launch file in place. Not a scope: what the file sets stays set.",
       .attributes = {{"file", AttributeType::kText, true, "",
-                      "path of the launch file; relative to the launcher's working directory"}},
+                      "path of the launch file; relative to the launcher's working directory"},
+                     {"ns", AttributeType::kText, false, "",
+                      "namespace of every node of the file; ends with it, unlike what else the file sets", true}},
       .items = {{"arg", "an argument for the file", name_and_value},
                 {"let", "the same as arg, set after all of them", name_and_value}},
       .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },

@@ -95,6 +95,9 @@ std::string NodeProcess::request(LaunchContext& context) const {
     remap("__ns:=" + *node.name_space);
   }
   const std::string full_name = node.name && node.name_space ? qualified_name(*node.name_space, *node.name) : "";
+  if (node.name) {
+    spec.other_names = {*node.name, qualified_name(node.name_space.value_or("/"), *node.name)};
+  }
   if (!full_name.empty()) {
     context.note_node(full_name);
   }

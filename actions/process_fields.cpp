@@ -23,6 +23,29 @@ std::optional<NumberField> not_negative(std::optional<NumberField> field) {
   return field;
 }
 
+// "screen,log", "none"
+OutputTargets targets(const Template& given, Scope& scope) {
+  const std::string text = given.perform(scope);
+  OutputTargets targets;
+  for (std::size_t begin = 0; begin <= text.size() && text != "none";) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (word == "screen") {
+      targets.screen = true;
+    } else if (word == "log") {
+      targets.log = true;
+    } else if (word == "own_log") {
+      targets.own_log = true;
+    } else {
+      const std::string suggestion = did_you_mean(word, {"screen", "log", "own_log", "none"});
+      throw LaunchError(fmt::format("'{}' is no place for output, expected screen, log, own_log or none", word),
+                        given.where(), suggestion.empty() ? "write several with commas: screen,log" : suggestion);
+    }
+    begin = end + 1;
+  }
+  return targets;
+}
+
 const std::string* find_configuration(const Scope& scope, const std::string& name) {
   const auto found = scope.configurations.find(name);
   return found == scope.configurations.end() ? nullptr : &found->second;
@@ -31,27 +54,41 @@ const std::string* find_configuration(const Scope& scope, const std::string& nam
 }  // namespace
 
 std::vector<AttributeSpec> ProcessFields::attributes() {
-  return {
+  std::vector<AttributeSpec> attributes = {
       {"cwd", AttributeType::kText, false, "the launcher's", "working directory"},
       {"launch-prefix", AttributeType::kText, false, "configuration launch-prefix",
        "command line put in front, such as gdb"},
       {"output", AttributeType::kText, false, "log", "screen, log, both, own_log or full"},
+      {"stdout", AttributeType::kText, false, "as output says",
+       "where standard output goes: screen, log and own_log, several with commas, or none", true},
+      {"stderr", AttributeType::kText, false, "as output says", "the same for standard error", true},
       {"respawn", AttributeType::kText, false, "false", "start again whenever the process ends"},
       {"respawn_delay", AttributeType::kFloat, false, "0", "seconds between an exit and the next start"},
       {"respawn_max_retries", AttributeType::kInteger, false, "-1", "how often to start again; negative: no limit"},
+      {"respawn_backoff", AttributeType::kFloat, false, "1",
+       "each delay is so many times the one before; anew after a run longer than respawn_max_delay", true},
+      {"respawn_max_delay", AttributeType::kFloat, false, "60", "seconds: the longest delay with respawn_backoff",
+       true},
+      {"required", AttributeType::kBoolean, false, "false",
+       "the whole system ends when the process does, with its exit code", true},
       {"on_exit", AttributeType::kLiteral, false, "", "shutdown: the whole system ends when the process does"},
       {"shell", AttributeType::kBoolean, false, "false", "run the words, joined by spaces, through /bin/sh -c"},
       {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
       {"sigterm_timeout", AttributeType::kFloat, false, "5", "seconds from SIGINT to SIGTERM at shutdown"},
       {"sigkill_timeout", AttributeType::kFloat, false, "5", "seconds from SIGTERM to SIGKILL at shutdown"},
+      {"clean_env", AttributeType::kBoolean, false, "false", "true: its environment is what its env items say", true},
   };
+  const std::vector<AttributeSpec> resources = ResourceFields::attributes();
+  attributes.insert(attributes.end(), resources.begin(), resources.end());
+  return attributes;
 }
 
 std::vector<ItemSpec> ProcessFields::items() {
   return {{"env",
            "a variable of the process's environment",
            {{"name", AttributeType::kText, true, "", "name of the variable"},
-            {"value", AttributeType::kText, true, "", "its value"}}}};
+            {"value", AttributeType::kText, true, "", "its value"}}},
+          DependsOn::item()};
 }
 
 ProcessFields::ProcessFields(const Fields& fields)
@@ -59,13 +96,22 @@ ProcessFields::ProcessFields(const Fields& fields)
       working_directory_(fields.optional_text("cwd")),
       launch_prefix_(fields.optional_text("launch-prefix")),
       output_(fields.optional_text("output")),
+      stdout_(fields.optional_text("stdout")),
+      stderr_(fields.optional_text("stderr")),
       respawn_(fields.optional_text("respawn")),
       respawn_delay_(not_negative(fields.number("respawn_delay"))),
       respawn_max_retries_(fields.number("respawn_max_retries")),
+      respawn_backoff_(not_negative(fields.number("respawn_backoff"))),
+      respawn_max_delay_(not_negative(fields.number("respawn_max_delay"))),
+      respawn_backoff_where_(fields.where("respawn_backoff")),
+      required_(fields.boolean("required", false)),
+      required_where_(fields.where("required")),
       shell_(fields.boolean("shell", false)),
       emulate_tty_(fields.boolean("emulate_tty", false)),
       sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
-      sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))) {
+      sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))),
+      clean_environment_(fields.boolean("clean_env", false)),
+      resources_(fields) {
   if (fields.has("on_exit")) {
     const std::string on_exit = fields.literal("on_exit");
     if (on_exit != "shutdown") {
@@ -75,6 +121,9 @@ ProcessFields::ProcessFields(const Fields& fields)
   }
   for (const Fields* variable : fields.items("env")) {
     environment_.emplace_back(variable->text("name"), variable->text("value"));
+  }
+  for (const Fields* dependency : fields.items("depends_on")) {
+    dependencies_.emplace_back(*dependency);
   }
 }
 
@@ -89,28 +138,17 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
     spec.name = std::filesystem::path(spec.argv.front()).filename().string();
   }
 
-  spec.environment = scope.environment;
-  for (const auto& [name, value] : environment_) {
-    spec.environment.insert_or_assign(name.perform(scope), value.perform(scope));
-  }
+  spec.environment = environment(scope);
+  spec.limits = resources_.perform(scope);
   if (working_directory_) {
     spec.working_directory = working_directory_->perform(scope);
   }
   spec.output = output(context);
-  if (respawn_) {
-    const std::string text = respawn_->perform(scope);
-    const std::optional<bool> enabled = yaml_boolean(text);
-    if (!enabled) {
-      throw LaunchError(fmt::format("respawn is expected to be a boolean, got '{}'", text), respawn_->where(),
-                        "write true or false");
-    }
-    spec.respawn.enabled = *enabled;
-  }
-  if (respawn_delay_) {
-    spec.respawn.delay = seconds(respawn_delay_->perform(scope));
-  }
-  if (respawn_max_retries_) {
-    spec.respawn.max_retries = static_cast<std::int64_t>(respawn_max_retries_->perform(scope));
+  spec.respawn = respawn(scope);
+  spec.required = required_.perform(scope);
+  if (spec.required && spec.respawn.enabled) {
+    throw LaunchError("a required process can't respawn: its end is the end of the system", required_where_,
+                      "leave out required or respawn");
   }
   spec.shutdown_on_exit = shutdown_on_exit_;
   spec.shell = shell_.perform(scope);
@@ -118,7 +156,52 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
   spec.sigterm_timeout = timeout(scope, sigterm_timeout_, "sigterm_timeout");
   spec.sigkill_timeout = timeout(scope, sigkill_timeout_, "sigkill_timeout");
   spec.origin = where_;
+  for (const DependsOn& dependency : dependencies_) {
+    dependency.request(context, context.requests().processes.size());
+  }
   context.requests().processes.push_back(std::move(spec));
+}
+
+Environment ProcessFields::environment(Scope& scope) const {
+  Environment environment = clean_environment_.perform(scope) ? Environment() : scope.environment;
+  for (const auto& [name, value] : environment_) {
+    environment.insert_or_assign(name.perform(scope), value.perform(scope));
+  }
+  return environment;
+}
+
+RespawnPolicy ProcessFields::respawn(Scope& scope) const {
+  RespawnPolicy policy;
+  if (respawn_) {
+    const std::string text = respawn_->perform(scope);
+    const std::optional<bool> enabled = yaml_boolean(text);
+    if (!enabled) {
+      throw LaunchError(fmt::format("respawn is expected to be a boolean, got '{}'", text), respawn_->where(),
+                        "write true or false");
+    }
+    policy.enabled = *enabled;
+  }
+  if (respawn_delay_) {
+    policy.delay = seconds(respawn_delay_->perform(scope));
+  }
+  if (respawn_max_retries_) {
+    policy.max_retries = static_cast<std::int64_t>(respawn_max_retries_->perform(scope));
+  }
+  if (respawn_max_delay_) {
+    policy.max_delay = seconds(respawn_max_delay_->perform(scope));
+  }
+  if (respawn_backoff_) {
+    policy.backoff = respawn_backoff_->perform(scope);
+    if (policy.backoff < 1.0) {
+      throw LaunchError(fmt::format("respawn_backoff is a factor of at least 1, got {}", policy.backoff),
+                        respawn_backoff_where_, "2 doubles the delay each time");
+    }
+    if (policy.enabled && policy.backoff > 1.0 && policy.delay == Duration{0}) {
+      throw LaunchError("respawn_backoff can't make a respawn_delay of 0 longer", respawn_backoff_where_,
+                        "add respawn_delay, the first delay in seconds");
+    }
+  }
+  return policy;
 }
 
 std::vector<std::string> ProcessFields::launch_prefix(Scope& scope, const std::string& program) const {
@@ -158,7 +241,11 @@ OutputRouting ProcessFields::output(LaunchContext& context) const {
                       overridden ? "it comes from the environment variable OVERRIDE_LAUNCH_PROCESS_OUTPUT"
                                  : did_you_mean(mode, {"screen", "log", "both", "own_log", "full"}));
   }
-  return *routing;
+  if (overridden) {
+    return *routing;
+  }
+  return {.out = stdout_ ? targets(*stdout_, context.scope()) : routing->out,
+          .err = stderr_ ? targets(*stderr_, context.scope()) : routing->err};
 }
 
 bool ProcessFields::emulate_tty(Scope& scope) const {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "actions/depends_on.hpp"
+#include "actions/resource_fields.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 #include "launcher/process/process_spec.hpp"
@@ -25,6 +27,8 @@ class ProcessFields {
 
  private:
   std::vector<std::string> launch_prefix(Scope& scope, const std::string& program) const;
+  RespawnPolicy respawn(Scope& scope) const;
+  Environment environment(Scope& scope) const;
   OutputRouting output(LaunchContext& context) const;
   bool emulate_tty(Scope& scope) const;
   Duration timeout(Scope& scope, const std::optional<NumberField>& given, const std::string& configuration) const;
@@ -33,15 +37,25 @@ class ProcessFields {
   std::optional<Template> working_directory_;
   std::optional<Template> launch_prefix_;
   std::optional<Template> output_;
+  std::optional<Template> stdout_;
+  std::optional<Template> stderr_;
   std::optional<Template> respawn_;
   std::optional<NumberField> respawn_delay_;
   std::optional<NumberField> respawn_max_retries_;
+  std::optional<NumberField> respawn_backoff_;
+  std::optional<NumberField> respawn_max_delay_;
+  SourceRange respawn_backoff_where_;
+  BooleanField required_;
+  SourceRange required_where_;
   bool shutdown_on_exit_ = false;
   BooleanField shell_;
   BooleanField emulate_tty_;
   std::optional<NumberField> sigterm_timeout_;
   std::optional<NumberField> sigkill_timeout_;
   std::vector<std::pair<Template, Template>> environment_;
+  BooleanField clean_environment_;
+  ResourceFields resources_;
+  std::vector<DependsOn> dependencies_;
 };
 
 }  // namespace launch

@@ -76,6 +76,19 @@ void push_namespace(const Template& given, Scope& scope) {
   scope.configurations.insert_or_assign(kNamespaceConfiguration, *resolve_namespace(given, scope, given.where()));
 }
 
+std::optional<std::string> pushed_namespace(const Scope& scope) {
+  const auto pushed = scope.configurations.find(kNamespaceConfiguration);
+  return pushed == scope.configurations.end() ? std::nullopt : std::optional(pushed->second);
+}
+
+void restore_namespace(const std::optional<std::string>& pushed, Scope& scope) {
+  if (pushed) {
+    scope.configurations.insert_or_assign(kNamespaceConfiguration, *pushed);
+  } else {
+    scope.configurations.erase(kNamespaceConfiguration);
+  }
+}
+
 std::string resolve_name(const Template& given, Scope& scope) {
   const auto pushed = scope.configurations.find(kNamespaceConfiguration);
   const std::string text = given.perform(scope);

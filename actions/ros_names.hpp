@@ -20,6 +20,10 @@ std::optional<std::string> resolve_namespace(const std::optional<Template>& give
 // Makes a namespace that of the scope.
 void push_namespace(const Template& given, Scope& scope);
 
+// The namespace of the scope, and the way back to it after push_namespace(); nothing when none was pushed.
+std::optional<std::string> pushed_namespace(const Scope& scope);
+void restore_namespace(const std::optional<std::string>& pushed, Scope& scope);
+
 // The full name of a node, a topic or a service in the scope: a relative one is below its namespace. Throws LaunchError
 // at the template when the result is no valid name.
 std::string resolve_name(const Template& given, Scope& scope);

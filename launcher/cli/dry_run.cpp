@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <string.h>
 
 #include <optional>
 
@@ -64,6 +65,9 @@ Json process_as_json(const ProcessSpec& spec, const Environment& launcher_enviro
     }
     process["params"] = std::move(contents);
   }
+  if (spec.limits.any()) {
+    process["limits"] = describe(spec.limits);
+  }
   if (spec.origin) {
     process["source"] = source_as_json(spec.origin);
   }
@@ -112,12 +116,15 @@ std::string shell_quoted(const std::string& word) {
   return quoted + "'";
 }
 
-std::string indented(const std::string& text) {
+std::string indented(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    result += "      " + text.substr(begin, end - begin) + "\n";
+    if (end != begin) {
+      result.append(width, ' ').append(text, begin, end - begin);
+    }
+    result += '\n';
     begin = end + 1;
   }
   return result;
@@ -127,72 +134,148 @@ std::string counted(std::size_t count, std::string_view one, std::string_view se
   return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
-}  // namespace
+// What is done to a process: "stop 'talker'", "signal SIGUSR1 to 'talker'".
+std::string command_as_text(const ProcessCommand& command) {
+  return command.kind == ProcessCommand::Kind::kSignal
+             ? fmt::format("signal SIG{} to '{}'", ::sigabbrev_np(command.signal), command.process)
+             : fmt::format("{} '{}'", name_of(command.kind), command.process);
+}
 
-std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_environment) {
+std::string dependency_as_text(const Dependency& dependency) {
+  std::string text = fmt::format("waits until {}", describe(dependency));
+  if (dependency.timeout) {
+    text += fmt::format(", at most {} s", std::chrono::duration<double>(*dependency.timeout).count());
+  }
+  return fmt::format("{}; else {}", text, to_string(dependency.on_failure));
+}
+
+std::string scope_as_text(const RunScope& scope) {
+  std::string text = fmt::format("{} ({})\n", scope.kind(), to_string(scope.origin()));
+  for (const ScopeSetting& setting : scope.describe()) {
+    const std::string value = std::visit(
+        [](const auto& held) {
+          using Held = std::decay_t<decltype(held)>;
+          if constexpr (std::is_same_v<Held, std::vector<std::string>>) {
+            return fmt::format("{}", fmt::join(held, " "));
+          } else {
+            return fmt::format("{}", held);
+          }
+        },
+        setting.value);
+    text += fmt::format("  {}: {}\n", setting.name, value);
+  }
+  return text;
+}
+
+std::string process_as_text(const ProcessSpec& spec, const Environment& launcher_environment) {
+  std::string command;
+  for (const std::string& word : plain_argv(spec)) {
+    command += (command.empty() ? "" : " ") + (spec.shell ? word : shell_quoted(word));
+  }
+  std::string text = fmt::format("{} ({})\n  {}\n", spec.name, to_string(spec.origin), command);
+  if (!spec.working_directory.empty()) {
+    text += fmt::format("  cwd: {}\n", spec.working_directory);
+  }
+  for (const auto& [name, value] : difference(spec.environment, launcher_environment)) {
+    text +=
+        value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
+  }
+  for (const std::string& limit : describe(spec.limits)) {
+    text += fmt::format("  limit: {}\n", limit);
+  }
+  for (std::size_t i = 0; i < spec.files.size(); ++i) {
+    text += fmt::format("  @params:{}:\n{}", i, indented(spec.files[i].content, 6));
+  }
+  return text;
+}
+
+std::string load_request_as_text(const LoadRequest& request) {
+  std::string text = fmt::format("load into {} ({})\n", request.target, to_string(request.origin));
+  for (const ComposableNode& node : request.nodes) {
+    text += fmt::format("  {} {} as {}\n", node.package, node.plugin,
+                        node.name_space.empty() ? node.name : node.name_space + "/" + node.name);
+    for (const NamedParameter& parameter : node.parameters) {
+      text += fmt::format("    {}: {}\n", parameter.name, to_yaml(parameter.value));
+    }
+    for (const auto& [from, to] : node.remaps) {
+      text += fmt::format("    {}:={}\n", from, to);
+    }
+    if (node.autostart) {
+      text += "    then configure, activate\n";
+    }
+  }
+  return text;
+}
+
+// Everything but the last line.
+std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_environment) {
   std::string text;
   for (const auto& scope : plan.scopes) {
-    text += fmt::format("{} ({})\n", scope->kind(), to_string(scope->origin()));
-    for (const ScopeSetting& setting : scope->describe()) {
-      const std::string value = std::visit(
-          [](const auto& held) {
-            using Held = std::decay_t<decltype(held)>;
-            if constexpr (std::is_same_v<Held, std::vector<std::string>>) {
-              return fmt::format("{}", fmt::join(held, " "));
-            } else {
-              return fmt::format("{}", held);
-            }
-          },
-          setting.value);
-      text += fmt::format("  {}: {}\n", setting.name, value);
-    }
-    text += '\n';
+    text += scope_as_text(*scope) + "\n";
   }
-  for (const ProcessSpec& spec : plan.processes) {
-    std::string command;
-    for (const std::string& word : plain_argv(spec)) {
-      command += (command.empty() ? "" : " ") + (spec.shell ? word : shell_quoted(word));
-    }
-    text += fmt::format("{} ({})\n  {}\n", spec.name, to_string(spec.origin), command);
-    if (!spec.working_directory.empty()) {
-      text += fmt::format("  cwd: {}\n", spec.working_directory);
-    }
-    for (const auto& [name, value] : difference(spec.environment, launcher_environment)) {
-      text +=
-          value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
-    }
-    for (std::size_t i = 0; i < spec.files.size(); ++i) {
-      text += fmt::format("  @params:{}:\n{}", i, indented(spec.files[i].content));
-    }
-    text += '\n';
+  std::vector<std::string> waits(plan.processes.size());
+  for (const Dependency& dependency : plan.dependencies) {
+    waits[dependency.process] += fmt::format("  {}\n", dependency_as_text(dependency));
+  }
+  for (std::size_t i = 0; i < plan.processes.size(); ++i) {
+    text += process_as_text(plan.processes[i], launcher_environment) + waits[i] + "\n";
   }
   for (const LoadRequest& request : plan.loads) {
-    text += fmt::format("load into {} ({})\n", request.target, to_string(request.origin));
-    for (const ComposableNode& node : request.nodes) {
-      text += fmt::format("  {} {} as {}\n", node.package, node.plugin,
-                          node.name_space.empty() ? node.name : node.name_space + "/" + node.name);
-      for (const NamedParameter& parameter : node.parameters) {
-        text += fmt::format("    {}: {}\n", parameter.name, to_yaml(parameter.value));
-      }
-      for (const auto& [from, to] : node.remaps) {
-        text += fmt::format("    {}:={}\n", from, to);
-      }
-      if (node.autostart) {
-        text += "    then configure, activate\n";
-      }
-    }
-    text += '\n';
+    text += load_request_as_text(request) + "\n";
   }
   for (const TransitionRequest& request : plan.transitions) {
     text += fmt::format("change state of {} ({})\n  {}\n\n", request.node, to_string(request.origin),
                         fmt::join(request.transitions, ", "));
   }
-  text += fmt::format("{}, {}; nothing was started\n", counted(plan.processes.size(), "process", "processes"),
-                      counted(plan.scopes.size(), "trace", "traces"));
+  for (const PlannedHandler& planned : plan.handlers) {
+    text += fmt::format("{} ({})\n", describe(planned.handler), to_string(planned.handler.where));
+    std::string content = content_as_text(planned.plan, launcher_environment);
+    for (const ProcessCommand& command : planned.plan.commands) {
+      content += command_as_text(command) + "\n";
+    }
+    for (const std::string& log : planned.plan.logs) {
+      content += fmt::format("log {}\n", shell_quoted(log));
+    }
+    content += planned.plan.shutdown ? "shutdown\n" : "";
+    while (content.ends_with("\n\n")) {
+      content.pop_back();
+    }
+    text += indented(content, 2) + "\n";
+  }
   return text;
 }
 
-std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
+}  // namespace
+
+std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_environment) {
+  std::string counts =
+      counted(plan.processes.size(), "process", "processes") + ", " + counted(plan.scopes.size(), "trace", "traces");
+  if (!plan.handlers.empty()) {
+    counts += ", " + counted(plan.handlers.size(), "event handler", "event handlers");
+  }
+  return fmt::format("{}{}; nothing was started\n", content_as_text(plan, launcher_environment), counts);
+}
+
+namespace {
+
+Json dependency_as_json(const Dependency& dependency) {
+  return {{"until", describe(dependency)},
+          {"timeout", dependency.timeout ? Json(std::chrono::duration<double>(*dependency.timeout).count()) : Json()},
+          {"on_failure", to_string(dependency.on_failure)},
+          {"source", source_as_json(dependency.where)}};
+}
+
+Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_environment);
+
+Json handler_as_json(const PlannedHandler& planned, const Environment& launcher_environment) {
+  Json handler = plan_content_as_json(planned.plan, launcher_environment);
+  handler["event"] = describe(planned.handler);
+  handler["once"] = planned.handler.once;
+  handler["source"] = source_as_json(planned.handler.where);
+  return handler;
+}
+
+Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
   Json processes = Json::array();
   for (const ProcessSpec& spec : plan.processes) {
     processes.push_back(process_as_json(spec, launcher_environment));
@@ -202,6 +285,9 @@ std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_env
                                        {"executable", node.executable},
                                        {"name", or_null(node.name)},
                                        {"namespace", or_null(node.name_space)}};
+  }
+  for (const Dependency& dependency : plan.dependencies) {
+    processes[dependency.process]["depends_on"].push_back(dependency_as_json(dependency));
   }
   Json loads = Json::array();
   for (const LoadRequest& request : plan.loads) {
@@ -221,7 +307,6 @@ std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_env
     traces.push_back(std::move(trace));
   }
   Json root;
-  root["outcome"] = "ok";
   root["processes"] = std::move(processes);
   root["composable"] = std::move(loads);
   if (!transitions.empty()) {
@@ -232,6 +317,22 @@ std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_env
   root["python_includes"] = plan.python_includes;
   root["includes"] = plan.includes;
   root["shutdown"] = plan.shutdown;
+  root["commands"] = Json::array();
+  for (const ProcessCommand& command : plan.commands) {
+    root["commands"].push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
+  }
+  root["handlers"] = Json::array();
+  for (const PlannedHandler& planned : plan.handlers) {
+    root["handlers"].push_back(handler_as_json(planned, launcher_environment));
+  }
+  return root;
+}
+
+}  // namespace
+
+std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
+  Json root = plan_content_as_json(plan, launcher_environment);
+  root["outcome"] = "ok";
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

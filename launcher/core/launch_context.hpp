@@ -15,7 +15,10 @@
 
 #include "launcher/core/action.hpp"
 #include "launcher/core/composable_node.hpp"
+#include "launcher/core/dependency.hpp"
+#include "launcher/core/event_handler.hpp"
 #include "launcher/core/launch_description.hpp"
+#include "launcher/core/process_command.hpp"
 #include "launcher/core/registry.hpp"
 #include "launcher/core/ros_client.hpp"
 #include "launcher/core/run_scope.hpp"
@@ -50,6 +53,9 @@ struct Requests {
   std::vector<std::unique_ptr<RunScope>> scopes;
   std::vector<ProcessSpec> processes;
   std::vector<NodeDescription> nodes;
+  std::vector<Dependency> dependencies;  // of the processes
+  std::vector<EventHandler> handlers;    // registered before the processes start
+  std::vector<ProcessCommand> commands;  // for what ran before
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;
   std::vector<TimerRequest> timers;

@@ -8,10 +8,15 @@
 
 namespace launch {
 
+struct PlannedHandler;
+
 struct LaunchPlan {
   std::vector<std::unique_ptr<RunScope>> scopes;
-  std::vector<ProcessSpec> processes;  // in the order of their start
-  std::vector<NodeDescription> nodes;  // those of the processes that are ROS nodes
+  std::vector<ProcessSpec> processes;    // in the order of their start
+  std::vector<NodeDescription> nodes;    // those of the processes that are ROS nodes
+  std::vector<Dependency> dependencies;  // of the processes
+  std::vector<PlannedHandler> handlers;
+  std::vector<ProcessCommand> commands;
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;
   std::vector<std::string> logs;             // messages of `log` actions
@@ -20,7 +25,14 @@ struct LaunchPlan {
   bool shutdown = false;  // a `shutdown` was visited
 };
 
-// Visits the description; timers fire without waiting, in the order of their due times. Throws LaunchError.
+// An event handler and what it would do. Where $(var event.…) is read, a made-up event stands in.
+struct PlannedHandler {
+  EventHandler handler;
+  LaunchPlan plan;
+};
+
+// Visits the description; timers fire without waiting, in the order of their due times, and after them every event
+// handler. Throws LaunchError.
 LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description);
 
 }  // namespace launch

@@ -8,9 +8,30 @@
 
 namespace launch {
 
+namespace {
+
+constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
+
+}  // namespace
+
 LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors)
-    : context_(context), loop_(loop), supervisor_(supervisor), errors_(std::move(errors)) {
+    : context_(context),
+      loop_(loop),
+      supervisor_(supervisor),
+      errors_(std::move(errors)),
+      start_order_(loop,
+                   {[this](ProcessSpec spec, TrackedProcess& process) { start_process(std::move(spec), process); },
+                    [this](const LaunchError& error) { fail(error); },
+                    [this](LogLevel level, const std::string& process, const std::string& text) {
+                      context_.message(level, process, text);
+                    }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
+}
+
+LaunchService::~LaunchService() {
+  if (output_observed_) {
+    supervisor_.observe_output(nullptr);
+  }
 }
 
 void LaunchService::use_ros_client(RosClient& client) {
@@ -42,11 +63,12 @@ void LaunchService::on_signal(int signal) {
   const std::string name = signal == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal));
   if (++signals_ == 1) {
     context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {}", name));
-    shutdown();
+    shutdown(name);
     return;
   }
   context_.message(LogLevel::kWarning, "launch",
                    fmt::format("user interrupted with {} again, killing what is left", name));
+  end_farewell();
   supervisor_.kill_all();
   for (const auto& scope : active_scopes_) {
     scope->hurry();
@@ -54,40 +76,55 @@ void LaunchService::on_signal(int signal) {
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
+  if (TrackedProcess* const process = table_.note(event)) {
+    start_order_.on_process_event(*process);
+  }
+  invoke(handlers_.on_event(event));
+
   const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
+  const auto* const exited = std::get_if<ProcessExited>(&event.what);
   if (failed_to_start) {
     exit_code_ = 1;
   }
-  if (event.spec.shutdown_on_exit && (failed_to_start || std::holds_alternative<ProcessExited>(event.what)) &&
-      !shutting_down_) {
+  // One that is ended to be started again doesn't end the system.
+  const bool restarts = exited != nullptr && exited->expected && exited->will_respawn;
+  const bool ends_system = event.spec.shutdown_on_exit || event.spec.required;
+  if (ends_system && (failed_to_start || exited != nullptr) && !restarts && !shutting_down_) {
     context_.message(LogLevel::kInfo, "launch",
                      fmt::format("process[{}] was required: shutting down launched system", event.label));
-    shutdown();
+    if (event.spec.required && exited != nullptr && !exited->expected && exited->exit.code != 0) {
+      exit_code_ = exited->exit.code > 0 ? exited->exit.code : kExitCodeOfSignal - exited->exit.code;
+    }
+    shutdown(fmt::format("process[{}] was required", event.label));
   }
   if (ros_tasks_) {
     ros_tasks_->on_process_event(event);
   }
   if (std::holds_alternative<ProcessDone>(event.what)) {
+    if (last_processes_.erase(event.id) != 0 && last_processes_.empty()) {
+      loop_.post([this] { end_farewell(); });
+    }
     post_check();
   }
 }
 
-// Later, for whoever tells of an end may still be at work.
-void LaunchService::post_check() {
-  if (!check_posted_) {
-    check_posted_ = true;
-    loop_.post([this] {
-      check_posted_ = false;
-      check_finished();
-    });
+void LaunchService::on_line(const ProcessSpec& spec, ProcessId id, const std::string& label, OutputStream stream,
+                            std::string_view line) {
+  if (TrackedProcess* const process = start_order_.watch_output() ? table_.find(id) : nullptr) {
+    start_order_.on_line(*process, stream, line);
   }
+  invoke(handlers_.on_line(spec, label, stream, line));
 }
 
 void LaunchService::on_timer(std::list<Timer>::iterator timer) {
   TimerRequest request = std::move(timer->request);
   timers_.erase(timer);
+  visit(std::move(request.scope), request.actions);
+}
+
+void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
   try {
-    context_.visit_in(std::move(request.scope), request.actions);
+    context_.visit_in(std::move(scope), actions);
   } catch (const LaunchError& error) {
     context_.take_requests();
     fail(error);
@@ -96,12 +133,37 @@ void LaunchService::on_timer(std::list<Timer>::iterator timer) {
   carry_out(context_.take_requests());
 }
 
+// In a later turn: handlers start and stop processes, which observers of their events should not.
+void LaunchService::invoke(std::vector<Invocation> invocations) {
+  for (Invocation& invocation : invocations) {
+    invocations_.push_back(std::move(invocation));
+    loop_.post([this] { run_invocation(); });
+  }
+}
+
+void LaunchService::run_invocation() {
+  const Invocation invocation = std::move(invocations_.front());
+  invocations_.pop_front();
+  visit(invocation.scope(), invocation.handler->actions);
+}
+
 void LaunchService::carry_out(Requests requests) {
   if (shutting_down_) {
     check_finished();
     return;
   }
-  waiting_.push_back(std::move(requests));
+  Round round{std::move(requests), {}};
+  for (const ProcessSpec& spec : round.requests.processes) {
+    round.processes.push_back(&table_.add(spec));
+  }
+  try {
+    resolve_dependencies(round.requests.dependencies, round.processes, table_);
+    check_commands(round.requests.commands, table_);
+  } catch (const LaunchError& error) {
+    fail(error);
+    return;
+  }
+  waiting_.push_back(std::move(round));
   if (waiting_.size() == 1) {
     begin_next();
   }
@@ -109,24 +171,24 @@ void LaunchService::carry_out(Requests requests) {
 
 void LaunchService::begin_next() {
   while (!waiting_.empty()) {
-    if (next_scope_ < waiting_.front().scopes.size()) {
+    const auto& scopes = waiting_.front().requests.scopes;
+    if (next_scope_ < scopes.size()) {
       scope_is_beginning_ = true;
-      guard(*waiting_.front().scopes[next_scope_]);
-      waiting_.front().scopes[next_scope_]->begin(loop_, teller(),
-                                                  [this](std::exception_ptr error) { on_begun(std::move(error)); });
+      guard(*scopes[next_scope_]);
+      scopes[next_scope_]->begin(loop_, teller(), [this](std::exception_ptr error) { on_begun(std::move(error)); });
       return;
     }
     next_scope_ = 0;
-    Requests requests = std::move(waiting_.front());
+    Round round = std::move(waiting_.front());
     waiting_.pop_front();
-    start(std::move(requests));
+    start(std::move(round));
   }
   check_finished();
 }
 
 void LaunchService::on_begun(std::exception_ptr error) {
   scope_is_beginning_ = false;
-  std::unique_ptr<RunScope> scope = std::move(waiting_.front().scopes[next_scope_++]);
+  std::unique_ptr<RunScope> scope = std::move(waiting_.front().requests.scopes[next_scope_++]);
   if (error) {
     unguard(*scope);
     try {
@@ -151,33 +213,65 @@ void LaunchService::on_begun(std::exception_ptr error) {
   begin_next();
 }
 
-void LaunchService::start(Requests requests) {
+void LaunchService::start(Round round) {
   const Duration before = loop_.now();
-  for (TimerRequest& request : requests.timers) {
-    timers_.push_back({std::move(request), nullptr});
-    const auto timer = std::prev(timers_.end());
-    timer->source = loop_.after(timer->request.period, [this, timer] { on_timer(timer); });
+  Requests& requests = round.requests;
+  for (const ProcessCommand& command : requests.commands) {
+    execute(command);
   }
-  auto node = requests.nodes.begin();
+  for (EventHandler& handler : requests.handlers) {
+    handlers_.add(std::move(handler));
+  }
+  for (TimerRequest& request : requests.timers) {
+    start_timer(std::move(request));
+  }
+  std::vector<std::vector<Dependency>> dependencies(requests.processes.size());
+  for (Dependency& dependency : requests.dependencies) {
+    dependencies[dependency.process].push_back(std::move(dependency));
+  }
+  // Those that wait come first: they watch the others from their start on.
   for (std::size_t i = 0; i < requests.processes.size(); ++i) {
-    ProcessSpec& spec = requests.processes[i];
-    for (const auto& scope : active_scopes_) {
-      scope->prepare(spec);
+    if (!dependencies[i].empty()) {
+      start_order_.add(std::move(requests.processes[i]), *round.processes[i], std::move(dependencies[i]));
+      round.processes[i] = nullptr;
     }
-    const ProcessId id = supervisor_.start(std::move(spec));
-    if (node != requests.nodes.end() && node->process == i) {
-      if (ros_tasks_ && node->name) {
-        const std::string name_space = node->name_space.value_or("/");
-        ros_tasks_->name_process(id, (name_space == "/" ? "" : name_space) + "/" + *node->name);
-      }
-      ++node;
+  }
+  if (!output_observed_ && (handlers_.watch_output() || start_order_.watch_output())) {
+    output_observed_ = true;
+    supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
+                                      OutputStream stream,
+                                      std::string_view line) { on_line(spec, id, label, stream, line); });
+  }
+  for (std::size_t i = 0; i < requests.processes.size(); ++i) {
+    if (round.processes[i] != nullptr && !shutting_down_) {
+      start_process(std::move(requests.processes[i]), *round.processes[i]);
     }
   }
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
   start_ros_tasks(requests);
   if (requests.shutdown) {
-    shutdown();
+    shutdown(requests.shutdown->reason);
   }
+}
+
+void LaunchService::start_process(ProcessSpec spec, TrackedProcess& process) {
+  for (const auto& scope : active_scopes_) {
+    scope->prepare(spec);
+  }
+  const ProcessId id = supervisor_.next_id();
+  table_.bind(process, id, fmt::format("{}-{}", spec.name, id));
+  for (const std::string& name : spec.other_names) {
+    if (ros_tasks_ && name.starts_with('/')) {
+      ros_tasks_->name_process(id, name);
+    }
+  }
+  supervisor_.start(std::move(spec));
+}
+
+void LaunchService::start_timer(TimerRequest request) {
+  timers_.push_back({std::move(request), nullptr});
+  const auto timer = std::prev(timers_.end());
+  timer->source = loop_.after(timer->request.period, [this, timer] { on_timer(timer); });
 }
 
 void LaunchService::start_ros_tasks(Requests& requests) {
@@ -194,77 +288,27 @@ void LaunchService::start_ros_tasks(Requests& requests) {
   }
 }
 
-void LaunchService::fail(const LaunchError& error) {
-  exit_code_ = 1;
-  errors_(error);
-  shutdown();
-}
-
-void LaunchService::shutdown() {
-  if (!shutting_down_) {
-    shutting_down_ = true;
-    if (!scope_is_beginning_) {
-      waiting_.clear();
-      next_scope_ = 0;
-    }
-    timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
-    supervisor_.shutdown();
-    if (ros_tasks_) {
-      ros_tasks_->shutdown();
+void LaunchService::execute(const ProcessCommand& command) {
+  const std::vector<TrackedProcess*> named = table_.find(command.process);
+  bool carried_out = false;
+  for (const TrackedProcess* const process : named) {
+    if (process->id == 0) {
+      carried_out |= command.kind == ProcessCommand::Kind::kStop && start_order_.drop(*process);
+    } else if (!process->is_over) {
+      carried_out = true;
+      send(command, process->id, supervisor_);
     }
   }
-  check_finished();
-}
-
-void LaunchService::check_finished() {
-  if (ending_ || scope_is_beginning_ || !waiting_.empty() || !timers_.empty() || supervisor_.active() != 0 ||
-      (ros_tasks_ && !ros_tasks_->idle())) {
+  if (carried_out) {
     return;
   }
-  ending_ = true;
-  shutting_down_ = true;
-  if (ros_tasks_) {
-    ros_tasks_->shutdown();
-  }
-  end_next_scope();
-}
-
-void LaunchService::end_next_scope() {
-  if (active_scopes_.empty()) {
-    loop_.quit();
+  if (command.kind == ProcessCommand::Kind::kRestart && named.back()->id != 0) {
+    supervisor_.restart(named.back()->id);
     return;
   }
-  if (signals_ > 1) {
-    active_scopes_.back()->hurry();
-  }
-  active_scopes_.back()->end(loop_, teller(), [this](std::exception_ptr error) {
-    if (error) {
-      try {
-        std::rethrow_exception(error);
-      } catch (const std::exception& failure) {
-        exit_code_ = 1;
-        errors_(LaunchError(failure.what(), active_scopes_.back()->origin()));
-      }
-    }
-    unguard(*active_scopes_.back());
-    active_scopes_.pop_back();
-    end_next_scope();
-  });
-}
-
-// From before begin(), so that there is no moment at which a killed launcher leaves the scope's work behind.
-void LaunchService::guard(const RunScope& scope) {
-  const std::vector<std::string> command = scope.clean_up_command();
-  if (guardian_ != nullptr && !command.empty()) {
-    clean_ups_.emplace(&scope, guardian_->add_clean_up(command));
-  }
-}
-
-void LaunchService::unguard(const RunScope& scope) {
-  if (const auto found = clean_ups_.find(&scope); found != clean_ups_.end()) {
-    guardian_->remove_clean_up(found->second);
-    clean_ups_.erase(found);
-  }
+  context_.message(LogLevel::kWarning, "launch",
+                   fmt::format("{}: process '{}' does not run ({})", name_of(command.kind), command.process,
+                               to_string(command.where)));
 }
 
 RunScope::Tell LaunchService::teller() {

@@ -1,8 +1,9 @@
 // Runs a launch: visits, begins scopes, starts processes, ends everything in the opposite order.
 //
-// Each traversal (the file, later the children of a timer) leaves Requests. They are carried out whole or not at all:
-// first every scope begins, then the processes start. When everything has ended, scopes end in reverse order. That
-// holds on every path: idle, `shutdown`, on_exit, an error, signals.
+// Each traversal (the file, later the children of a timer or of an event handler) leaves Requests. They are carried out
+// whole or not at all: first every scope begins, then the processes start. When everything has ended, scopes end in
+// reverse order. That holds on every path: idle, `shutdown`, on_exit, an error, signals. The first thing of the end is
+// to visit what `on_shutdown` handlers hold; processes that they start run before the others are asked to end.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +12,17 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/core/event_handlers.hpp"
 #include "launcher/core/launch_context.hpp"
+#include "launcher/core/process_table.hpp"
 #include "launcher/core/ros_tasks.hpp"
+#include "launcher/core/start_order.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
@@ -28,6 +35,9 @@ class LaunchService {
 
   // All references must outlive the service. `errors` receives what goes wrong while the launch runs.
   LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors);
+  ~LaunchService();
+  LaunchService(const LaunchService&) = delete;
+  LaunchService& operator=(const LaunchService&) = delete;
 
   // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
   void guard_scopes(Guardian& guardian) { guardian_ = &guardian; }
@@ -37,7 +47,8 @@ class LaunchService {
   void use_ros_client(RosClient& client);
 
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
-  // the launch itself, a process that could not be started included. How processes ended doesn't count.
+  // the launch itself, a process that could not be started included, else that of the `required` process that has ended
+  // the launch, 128+N when signal N ended it. How other processes ended doesn't count.
   // SIGINT, SIGTERM, SIGHUP and SIGQUIT shut down; a second one kills what is left and ends at once.
   int run(const LaunchDescription& description);
 
@@ -50,17 +61,36 @@ class LaunchService {
     EventLoop::SourcePtr source;
   };
 
+  // What one traversal asked for, and the processes of it.
+  struct Round {
+    Requests requests;
+    std::vector<TrackedProcess*> processes;
+  };
+
   void on_signal(int signal);
   void on_process_event(const ProcessEvent& event);
+  void on_line(const ProcessSpec& spec, ProcessId id, const std::string& label, OutputStream stream,
+               std::string_view line);
   void on_timer(std::list<Timer>::iterator timer);
+
+  // Visits actions in a scope of their own and carries out what they ask for.
+  void visit(Scope scope, const std::vector<ActionPtr>& actions);
+  void invoke(std::vector<Invocation> invocations);
+  void run_invocation();
 
   void carry_out(Requests requests);
   void begin_next();
   void on_begun(std::exception_ptr error);
-  void start(Requests requests);
+  void start(Round round);
+  void start_process(ProcessSpec spec, TrackedProcess& process);
+  void start_timer(TimerRequest request);
   void start_ros_tasks(Requests& requests);
+  void execute(const ProcessCommand& command);
   void fail(const LaunchError& error);
-  void shutdown();
+  void shutdown(const std::string& reason);
+  void say_farewell();
+  void visit_farewell(const Invocation& invocation);
+  void end_farewell();
   void check_finished();
   void post_check();
   void end_next_scope();
@@ -76,12 +106,22 @@ class LaunchService {
   std::unique_ptr<RosTasks> ros_tasks_;                // null without a client
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 
-  std::deque<Requests> waiting_;  // the first one may be beginning its scopes
-  std::size_t next_scope_ = 0;    // of waiting_.front()
+  ProcessTable table_;
+  EventHandlers handlers_;
+  StartOrder start_order_;
+  std::deque<Invocation> invocations_;  // each has a post of its own
+  bool output_observed_ = false;
+
+  std::deque<Round> waiting_;   // the first one may be beginning its scopes
+  std::size_t next_scope_ = 0;  // of waiting_.front()
   bool scope_is_beginning_ = false;
   std::vector<std::unique_ptr<RunScope>> active_scopes_;
   std::list<Timer> timers_;
   bool shutting_down_ = false;
+  std::vector<Invocation> last_invocations_;  // of on_shutdown
+  std::set<ProcessId> last_processes_;        // that they have started, until they are done
+  EventLoop::SourcePtr farewell_timer_;
+  bool farewell_ = false;  // what on_shutdown handlers ask for is under way
   bool ending_ = false;
   bool check_posted_ = false;
   int signals_ = 0;

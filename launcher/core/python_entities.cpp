@@ -63,6 +63,29 @@ class PythonAction : public Action {
   std::shared_ptr<PythonFile> file_;
 };
 
+// An action whose processes can be spoken of by a name that no launch file can write.
+class NamedAction : public Action {
+ public:
+  NamedAction(ActionPtr action, std::string name)
+      : Action(action->where(), {}), action_(std::move(action)), name_(std::move(name)) {}
+
+  Introspection introspect() const override { return action_->introspect(); }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    const std::size_t before = context.requests().processes.size();
+    action_->visit(context);
+    std::vector<ProcessSpec>& processes = context.requests().processes;
+    for (std::size_t i = before; i < processes.size(); ++i) {
+      processes[i].other_names.push_back(name_);
+    }
+  }
+
+ private:
+  ActionPtr action_;
+  std::string name_;
+};
+
 }  // namespace
 
 void show_python_tracebacks() {
@@ -95,6 +118,10 @@ Entity PythonFile::make_entity(const python::Entity& entity) {
       condition = Condition(*attribute.value.scalar()->made, attribute.name == "unless");
     }
     made.made = std::make_shared<PythonAction>(entity.object, shared_from_this(), made.where, std::move(condition));
+  }
+  if (!entity.process_name.empty()) {
+    std::vector<ActionPtr> actions = ActionParser(registry_).parse({made});
+    made.made = std::make_shared<NamedAction>(std::move(actions.front()), entity.process_name);
   }
   return made;
 }

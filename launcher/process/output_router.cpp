@@ -100,12 +100,14 @@ struct OutputRouter::Impl {
     return *children[process];
   }
 
-  void write_lines(Child& owner, Stream& stream, const std::string& label, OutputStream which,
+  void write_lines(ProcessId process, Child& owner, Stream& stream, const std::string& label, OutputStream which,
                    const OutputTargets& targets, std::string_view text);
+  void observe(ProcessId process, OutputStream which, std::string_view text);
   void to_screen(std::string_view text);
   void to_file(LogFile& file, std::string_view text);
 
   Options options;
+  LineObserver line_observer;
   bool screen_gone = false;
   LogFile launch_log;
   std::vector<std::unique_ptr<Child>> children;  // by ProcessId
@@ -145,16 +147,16 @@ void OutputRouter::write(ProcessId process, const std::string& label, OutputStre
       const std::size_t kept = incomplete_utf8_suffix(stream.rest);
       const std::string part = stream.rest.substr(0, stream.rest.size() - kept);
       stream.rest.erase(0, part.size());
-      impl_->write_lines(child, stream, label, which, targets, part);
+      impl_->write_lines(process, child, stream, label, which, targets, part);
     }
     return;
   }
   // A line end is never part of a longer character, so whole lines can be checked apart from what follows.
   if (stream.rest.empty()) {
-    impl_->write_lines(child, stream, label, which, targets, bytes.substr(0, last_end));
+    impl_->write_lines(process, child, stream, label, which, targets, bytes.substr(0, last_end));
   } else {
     const std::string begun = std::move(stream.rest.append(bytes.substr(0, last_end)));
-    impl_->write_lines(child, stream, label, which, targets, begun);
+    impl_->write_lines(process, child, stream, label, which, targets, begun);
   }
   stream.rest.assign(bytes.substr(last_end + 1));
 }
@@ -165,12 +167,16 @@ void OutputRouter::close_stream(ProcessId process, const std::string& label, Out
   Impl::Stream& stream = child.streams[static_cast<std::size_t>(which)];
   if (!stream.rest.empty()) {
     const std::string last = std::exchange(stream.rest, {});
-    impl_->write_lines(child, stream, label, which, targets, last);
+    impl_->write_lines(process, child, stream, label, which, targets, last);
   }
   stream.own.fd.reset();
   if (!child.streams[0].own.fd && !child.streams[1].own.fd) {
     child.both.fd.reset();
   }
+}
+
+void OutputRouter::observe_lines(LineObserver observer) {
+  impl_->line_observer = std::move(observer);
 }
 
 void OutputRouter::message(LogLevel level, std::string_view logger, std::string_view text) {
@@ -188,19 +194,22 @@ void OutputRouter::message(LogLevel level, std::string_view logger, std::string_
 }
 
 // `text` holds one or more lines, without the last line end.
-void OutputRouter::Impl::write_lines(Child& owner, Stream& stream, const std::string& label, OutputStream which,
-                                     const OutputTargets& targets, std::string_view text) {
+void OutputRouter::Impl::write_lines(ProcessId process, Child& owner, Stream& stream, const std::string& label,
+                                     OutputStream which, const OutputTargets& targets, std::string_view text) {
   const bool files = !options.log_directory.empty();
   const bool own_log = targets.own_log && files;
   const bool plain = targets.screen || own_log;
   const bool stamped = targets.log && files;
-  if (!plain && !stamped) {
+  if (!plain && !stamped && !line_observer) {
     return;
   }
   if (!is_utf8(text)) {
     repaired.clear();
     append_as_utf8(repaired, text);
     text = repaired;
+  }
+  if (line_observer) {
+    observe(process, which, text);
   }
   if (stream.prefix.empty()) {
     stream.prefix = fmt::format("[{}] ", label);
@@ -234,6 +243,19 @@ void OutputRouter::Impl::write_lines(Child& owner, Stream& stream, const std::st
     owner.both.path = base + ".log";
     to_file(stream.own, plain_lines);
     to_file(owner.both, plain_lines);
+  }
+}
+
+void OutputRouter::Impl::observe(ProcessId process, OutputStream which, std::string_view text) {
+  for (bool more = true; more;) {
+    const std::size_t end = text.find('\n');
+    more = end != std::string_view::npos;
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) {
+      line.remove_suffix(1);  // a pseudo-terminal ends lines so
+    }
+    line_observer(process, which, line);
+    text.remove_prefix(more ? end + 1 : text.size());
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -46,6 +47,11 @@ class OutputRouter {
              std::string_view bytes);
   // The stream has ended: writes the rest as a line.
   void close_stream(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets);
+
+  // Called for each line before it is written, whatever its targets; invalid UTF-8 is U+FFFD in it, too. A line that is
+  // very long comes in parts. Null: nobody.
+  using LineObserver = std::function<void(ProcessId process, OutputStream stream, std::string_view line)>;
+  void observe_lines(LineObserver observer);
 
   // A launcher message: "[INFO] [logger]: text" on the screen, with a time stamp in front in launch.log.
   void message(LogLevel level, std::string_view logger, std::string_view text);

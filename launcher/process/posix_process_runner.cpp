@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include "launcher/base/unique_fd.hpp"
+#include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/program_search.hpp"
 #include "launcher/process/spawn_failure.hpp"
@@ -163,9 +165,19 @@ std::vector<std::string> command_line(const ProcessSpec& spec) {
   return {"/bin/sh", "-c", line};
 }
 
+// What launch-exec has to say before it becomes the program: nothing, when all went well.
+std::optional<LaunchExecFailure> read_failure(const UniqueFd& pipe) {
+  LaunchExecFailure failure{};
+  ssize_t size = 0;
+  do {
+    size = ::read(pipe.get(), &failure, sizeof failure);
+  } while (size < 0 && errno == EINTR);
+  return size == sizeof failure ? std::optional(failure) : std::nullopt;
+}
+
 class PosixProcessRunner final : public ProcessRunner {
  public:
-  PosixProcessRunner();
+  explicit PosixProcessRunner(std::string exec_program);
 
   Process spawn(const ProcessSpec& spec) override;
   void signal_group(const Process& process, int signal) override;
@@ -175,11 +187,12 @@ class PosixProcessRunner final : public ProcessRunner {
  private:
   static ProcessExit wait(const Process& process, int flags);
 
+  std::string exec_program_;
   SpawnAttributes attributes_;
   std::optional<rlimit> limit_of_children_;  // only if it differs from the launcher's
 };
 
-PosixProcessRunner::PosixProcessRunner() {
+PosixProcessRunner::PosixProcessRunner(std::string exec_program) : exec_program_(std::move(exec_program)) {
   for (int fd = 0; fd <= 2; ++fd) {
     if (::fcntl(fd, F_GETFD) < 0) {
       // Takes the lowest free number. Without this a pipe could get it, and be overwritten by the redirections.
@@ -214,7 +227,18 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
     actions.change_directory(spec.working_directory);
   }
 
-  const std::vector<std::string> strings = command_line(spec);
+  std::vector<std::string> strings = command_line(spec);
+  const bool limited = spec.limits.any();
+  Channel failures;
+  if (limited) {
+    failures = make_pipe(0);
+    actions.redirect(failures.child, kLaunchExecError);
+    std::vector<std::string> wrapper = launch_exec_arguments(spec.limits);
+    wrapper.insert(wrapper.begin(), exec_program_);
+    wrapper.push_back(program);
+    strings.insert(strings.begin(), wrapper.begin(), wrapper.end());
+  }
+  const std::string& started = limited ? exec_program_ : program;
   const StringArray argv(strings);
   const StringArray environment(spec.environment);
 
@@ -224,11 +248,22 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
 
   Process process;
   const int error =
-      ::posix_spawn(&process.pid, program.c_str(), actions.get(), attributes_.get(), argv.get(), environment.get());
+      ::posix_spawn(&process.pid, started.c_str(), actions.get(), attributes_.get(), argv.get(), environment.get());
   if (error != 0) {
-    throw spawn_failure(error, spec, program);
+    throw spawn_failure(error, spec, started);
   }
-  if (limit_of_children_) {
+  if (limited) {
+    failures.child.reset();
+    if (const std::optional<LaunchExecFailure> failure = read_failure(failures.parent)) {
+      ::waitpid(process.pid, nullptr, 0);
+      if (failure->step == kStepExec) {
+        throw spawn_failure(failure->error, spec, program);
+      }
+      throw std::system_error(failure->error, std::system_category(),
+                              limit_failure(failure->step, failure->error, spec.limits));
+    }
+  }
+  if (limit_of_children_ && !spec.limits.open_files) {
     // Lowering our own limit around the spawn would be exact, but could fail an open() of another thread meanwhile.
     static_cast<void>(::prlimit(process.pid, RLIMIT_NOFILE, &*limit_of_children_, nullptr));
   }
@@ -270,8 +305,13 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
 
 }  // namespace
 
-std::unique_ptr<ProcessRunner> make_posix_process_runner() {
-  return std::make_unique<PosixProcessRunner>();
+std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program) {
+  return std::make_unique<PosixProcessRunner>(exec_program);
+}
+
+std::string default_exec_program() {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  return (self.parent_path().parent_path() / "lib/launch/launch-exec").string();
 }
 
 }  // namespace launch

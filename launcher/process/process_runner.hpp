@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "launcher/process/process_spec.hpp"
 
@@ -29,8 +30,14 @@ class ProcessRunner {
 // posix_spawn(3) and pidfds. Prepares the launcher itself: SIGCHLD gets its default disposition (else children would be
 // reaped by the kernel), closed standard descriptors become /dev/null, and the soft limit of open descriptors is raised
 // to the hard one. Children get the old limit, right after their start: a program that reads it in its first
-// instructions can still see the raised one. Any descriptor of the launcher but the standard ones is marked
-// close-on-exec before each start.
-std::unique_ptr<ProcessRunner> make_posix_process_runner();
+// instructions can still see the raised one, unless its spec has a limit of its own. Any descriptor of the launcher but
+// the standard ones is marked close-on-exec before each start.
+//
+// A process with limits is started by way of `exec_program`, launch-exec, which applies them to itself and then becomes
+// the program; spawn() returns when it has, and throws when a limit is refused.
+std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program = default_exec_program());
+
+// ../lib/launch/launch-exec, seen from the directory of this program.
+std::string default_exec_program();
 
 }  // namespace launch

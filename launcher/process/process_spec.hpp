@@ -15,6 +15,7 @@
 #include "launcher/base/source.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/resource_limits.hpp"
 
 namespace launch {
 
@@ -42,6 +43,10 @@ struct RespawnPolicy {
   bool enabled = false;
   Duration delay{0};
   std::int64_t max_retries = -1;  // negative: no limit
+  // Each delay is `backoff` times the one before, up to max_delay. The series begins anew after a run that lasted
+  // longer than max_delay. 1: the delay stays as it is, also above max_delay.
+  double backoff = 1.0;
+  Duration max_delay = std::chrono::seconds(60);
 };
 
 // Text that the process reads from a file of its own: written before the first spawn into the run's private directory,
@@ -54,15 +59,18 @@ struct GeneratedFile {
 
 // Configuration: plain data, all substitutions performed. `launch --dry-run` prints exactly this.
 struct ProcessSpec {
-  std::string name;               // label without its number; the supervisor appends "-N"
+  std::string name;                      // label without its number; the supervisor appends "-N"
+  std::vector<std::string> other_names;  // by which it may be spoken of besides, such as that of its ROS node
   std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
   std::map<std::string, std::string> environment;  // complete, not a difference
   std::string working_directory;                   // empty: the launcher's
   bool shell = false;                              // run argv joined with spaces through /bin/sh -c
   bool emulate_tty = false;                        // stdout and stderr are pseudo-terminals
   OutputRouting output;
+  ResourceLimits limits;
   RespawnPolicy respawn;
   bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
+  bool required = false;          // for observers: and how it ended is how the launch ended
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
@@ -77,6 +85,9 @@ struct Process {
   UniqueFd err;
   UniqueFd in;  // write end of standard input, kept open, never written
 };
+
+// What counts as the exit code of a process that could not be started.
+constexpr int kExitCodeOfFailedStart = 127;
 
 // Outcome.
 struct ProcessExit {

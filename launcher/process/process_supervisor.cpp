@@ -12,6 +12,7 @@
 
 #include "launcher/process/child_output.hpp"
 #include "launcher/process/generated_files.hpp"
+#include "launcher/process/respawn_delay.hpp"
 
 namespace launch {
 namespace {
@@ -20,13 +21,16 @@ namespace {
 // long.
 constexpr int kReapTimeoutMilliseconds = 1000;
 
-enum class Event { kStart, kExit, kOutputClosed, kTimeout, kSignal, kShutdown, kKill };
-constexpr std::size_t kEvents = 7;
+enum class Event { kStart, kExit, kOutputClosed, kTimeout, kSignal, kShutdown, kKill, kStop, kRestart };
+constexpr std::size_t kEvents = 9;
 constexpr std::size_t kStates = 7;
 
 bool asks_to_end(int signal) {
   return signal == SIGINT || signal == SIGTERM || signal == SIGKILL || signal == SIGQUIT || signal == SIGHUP;
 }
+
+// What was asked for a run, and counts at its end before the respawn policy.
+enum class Request { kNone, kStop, kRestart };
 
 struct Supervised {
   Supervised(EventLoop& loop, OutputRouter& router, ProcessId number, ProcessSpec given)
@@ -41,6 +45,8 @@ struct Supervised {
   ProcessState state = ProcessState::kStarting;
   std::int64_t retries = 0;
   int requested_signal = 0;  // of the kSignal event being handled
+  Request request = Request::kNone;
+  RespawnDelay respawn_delay;
 
   // Of the current or last run.
   Process process;
@@ -48,6 +54,7 @@ struct Supervised {
   bool exited = false;    // a zombie, kept because descendants hold its output open
   bool signalled = false;
   Duration started{0};
+  Duration ran_for{0};
   ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;
@@ -86,6 +93,12 @@ struct ProcessSupervisor::Impl {
   void interrupt_remains(Supervised& process);
   void kill_remains(Supervised& process);
   void finish(Supervised& process);
+  void stop(Supervised& process);
+  void stay_stopped(Supervised& process);
+  void restart(Supervised& process);
+  void start_again(Supervised& process);
+  void restart_now(Supervised& process);
+  void revive(Supervised& process);
 
   bool respawns(const Supervised& process) const;
   void conclude(Supervised& process);
@@ -111,14 +124,14 @@ struct ProcessSupervisor::Impl {
 
 // clang-format off
 const std::array<std::array<ProcessSupervisor::Impl::Handler, kEvents>, kStates> ProcessSupervisor::Impl::kTable{{
-  //                  kStart         kExit                 kOutputClosed           kTimeout             kSignal                kShutdown                 kKill
-  /* kStarting     */ {&Impl::spawn,  &Impl::ignore,        &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::ignore},
-  /* kRunning      */ {&Impl::ignore, &Impl::end_unasked,   &Impl::ignore,          &Impl::ignore,       &Impl::send_requested, &Impl::interrupt,         &Impl::kill_now},
-  /* kInterrupting */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::terminate,    &Impl::send_requested, &Impl::ignore,            &Impl::kill_now},
-  /* kTerminating  */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::kill_at_last, &Impl::send_requested, &Impl::ignore,            &Impl::kill_now},
-  /* kKilling      */ {&Impl::ignore, &Impl::end_signalled, &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::kill_now},
-  /* kRespawnDelay */ {&Impl::ignore, &Impl::ignore,        &Impl::ignore,          &Impl::spawn,        &Impl::ignore,         &Impl::finish,            &Impl::ignore},
-  /* kDone         */ {&Impl::ignore, &Impl::ignore,        &Impl::release_remains, &Impl::ignore,       &Impl::ignore,         &Impl::interrupt_remains, &Impl::kill_remains},
+  //                   kStart         kExit                 kOutputClosed           kTimeout             kSignal                kShutdown                 kKill                kStop                kRestart
+  /* kStarting     */ {&Impl::spawn,  &Impl::ignore,        &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::ignore,       &Impl::ignore,       &Impl::ignore},
+  /* kRunning      */ {&Impl::ignore, &Impl::end_unasked,   &Impl::ignore,          &Impl::ignore,       &Impl::send_requested, &Impl::interrupt,         &Impl::kill_now,     &Impl::stop,         &Impl::restart},
+  /* kInterrupting */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::terminate,    &Impl::send_requested, &Impl::ignore,            &Impl::kill_now,     &Impl::stay_stopped, &Impl::start_again},
+  /* kTerminating  */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::kill_at_last, &Impl::send_requested, &Impl::ignore,            &Impl::kill_now,     &Impl::stay_stopped, &Impl::start_again},
+  /* kKilling      */ {&Impl::ignore, &Impl::end_signalled, &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::kill_now,     &Impl::stay_stopped, &Impl::start_again},
+  /* kRespawnDelay */ {&Impl::ignore, &Impl::ignore,        &Impl::ignore,          &Impl::spawn,        &Impl::ignore,         &Impl::finish,            &Impl::ignore,       &Impl::finish,       &Impl::restart_now},
+  /* kDone         */ {&Impl::ignore, &Impl::ignore,        &Impl::release_remains, &Impl::ignore,       &Impl::ignore,         &Impl::interrupt_remains, &Impl::kill_remains, &Impl::ignore,       &Impl::revive},
 }};
 // clang-format on
 
@@ -153,6 +166,7 @@ void ProcessSupervisor::Impl::spawn(Supervised& process) {
   process.timer.reset();
   process.exited = false;
   process.signalled = false;
+  process.request = Request::kNone;
   try {
     if (process.state == ProcessState::kStarting) {
       files.write(process.spec, process.id);
@@ -162,7 +176,8 @@ void ProcessSupervisor::Impl::spawn(Supervised& process) {
     const bool again = respawns(process);
     notify(process, ProcessStartFailed{error.what(), again});
     if (again) {
-      wait_for_respawn(process, std::max(process.spec.respawn.delay, kFailedStartDelay));
+      wait_for_respawn(process,
+                       std::max(process.respawn_delay.next(process.spec.respawn, Duration{0}), kFailedStartDelay));
     } else {
       finish(process);
     }
@@ -293,9 +308,54 @@ void ProcessSupervisor::Impl::finish(Supervised& process) {
   notify(process, ProcessDone{});
 }
 
+void ProcessSupervisor::Impl::stop(Supervised& process) {
+  process.request = Request::kStop;
+  interrupt(process);
+}
+
+void ProcessSupervisor::Impl::stay_stopped(Supervised& process) {
+  process.request = Request::kStop;
+}
+
+void ProcessSupervisor::Impl::restart(Supervised& process) {
+  start_again(process);
+  if (process.request == Request::kRestart) {
+    interrupt(process);
+  }
+}
+
+void ProcessSupervisor::Impl::start_again(Supervised& process) {
+  if (!shutting_down) {
+    process.request = Request::kRestart;
+  }
+}
+
+void ProcessSupervisor::Impl::restart_now(Supervised& process) {
+  process.retries = 0;
+  process.respawn_delay.reset();
+  spawn(process);
+}
+
+void ProcessSupervisor::Impl::revive(Supervised& process) {
+  if (shutting_down) {
+    return;
+  }
+  kill_remains(process);
+  process.process = Process{};
+  process.output.close();
+  process.retries = 0;
+  process.respawn_delay.reset();
+  process.state = ProcessState::kRespawnDelay;
+  ++active;
+  spawn(process);
+}
+
 bool ProcessSupervisor::Impl::respawns(const Supervised& process) const {
+  if (shutting_down || process.request != Request::kNone) {
+    return !shutting_down && process.request == Request::kRestart;
+  }
   const RespawnPolicy& policy = process.spec.respawn;
-  return policy.enabled && !shutting_down && (policy.max_retries < 0 || process.retries < policy.max_retries);
+  return policy.enabled && (policy.max_retries < 0 || process.retries < policy.max_retries);
 }
 
 // The run is over; what comes next?
@@ -303,10 +363,14 @@ void ProcessSupervisor::Impl::conclude(Supervised& process) {
   if (!process.unreaped) {
     process.process = Process{};
   }
-  if (respawns(process)) {
-    wait_for_respawn(process, process.spec.respawn.delay);
-  } else {
+  if (!respawns(process)) {
     finish(process);
+  } else if (process.request == Request::kRestart) {
+    process.retries = -1;  // this start is no retry
+    process.respawn_delay.reset();
+    wait_for_respawn(process, Duration{0});
+  } else {
+    wait_for_respawn(process, process.respawn_delay.next(process.spec.respawn, process.ran_for));
   }
 }
 
@@ -317,7 +381,7 @@ void ProcessSupervisor::Impl::wait_for_respawn(Supervised& process, Duration del
 }
 
 void ProcessSupervisor::Impl::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
-  exit.ran_for = loop.now() - process.started;
+  exit.ran_for = process.ran_for = loop.now() - process.started;
   const bool expected = process.signalled || shutting_down;
   notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});
 }
@@ -372,11 +436,27 @@ ProcessId ProcessSupervisor::start(ProcessSpec spec) {
   if (impl_->shutting_down) {
     return 0;
   }
-  const auto id = static_cast<ProcessId>(impl_->processes.size() + 1);
+  const ProcessId id = next_id();
   impl_->processes.push_back(std::make_unique<Supervised>(impl_->loop, impl_->output, id, std::move(spec)));
   ++impl_->active;
   impl_->handle(*impl_->processes.back(), Event::kStart);
   return id;
+}
+
+ProcessId ProcessSupervisor::next_id() const {
+  return static_cast<ProcessId>(impl_->processes.size() + 1);
+}
+
+void ProcessSupervisor::observe_output(OutputObserver observer) {
+  if (!observer) {
+    impl_->output.observe_lines(nullptr);
+    return;
+  }
+  impl_->output.observe_lines(
+      [this, observer = std::move(observer)](ProcessId id, OutputStream stream, std::string_view line) {
+        const Supervised& process = *impl_->processes.at(id - 1);
+        observer(process.spec, id, process.label, stream, line);
+      });
 }
 
 void ProcessSupervisor::shutdown() {
@@ -391,6 +471,14 @@ void ProcessSupervisor::shutdown() {
 
 void ProcessSupervisor::signal(ProcessId id, int signal) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kSignal, signal);
+}
+
+void ProcessSupervisor::stop(ProcessId id) {
+  impl_->handle(*impl_->processes.at(id - 1), Event::kStop);
+}
+
+void ProcessSupervisor::restart(ProcessId id) {
+  impl_->handle(*impl_->processes.at(id - 1), Event::kRestart);
 }
 
 void ProcessSupervisor::kill_all() {

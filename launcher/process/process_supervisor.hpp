@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -79,6 +80,15 @@ class ProcessSupervisor {
   // returns 0.
   ProcessId start(ProcessSpec spec);
 
+  // What the next start() will return, unless an observer starts one before.
+  ProcessId next_id() const;
+
+  // Called for every line of every process, before the router writes it and before the exit of its process is told.
+  // One observer, null for none; it must not call the supervisor.
+  using OutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,
+                                            OutputStream stream, std::string_view line)>;
+  void observe_output(OutputObserver observer);
+
   // Ends everything: SIGINT now, SIGTERM and SIGKILL after the timeouts of each spec; pending respawns are dropped.
   // A process that is being started is interrupted after its start. Later calls have no effect.
   void shutdown();
@@ -86,6 +96,13 @@ class ProcessSupervisor {
   // Sends a signal to the group of a running process (a SignalSent event follows). Nothing escalates. Ignored for a
   // process that does not run.
   void signal(ProcessId id, int signal);
+
+  // Ends one process as shutdown() ends all of them: it does not respawn, whatever its policy says.
+  void stop(ProcessId id);
+
+  // Ends one process in the same way and starts it again at once; starts it when it is done. The retries of its respawn
+  // policy are counted anew. Ignored after shutdown().
+  void restart(ProcessId id);
 
   // Sends SIGKILL to everything that is alive, now. Respawns go on unless shutdown() was called before.
   void kill_all();

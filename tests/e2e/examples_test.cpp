@@ -61,7 +61,12 @@ INSTANTIATE_TEST_SUITE_P(
                                 {},
                                 {"Loaded node '/talker' in container '/container'",
                                  "Loaded node '/ear/listener' in container '/container'",
-                                 "[ear.listener]: I heard: [Hello World: 1]", "trace is complete"}}),
+                                 "[ear.listener]: I heard: [Hello World: 1]", "trace is complete"}},
+                        Example{"09_events",
+                                {},
+                                {"[calibrate-1] calibrated", "[server-2] listening", "[client-3] asking",
+                                 "client-3 is done, the server may go", "sending signal 'SIGINT' to process[server-2]",
+                                 "[park-4] parked"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -1,0 +1,107 @@
+#include "actions/depends_on.hpp"
+
+#include <fmt/format.h>
+
+namespace launch {
+
+namespace {
+
+// The value of a literal attribute, which must be one of `names`, by its number there.
+std::size_t choice(const Fields& fields, const std::string& attribute, const std::vector<std::string>& names) {
+  const std::string given = fields.literal(attribute, names.front());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (given == names[i]) {
+      return i;
+    }
+  }
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  }
+  throw LaunchError(fmt::format("{} can be {}, got '{}'", attribute, list, given), fields.where(attribute),
+                    did_you_mean(given, names));
+}
+
+void require_state(const Fields& fields, const std::string& attribute, const std::string& state, bool is_state) {
+  if (fields.has(attribute) && !is_state) {
+    throw LaunchError(fmt::format("{} goes with condition=\"{}\" only", attribute, state), fields.where(attribute));
+  }
+}
+
+}  // namespace
+
+ItemSpec DependsOn::item() {
+  return {.tag = "depends_on",
+          .help = "the process starts once this holds; several: once all hold",
+          .attributes =
+              {{"process", AttributeType::kText, true, "", "name of another process or of its node", true},
+               {"condition", AttributeType::kLiteral, false, "started", "started, exited or output", true},
+               {"exit_code", AttributeType::kText, false, "0",
+                "with exited: any, nonzero, or codes and signals separated by commas", true},
+               {"pattern", AttributeType::kText, false, "any line",
+                "with output: regular expression to be found in a line", true},
+               {"stream", AttributeType::kText, false, "both", "with output: stdout, stderr or both", true},
+               {"timeout", AttributeType::kFloat, false, "none", "seconds after which the condition has failed", true},
+               {"on_failure", AttributeType::kLiteral, false, "shutdown",
+                "when it can't hold any more: shutdown of the system, start all the same, or skip the process", true}},
+          .has_condition = true,
+          .extension = true};
+}
+
+DependsOn::DependsOn(const Fields& fields)
+    : where_(fields.where()),
+      condition_(fields.condition()),
+      process_(fields.text("process")),
+      state_(static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}))),
+      exit_code_(fields.optional_text("exit_code")),
+      pattern_(fields.optional_text("pattern")),
+      stream_(fields.optional_text("stream")),
+      timeout_(fields.number("timeout")),
+      on_failure_(static_cast<OnFailure>(choice(fields, "on_failure", {"shutdown", "start", "skip"}))) {
+  require_state(fields, "exit_code", "exited", state_ == State::kExited);
+  require_state(fields, "pattern", "output", state_ == State::kOutput);
+  require_state(fields, "stream", "output", state_ == State::kOutput);
+  if (timeout_) {
+    timeout_->require_not_negative();
+  }
+}
+
+void DependsOn::request(LaunchContext& context, std::size_t process) const {
+  Scope& scope = context.scope();
+  if (!condition_.holds(scope)) {
+    return;
+  }
+  Dependency dependency;
+  dependency.process = process;
+  dependency.condition = process_condition(scope);
+  if (timeout_) {
+    dependency.timeout = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeout_->perform(scope)));
+  }
+  dependency.on_failure = on_failure_;
+  dependency.where = where_;
+  context.requests().dependencies.push_back(std::move(dependency));
+}
+
+ProcessCondition DependsOn::process_condition(Scope& scope) const {
+  const auto text = [&](const std::optional<Template>& given, const char* otherwise) {
+    return given ? given->perform(scope) : std::string(otherwise);
+  };
+  const auto place = [&](const std::optional<Template>& given) { return given ? given->where() : where_; };
+  ProcessCondition condition;
+  condition.process = process_.perform(scope);
+  switch (state_) {
+    case State::kStarted:
+      condition.state = UntilStarted{};
+      break;
+    case State::kExited:
+      condition.state = UntilExited{ExitCodeFilter(text(exit_code_, "0"), place(exit_code_))};
+      break;
+    case State::kOutput:
+      condition.state =
+          UntilOutput{OutputPattern(text(pattern_, ""), place(pattern_), text(stream_, "both"), place(stream_))};
+      break;
+  }
+  return condition;
+}
+
+}  // namespace launch

@@ -1,0 +1,39 @@
+// <depends_on …/> of a process: what it waits for before it starts.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+
+namespace launch {
+
+class DependsOn {
+ public:
+  // Declaration for the ActionType of a process.
+  static ItemSpec item();
+
+  // Throws LaunchError when attributes don't go together.
+  explicit DependsOn(const Fields& fields);
+
+  // Evaluates it, for the process with this number among the requests, if its condition holds.
+  void request(LaunchContext& context, std::size_t process) const;
+
+ private:
+  enum class State { kStarted, kExited, kOutput };
+
+  ProcessCondition process_condition(Scope& scope) const;
+
+  SourceRange where_;
+  Condition condition_;
+  Template process_;
+  State state_ = State::kStarted;
+  std::optional<Template> exit_code_;
+  std::optional<Template> pattern_;
+  std::optional<Template> stream_;
+  std::optional<NumberField> timeout_;
+  OnFailure on_failure_ = OnFailure::kShutdown;
+};
+
+}  // namespace launch

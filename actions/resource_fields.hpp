@@ -1,0 +1,40 @@
+// Scheduling and limits of a process, as <executable> and <node> tell them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "launcher/core/fields.hpp"
+#include "launcher/process/resource_limits.hpp"
+
+namespace launch {
+
+class ResourceFields {
+ public:
+  // Declarations for an ActionType.
+  static std::vector<AttributeSpec> attributes();
+
+  // Throws LaunchError for what is literal and wrong.
+  explicit ResourceFields(const Fields& fields);
+
+  // Throws LaunchError at the attribute that is wrong.
+  ResourceLimits perform(Scope& scope) const;
+
+ private:
+  // A number within bounds.
+  struct Bounded {
+    std::optional<NumberField> number;
+    SourceRange where;
+  };
+
+  void set_policy(Scope& scope, ResourceLimits& limits) const;
+
+  Bounded nice_;
+  std::optional<Template> policy_;
+  Bounded priority_;
+  std::optional<Template> cpus_;
+  std::optional<Template> memory_;
+  Bounded open_files_;
+};
+
+}  // namespace launch

@@ -1,0 +1,41 @@
+// An event of a launch file: what it waits for and what is visited then.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/core/action.hpp"
+#include "launcher/core/exit_code_filter.hpp"
+#include "launcher/core/output_pattern.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/substitution/scope.hpp"
+
+namespace launch {
+
+struct OnProcessStart {};
+struct OnProcessExit {
+  ExitCodeFilter exit_code;
+};
+struct OnProcessIo {
+  OutputPattern pattern;
+};
+// Processes that it starts run before the others are asked to end.
+struct OnShutdown {
+  Duration timeout{0};  // at most so long
+};
+
+struct EventHandler {
+  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown> event;
+  std::string process;  // a name (process_table.hpp); empty: every process
+  bool once = false;
+  std::vector<ActionPtr> actions;
+  Scope scope;  // as it was where the handler stands
+  SourceRange where;
+};
+
+// "on_process_exit of 'talker' with exit code 0", for --dry-run and messages.
+std::string describe(const EventHandler& handler);
+
+}  // namespace launch

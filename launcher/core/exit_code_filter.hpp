@@ -1,0 +1,38 @@
+// Which exit codes a launch file means: "0", "nonzero", "1, 2, SIGSEGV".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+
+namespace launch {
+
+class ExitCodeFilter {
+ public:
+  ExitCodeFilter() = default;  // any
+  // `text` is "any", "nonzero", or codes separated by commas: numbers, -N or SIGNAME for an end by signal. Throws
+  // LaunchError at `where`.
+  ExitCodeFilter(const std::string& text, const SourceRange& where);
+
+  // `code` as in ProcessExit: -N for an end by signal N.
+  bool matches(int code) const;
+  // As it was written; "any" when nothing was.
+  const std::string& text() const { return text_; }
+  // A code that it accepts.
+  int example() const;
+
+ private:
+  enum class Kind { kAny, kNonzero, kListed };
+
+  Kind kind_ = Kind::kAny;
+  std::vector<int> codes_;
+  std::string text_ = "any";
+};
+
+// The number of a signal by its name, with or without "SIG", or by its number; 0 when there is none. The names that are
+// known, for suggestions, come from signal_names().
+int signal_number(const std::string& name);
+std::vector<std::string> signal_names();
+
+}  // namespace launch

@@ -1,0 +1,42 @@
+// Which lines of a process a launch file means.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <regex>
+#include <string>
+#include <string_view>
+
+#include "launcher/base/source.hpp"
+#include "launcher/process/output_router.hpp"
+
+namespace launch {
+
+class OutputPattern {
+ public:
+  // Only so much of a line is looked at: the time and the memory of a search grow with it.
+  static constexpr std::size_t kSearchedLength = 4096;
+
+  OutputPattern() = default;  // every line
+  // `expression` is an ECMAScript regular expression that is searched for in each line; empty: every line. `stream` is
+  // "stdout", "stderr" or "both". Throws LaunchError at the places of the two.
+  OutputPattern(const std::string& expression, const SourceRange& expression_where, const std::string& stream,
+                const SourceRange& stream_where);
+
+  // `line` without its end.
+  bool matches(OutputStream stream, std::string_view line) const;
+
+  const std::string& expression() const { return text_; }
+  // "stdout", "stderr" or "both".
+  std::string_view stream() const;
+  // "a line that matches 'ready' on stdout", "any line".
+  std::string describe() const;
+
+ private:
+  std::string text_;
+  std::shared_ptr<const std::regex> expression_;  // null: every line
+  bool out_ = true;
+  bool err_ = true;
+};
+
+}  // namespace launch

@@ -1,0 +1,25 @@
+// What launch-exec and the launcher say to each other.
+//
+//   launch-exec STEP… - PROGRAM ARGV0 ARG…
+//
+// Each STEP is a letter and its value. What fails is written to descriptor kLaunchExecError as one LaunchExecFailure;
+// the descriptor is closed without a word when PROGRAM begins.
+#pragma once
+
+namespace launch {
+
+inline constexpr int kLaunchExecError = 3;
+
+inline constexpr char kStepNice = 'n';       // niceness
+inline constexpr char kStepPolicy = 'p';     // POLICY,PRIORITY as numbers
+inline constexpr char kStepCpus = 'c';       // numbers with commas
+inline constexpr char kStepMemory = 'm';     // bytes
+inline constexpr char kStepOpenFiles = 'f';  // descriptors
+inline constexpr char kStepExec = '-';       // the end of the steps, and the start of PROGRAM
+
+struct LaunchExecFailure {
+  char step;
+  int error;  // errno
+};
+
+}  // namespace launch

@@ -1,0 +1,19 @@
+// How long to wait between an exit and the next start: always the same time, or longer after each run that was short.
+#pragma once
+
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+class RespawnDelay {
+ public:
+  // The delay before the next start, after a run of this length (0 for a start that failed).
+  Duration next(const RespawnPolicy& policy, Duration ran_for);
+  // The series begins anew.
+  void reset() { next_ = Duration{0}; }
+
+ private:
+  Duration next_{0};  // 0: that of the policy
+};
+
+}  // namespace launch

@@ -1,0 +1,161 @@
+// Scheduling, limits, environment and output of a process, and namespaces of groups and includes.
+#include <gmock/gmock.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/unit/actions/launch_text.hpp"
+
+namespace {
+
+using launch::OutputTargets;
+using launch::ProcessSpec;
+using test_support::plan_actions;
+using test_support::plan_text;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Pair;
+
+ProcessSpec only_process(const std::string& text) {
+  test_support::Planned planned = text.starts_with("launch:") ? plan_text(text) : plan_actions(text);
+  EXPECT_EQ(planned.error, "");
+  EXPECT_EQ(planned.plan.processes.size(), 1U);
+  return planned.plan.processes.empty() ? ProcessSpec() : planned.plan.processes.front();
+}
+
+std::string error_of(const std::string& attributes) {
+  const std::string error = plan_actions("<executable cmd=\"a\" " + attributes + "/>").error;
+  const std::size_t begin = error.find("error: ");
+  const std::size_t end = error.find('\n', begin);
+  const std::size_t help = error.find("= help: ", begin);
+  return begin == std::string::npos ? error
+                                    : error.substr(begin + 7, end - begin - 7) +
+                                          (help == std::string::npos ? "" : "; " + error.substr(help + 8));
+}
+
+TEST(ResourceFields, AreTakenFromBothFormats) {
+  const char* const xml = R"xml(<let name="cores" value="0,2-3"/>
+    <executable cmd="a" nice="-5" sched_policy="fifo" sched_priority="80" cpus="$(var cores)" memory_limit="512M"
+                open_files_limit="64"/>)xml";
+  const char* const yaml = R"(launch:
+- executable:
+    cmd: a
+    nice: -5
+    sched_policy: fifo
+    sched_priority: 80
+    cpus: "3,2,0"
+    memory_limit: 512M
+    open_files_limit: 64
+)";
+  for (const char* const text : {xml, yaml}) {
+    const launch::ResourceLimits limits = only_process(text).limits;
+    EXPECT_EQ(limits.niceness, -5);
+    EXPECT_EQ(limits.policy, SCHED_FIFO);
+    EXPECT_EQ(limits.priority, 80);
+    EXPECT_THAT(limits.cpus, ElementsAre(0, 2, 3));
+    EXPECT_EQ(limits.memory, 512U * 1024 * 1024);
+    EXPECT_EQ(limits.open_files, 64U);
+    EXPECT_THAT(describe(limits),
+                ElementsAre("nice -5", "policy fifo 80", "cpus 0,2-3", "memory 536870912 bytes", "64 open files"));
+  }
+}
+
+TEST(ResourceFields, AreNothingByDefault) {
+  EXPECT_FALSE(only_process(R"xml(<executable cmd="a"/>)xml").limits.any());
+}
+
+TEST(ResourceFields, SayWhatIsWrong) {
+  EXPECT_EQ(error_of("nice=\"20\""), "nice is a number from -20 to 19, got 20");
+  EXPECT_EQ(error_of("sched_policy=\"fif\" sched_priority=\"1\""),
+            "'fif' is no scheduling policy, expected other, batch, idle, fifo or rr; did you mean 'fifo'?");
+  EXPECT_EQ(error_of("sched_policy=\"rr\""), "the policy rr needs a priority; add sched_priority, from 1 to 99");
+  EXPECT_EQ(error_of("sched_policy=\"rr\" sched_priority=\"0\""), "sched_priority is a number from 1 to 99, got 0");
+  EXPECT_EQ(error_of("sched_priority=\"7\""),
+            "sched_priority goes with the policies fifo and rr only; add sched_policy=\"fifo\", or use nice");
+  EXPECT_EQ(error_of("cpus=\"2-1\""), "'2-1' is no list of CPUs; write numbers and ranges, such as 0,2-3");
+  EXPECT_EQ(error_of("cpus=\"\""), "'' is no list of CPUs; write numbers and ranges, such as 0,2-3");
+  EXPECT_EQ(error_of("cpus=\"0,1024\""), "'0,1024' is no list of CPUs; write numbers and ranges, such as 0,2-3");
+  for (const char* const amount : {"much", "0", "-1", "1T", "99999999999999999999", "18446744073709551615G"}) {
+    EXPECT_EQ(error_of(std::string("memory_limit=\"") + amount + "\""),
+              std::string("'") + amount + "' is no amount of memory; write bytes, or a number with K, M or G");
+  }
+  EXPECT_EQ(error_of("open_files_limit=\"2\""), "open_files_limit is at least 3, got 2");
+}
+
+TEST(CleanEnvironment, HoldsOnlyWhatIsSaid) {
+  const ProcessSpec spec = only_process(R"xml(<set_env name="A" value="1"/>
+    <executable cmd="a" clean_env="true"><env name="B" value="$(env A)"/></executable>)xml");
+  EXPECT_THAT(spec.environment, ElementsAre(Pair("B", "1")));
+}
+
+TEST(OutputTargets, MayBeSetForEachStream) {
+  const ProcessSpec both = only_process(R"xml(<executable cmd="a" stdout="none" stderr="screen,own_log"/>)xml");
+  EXPECT_EQ(both.output.out, OutputTargets());
+  EXPECT_EQ(both.output.err, (OutputTargets{.screen = true, .own_log = true}));
+  const ProcessSpec one = only_process(R"xml(<executable cmd="a" output="screen" stderr="log"/>)xml");
+  EXPECT_EQ(one.output.out, OutputTargets{.screen = true});
+  EXPECT_EQ(one.output.err, OutputTargets{.log = true});
+}
+
+TEST(OutputTargets, SayWhatIsWrong) {
+  EXPECT_EQ(error_of("stdout=\"scren\""),
+            "'scren' is no place for output, expected screen, log, own_log or none; did you mean 'screen'?");
+  EXPECT_EQ(error_of("stderr=\"screen log\""),
+            "'screen log' is no place for output, expected screen, log, own_log or none; write several with commas: "
+            "screen,log");
+}
+
+TEST(OutputTargets, AreOverriddenByTheEnvironment) {
+  test_support::PlanOptions options;
+  options.environment["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "screen";
+  const auto planned = plan_actions(R"xml(<executable cmd="a" stdout="none"/>)xml", options);
+  ASSERT_EQ(planned.plan.processes.size(), 1U);
+  EXPECT_EQ(planned.plan.processes.front().output, *launch::OutputRouting::from_mode("screen"));
+}
+
+std::vector<std::string> namespaces(const test_support::Planned& planned) {
+  EXPECT_EQ(planned.error, "");
+  std::vector<std::string> result;
+  for (const launch::NodeDescription& node : planned.plan.nodes) {
+    result.push_back(node.name_space.value_or("none"));
+  }
+  return result;
+}
+
+TEST(GroupNamespace, IsBelowTheOuterOneAndEndsWithTheGroup) {
+  EXPECT_THAT(namespaces(plan_actions(R"xml(
+    <group ns="robot">
+      <node exec="a"/>
+      <group ns="left"><node exec="b"/></group>
+      <group ns="/world"><node exec="c"/></group>
+      <node exec="d" namespace="arm"/>
+    </group>
+    <node exec="e"/>)xml")),
+              ElementsAre("/robot", "/robot/left", "/world", "/robot/arm", "none"));
+  EXPECT_THAT(namespaces(plan_text("launch:\n- group:\n    ns: robot\n    children:\n    - node: {exec: a}\n")),
+              ElementsAre("/robot"));
+}
+
+TEST(IncludeNamespace, EndsWithTheFileUnlikeWhatElseItSets) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("include_ns_" + std::to_string(::getpid()) + ".launch.xml");
+  std::ofstream(file) << R"xml(<launch><push_ros_namespace namespace="inner"/><let name="x" value="y"/>
+    <node exec="a"/></launch>)xml";
+  const auto planned = plan_actions("<include ns=\"robot\" file=\"" + file.string() +
+                                    "\"/><node exec=\"b\"/><log message=\"$(var x)\"/>");
+  std::filesystem::remove(file);
+  EXPECT_THAT(namespaces(planned), ElementsAre("/robot/inner", "none"));
+  EXPECT_THAT(planned.messages, ElementsAre("[launch.user] y"));
+}
+
+TEST(GroupNamespace, NeedsAScope) {
+  EXPECT_EQ(plan_actions(R"xml(<group ns="a" scoped="false"/>)xml").error,
+            "/test/system.launch.xml:2:12: error: ns needs a scoped group: it ends with the group\n"
+            "    2 | <group ns=\"a\" scoped=\"false\"/>\n"
+            "      |            ^\n"
+            "      = help: use push_ros_namespace for a namespace that stays");
+}
+
+}  // namespace
