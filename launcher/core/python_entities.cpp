@@ -103,7 +103,7 @@ std::vector<ActionPtr> PythonFile::make_actions(const std::vector<python::Entity
 Entity PythonFile::make_entity(const python::Entity& entity) {
   Entity made;
   made.type_name = entity.tag;
-  made.where = call_range(entity.where);
+  made.where = range(entity.where);
   for (const auto& [name, value] : entity.attributes) {
     Attribute attribute{name, {}, make_value(value, made.where)};
     attribute.name_where = attribute.value.where;
@@ -128,7 +128,7 @@ Entity PythonFile::make_entity(const python::Entity& entity) {
 
 Value PythonFile::make_value(const python::Value& value, const SourceRange& fallback) {
   Value made;
-  made.where = value.where.line != 0 ? call_range(value.where) : fallback;
+  made.where = value.where.line != 0 ? range(value.where) : fallback;
   if (const auto* const list = std::get_if<std::vector<python::Value>>(&value.data)) {
     std::vector<Value> items;
     for (const python::Value& item : *list) {
@@ -162,7 +162,7 @@ Value PythonFile::make_value(const python::Value& value, const SourceRange& fall
 }
 
 Template PythonFile::make_template(const python::Text& text, const SourceRange& fallback) {
-  SourceRange where = text.where.line != 0 ? call_range(text.where) : fallback;
+  SourceRange where = text.where.line != 0 ? range(text.where) : fallback;
   std::vector<SubstitutionPtr> parts;
   for (const python::Part& part : text.parts) {
     parts.push_back(make_part(part, where));
@@ -171,7 +171,7 @@ Template PythonFile::make_template(const python::Text& text, const SourceRange& 
 }
 
 SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRange& fallback) {
-  SourceRange where = part.where.line != 0 ? call_range(part.where) : fallback;
+  SourceRange where = part.where.line != 0 ? range(part.where) : fallback;
   if (part.kind == python::Part::Kind::kText) {
     return std::make_shared<Text>(part.text, std::move(where));
   }
@@ -218,15 +218,6 @@ SourceRange PythonFile::range(const python::Place& place) {
     end = line.size();
   }
   return {std::move(file), static_cast<std::uint32_t>(start + begin), static_cast<std::uint32_t>(start + end)};
-}
-
-SourceRange PythonFile::call_range(const python::Place& place) {
-  SourceRange where = range(place);
-  const std::string_view called = std::string_view(where.file->text()).substr(where.begin, where.end - where.begin);
-  if (const std::size_t arguments = called.find('('); arguments != std::string_view::npos && arguments > 0) {
-    where.end = where.begin + static_cast<std::uint32_t>(arguments);
-  }
-  return where;
 }
 
 void PythonFile::fail(const python::Error& error) {

@@ -35,8 +35,6 @@ class PythonFile : public std::enable_shared_from_this<PythonFile> {
   [[noreturn]] void fail(const python::Error& error);
 
  private:
-  // The name of what is called at the place, without its arguments.
-  SourceRange call_range(const python::Place& place);
   Entity make_entity(const python::Entity& entity);
   Value make_value(const python::Value& value, const SourceRange& fallback);
   SubstitutionPtr make_part(const python::Part& part, const SourceRange& fallback);

@@ -27,6 +27,9 @@ class ProcessRunner {
   virtual ProcessExit reap(const Process& process) = 0;
 };
 
+// ../lib/launch/launch-exec, seen from the directory of this program.
+std::string default_exec_program();
+
 // posix_spawn(3) and pidfds. Prepares the launcher itself: SIGCHLD gets its default disposition (else children would be
 // reaped by the kernel), closed standard descriptors become /dev/null, and the soft limit of open descriptors is raised
 // to the hard one. Children get the old limit, right after their start: a program that reads it in its first
@@ -36,8 +39,5 @@ class ProcessRunner {
 // A process with limits is started by way of `exec_program`, launch-exec, which applies them to itself and then becomes
 // the program; spawn() returns when it has, and throws when a limit is refused.
 std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program = default_exec_program());
-
-// ../lib/launch/launch-exec, seen from the directory of this program.
-std::string default_exec_program();
 
 }  // namespace launch

@@ -84,7 +84,7 @@ Entity read_entity(const py::tuple& tuple) {
   for (const py::handle item : tuple[2]) {
     const auto attribute = item.cast<py::tuple>();
     Value value = read_value(attribute[1]);
-    if (attribute.size() > 2) {
+    if (attribute.size() > 2 && !attribute[2].is_none()) {
       value.where = read_place(attribute[2]);
     }
     entity.attributes.emplace_back(attribute[0].cast<std::string>(), std::move(value));

@@ -190,7 +190,7 @@ def generate_launch_description():
 
 TEST(PythonLaunchFile, MessagesOfItsLoggersAreTheLaunchers) {
   const PythonPlan planned = plan_items(R"py(
-        OpaqueFunction(function=lambda context: logging.get_logger('mine').warning('look')),)py");
+        OpaqueFunction(function=lambda context: launch.logging.get_logger('mine').warning('look')),)py");
   EXPECT_EQ(planned.error, "");
   EXPECT_THAT(planned.messages, ElementsAre("[mine] look"));
 }
@@ -198,7 +198,7 @@ TEST(PythonLaunchFile, MessagesOfItsLoggersAreTheLaunchers) {
 TEST(PythonLaunchFile, PlacesOfItsActionsAreInIt) {
   const PythonPlan planned = plan_items("        ExecuteProcess(\n            cmd=['true']),");
   ASSERT_EQ(planned.error, "");
-  EXPECT_EQ(launch::to_string(planned.plan.processes.at(0).origin), "/test/system.launch.py:13:9");
+  EXPECT_EQ(launch::to_string(planned.plan.processes.at(0).origin), "/test/system.launch.py:14:9");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ PythonPlan plan_python(const std::string& text, const PythonOptions& options) {
 
 PythonPlan plan_items(const std::string& items, const PythonOptions& options) {
   return plan_python(
-      "from launch import *\nfrom launch.actions import *\nfrom launch.conditions import *\n"
+      "import launch\nfrom launch import *\nfrom launch.actions import *\nfrom launch.conditions import *\n"
       "from launch.substitutions import *\nfrom launch_ros.actions import *\nfrom launch_ros.descriptions import *\n"
       "from launch_ros.substitutions import FindPackageShare\nimport os\n\n\n"
       "def generate_launch_description():\n    return LaunchDescription([\n" +

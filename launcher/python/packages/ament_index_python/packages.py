@@ -1,7 +1,6 @@
 """Packages, as $(find-pkg-prefix …) and $(find-pkg-share …) find them."""
 
 import os
-import pathlib
 
 from ament_index_python.resources import get_resources
 
@@ -35,6 +34,7 @@ def get_package_share_directory(package_name, print_warning=True):
 
 
 def get_package_share_path(package_name, print_warning=True):
+    import pathlib
     return pathlib.Path(get_package_share_directory(package_name))
 
 

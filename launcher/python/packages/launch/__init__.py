@@ -1,5 +1,7 @@
 """Launch files in Python: the names of ROS 2's package `launch`, on the launcher that runs this file."""
 
+import sys
+
 from launch import _names
 from launch.action import Action
 from launch.condition import Condition
@@ -16,8 +18,15 @@ from launch.some_types import (
 from launch.substitution import Substitution
 
 from launch import (  # noqa: I100  after the classes that they use
-    actions, conditions, descriptions, event_handlers, events, frontend, launch_description_sources, logging,
-    substitutions, utilities)
+    actions, conditions, descriptions, event_handlers, events, frontend, launch_description_sources, substitutions,
+    utilities)
 
 _names.same_module('launch.some_types', 'launch.some_actions_type', 'launch.some_entities_type',
                    'launch.some_substitutions_type')
+
+
+def __getattr__(name):
+    if name == 'logging':  # it takes as long to load as all the rest
+        import importlib
+        return importlib.import_module('launch.logging')
+    raise AttributeError(f"module 'launch' has no attribute '{name}'", name=name, obj=sys.modules[__name__])

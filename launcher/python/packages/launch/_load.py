@@ -3,10 +3,11 @@
 import sys
 import types
 
+import _launch_engine
 from launch import LaunchDescription
 from launch._entities import entities
-from launch._places import of_function
 from launch._environment import replace_os_environ
+from launch._places import note_source, of_function
 from launch._values import LaunchFileError, name_of
 
 
@@ -24,6 +25,7 @@ def load(path, source):
     """The entities that generate_launch_description() of the file returns."""
     replace_os_environ()
     sys.argv = _program_arguments()
+    note_source(path, source)
     code = compile(source, path, 'exec', dont_inherit=True)
     module = types.ModuleType('python_launch_file')
     module.__file__ = path
@@ -37,4 +39,6 @@ def load(path, source):
         raise LaunchFileError(
             f'generate_launch_description() must return a LaunchDescription, got {name_of(description)}',
             'write return LaunchDescription([…])', of_function(generate))
+    if description.deprecated:
+        _launch_engine.message('warning', 'launch', f'launch file [{path}] is deprecated: {description.deprecated_reason}')
     return entities(description)

@@ -7,6 +7,13 @@ from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 
+# The arguments of Python that have another name than the attributes of XML.
+_ARGUMENTS = {'args': 'arguments', 'clean_env': 'env', 'default': 'default_value', 'exec': 'executable',
+              'file': 'launch_description_source', 'from': 'src', 'launch-prefix': 'prefix', 'message': 'msg',
+              'pkg': 'package', 'ros_args': 'ros_arguments', 'stderr': 'output', 'stdout': 'output',
+              'target': 'target_container', 'to': 'dst'}
+
+
 class Action(LaunchDescriptionEntity):
     """
     To be derived from by launch files: execute() returns the actions to visit in its place.
@@ -32,6 +39,12 @@ class Action(LaunchDescriptionEntity):
 
     def execute(self, context):
         return [_Plain(self)]
+
+    def _with_places(self, attributes):
+        """Attributes with the places of the arguments that they come from."""
+        return [attribute if len(attribute) > 2 or attribute[1] is None else
+                (*attribute, self._place_of(_ARGUMENTS.get(attribute[0]) or attribute[0].replace('-', '_')))
+                for attribute in attributes]
 
     # Pairs for `if` and `unless`.
     def _when(self):

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from launch._entities import entity
 from launch._values import LaunchFileError, boolean, number, text, words
 from launch.action import Action
+from tracetools_trace.tools import names
 
 
 class Trace(Action):
@@ -16,10 +17,12 @@ class Trace(Action):
         # What is left in kwargs are further attributes of <trace>, with underscores.
         super().__init__(**options)
         if isinstance(context_fields, Mapping):
-            ust, kernel = context_fields.get('ust'), context_fields.get('kernel')
-            if ust is not None and kernel is not None and list(ust) != list(kernel):
+            userspace, kernel = (context_fields.get(domain) for domain in (names.DOMAIN_TYPE_USERSPACE,
+                                                                           names.DOMAIN_TYPE_KERNEL))
+            if userspace is not None and kernel is not None and list(userspace) != list(kernel) and (
+                    events_kernel or syscalls):
                 raise LaunchFileError('context fields that differ between userspace and kernel are not supported')
-            context_fields = ust if ust is not None else kernel
+            context_fields = userspace if userspace is not None else kernel
 
         def given(values, what):
             return None if values is None else words([values] if isinstance(values, str) else values, what)
@@ -52,4 +55,4 @@ class Trace(Action):
             self._attributes.append((name.replace('_', '-'), value))
 
     def _tags(self):
-        return [entity('trace', self._place(), [*self._attributes, *self._when()])]
+        return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]))]

@@ -32,8 +32,8 @@ class DeclareLaunchArgument(Action):
         choices = [entity('choice', self._place(), [('value', literal(choice, 'a choice'))])
                    for choice in self.choices or []]
         return [entity(self._tag, self._place(),
-                       [('name', self._name), ('default', self._default), ('description', self._description),
-                        *self._when()], choices)]
+                       self._with_places([('name', self._name), ('default', self._default),
+                                          ('description', self._description), *self._when()]), choices)]
 
 
 class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
@@ -57,7 +57,7 @@ class _Simple(Action):
     def _tags(self):
         tag, attributes, children = self._content
         place = self._place()
-        return [entity(tag, place, [*attributes, *self._when()],
+        return [entity(tag, place, self._with_places([*attributes, *self._when()]),
                        [entity(item, place, item_attributes) for item, item_attributes in children])]
 
 
@@ -133,7 +133,8 @@ class TimerAction(Action):
     def _tags(self):
         from launch._entities import entities
         return [entity(self._tag, self._place(),
-                       [('period', self._period), ('cancel_on_shutdown', self._cancel), *self._when()],
+                       self._with_places([('period', self._period), ('cancel_on_shutdown', self._cancel),
+                                          *self._when()]),
                        entities(self._actions, self._place()))]
 
 

@@ -25,7 +25,8 @@ class GroupAction(Action):
         keep = [entity('keep', self._place(), [('name', name), ('value', value)]) for name, value in self._keep]
         attributes = [] if self._scoped == 'true' else [('scoped', self._scoped)]
         attributes += [] if self._forwarding == 'true' else [('forwarding', self._forwarding)]
-        return [entity('group', self._place(), [*attributes, *self._when()], keep + entities(self._actions, self._place()))]
+        return [entity('group', self._place(), [*attributes, *self._when()],
+                       keep + entities(self._actions, self._place()))]
 
 
 class IncludeLaunchDescription(Action):
@@ -52,7 +53,7 @@ class IncludeLaunchDescription(Action):
             return [entity('group', place, [('scoped', 'false'), *self._when()],
                            arguments + entities(self._source._description))]
         arguments = [entity('arg', place, [('name', name), ('value', value)]) for name, value in self._arguments]
-        return [entity('include', place, [('file', self._source._path), *self._when()], arguments)]
+        return [entity('include', place, self._with_places([('file', self._source._path), *self._when()]), arguments)]
 
 
 class OpaqueFunction(Action):
@@ -119,7 +120,7 @@ class _Log(Action):
         return normalize_to_list_of_substitutions(self._msg)
 
     def _tags(self):
-        attributes = [('message', self._msg), *self._when()]
+        attributes = self._with_places([('message', self._msg), *self._when()])
         if self._level is not None:
             return [entity(f'log_{self._level}', self._place(), attributes)]
         level = self._given_level if self._given_level is not None else 'info'

@@ -34,11 +34,15 @@ class _Process(Action):
     _ARGUMENTS = ('name', 'cwd', 'env', 'additional_env', 'prefix', 'shell', 'sigterm_timeout', 'sigkill_timeout',
                   'emulate_tty', 'output', 'output_format', 'log_cmd', 'cached_output', 'on_exit', 'respawn',
                   'respawn_delay', 'respawn_max_retries', 'condition')
+    # What this launcher has besides, named as in XML.
+    _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
+                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit')
 
     def _take(self, options, known=(), former=None):
         """Keeps the options of the process; `known` are the arguments that the caller has taken."""
-        unknown = [name for name in options if name not in self._ARGUMENTS]
-        reject(type(self), unknown, [*self._ARGUMENTS, *known], former)
+        options_known = self._ARGUMENTS + self._EXTENSIONS
+        unknown = [name for name in options if name not in options_known]
+        reject(type(self), unknown, [*options_known, *known], former)
         Action.__init__(self, condition=options.get('condition'))
         if options.get('output_format', _OUTPUT_FORMAT) != _OUTPUT_FORMAT:
             raise LaunchFileError('output_format is not supported: lines begin with the name of the process')
@@ -59,16 +63,32 @@ class _Process(Action):
                       ('emulate_tty', given('emulate_tty', boolean)),
                       ('sigterm_timeout', given('sigterm_timeout', number)),
                       ('sigkill_timeout', given('sigkill_timeout', number))]
+        for name in self._EXTENSIONS:
+            value = options.get(name)
+            if value is not None:
+                convert = boolean if isinstance(value, bool) else number
+                attributes.append((name, convert(value, name)))
+        if options.get('env') is not None:
+            attributes.append(('clean_env', 'true'))
         return attributes + self._output() + self._on_exit() + self._when()
 
     def _output(self):
         output = self._options.get('output')
         if output is None:
             return []
-        if isinstance(output, dict):
-            raise LaunchFileError('output as a mapping of streams is not supported',
-                                  "write output='screen', 'log', 'both', 'own_log' or 'full'")
-        return [('output', text(output, 'output'))]
+        if not isinstance(output, dict):
+            return [('output', text(output, 'output'))]
+        unknown = set(output) - {'stdout', 'stderr', 'both'}
+        if unknown:
+            raise LaunchFileError(f'output has no stream {sorted(unknown)[0]!r}', "it has 'stdout', 'stderr' and 'both'")
+
+        def targets(stream):
+            found = []
+            for given in (output.get('both', ()), output.get(stream, ())):
+                found += [given] if isinstance(given, str) else given
+            return ','.join(dict.fromkeys(found)) or 'none'
+
+        return [(stream, targets(stream)) for stream in ('stdout', 'stderr')]
 
     def _on_exit(self):
         return [('on_exit', 'shutdown')] if self._ends_launch() else []
@@ -90,16 +110,14 @@ class _Process(Action):
             handler._made_at = self._made_at
             handlers = handler._tags(self._place(), [])
         self._was_read = True
-        return [*handlers, entity(tag, self._place(), [*attributes, *self._process_attributes()],
+        return [*handlers, entity(tag, self._place(), self._with_places([*attributes, *self._process_attributes()]),
                                   [*self._environment_items(), *items], process_name=self._spoken_of or '')]
 
     def _environment_items(self):
         place = self._place()
-        if self._options.get('env') is not None:
-            raise LaunchFileError('env, an environment that replaces that of the launcher, is not supported',
-                                  'additional_env adds variables')
         return [entity('env', place, [('name', name), ('value', value)])
-                for name, value in pairs((self._options.get('additional_env') or {}).items(), 'additional_env')]
+                for given in ('env', 'additional_env')
+                for name, value in pairs((self._options.get(given) or {}).items(), given)]
 
 
 class ExecuteLocal(_Process):

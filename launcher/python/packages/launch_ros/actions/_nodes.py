@@ -35,11 +35,11 @@ class Node(_Process):
                             ('args', words(arguments, 'arguments') if arguments else None),
                             ('ros_args', words(ros_arguments, 'ros_arguments') if ros_arguments else None)]
         # Read now: a launch file may change its mappings later.
-        self._parameters = parameter_items(parameters, self._place())
+        self._parameters = parameter_items(parameters, self._place_of('parameters') or self._place())
         self._remappings = pairs(remappings or [], 'remappings')
 
     def _tags(self):
-        place = self._place()
+        place = self._place_of('remappings') or self._place()
         remaps = [entity('remap', place, [('from', from_), ('to', to)]) for from_, to in self._remappings]
         return self._with_handlers(self._tag, self._attributes, [*self._parameters, *remaps, *self._more_items()])
 
@@ -107,7 +107,8 @@ class LoadComposableNodes(Action):
     def _tags(self):
         if not self._descriptions:
             return []
-        return [entity('load_composable_node', self._place(), [('target', self._target), *self._when()],
+        return [entity('load_composable_node', self._place(),
+                       self._with_places([('target', self._target), *self._when()]),
                        [description._item() for description in self._descriptions])]
 
 
