@@ -82,6 +82,7 @@ from launch.substitutions import LocalSubstitution
 
 
 def generate_launch_description():
+    ended = []
     # Two of the same name: only the process of the action is meant.
     worker = ExecuteProcess(cmd=['sh', '-c', 'echo ready; echo trouble >&2; exec sleep 1000'], name='worker')
     other = ExecuteProcess(cmd=['sh', '-c', 'echo other; exit 3'], name='worker',
@@ -95,7 +96,11 @@ def generate_launch_description():
 
     def on_exit(event, context):
         assert event.action is worker
-        return [LogInfo(msg=f'{event.process_name} ended with {event.returncode}'), Shutdown(reason='done')]
+        return [LogInfo(msg=f'{event.process_name} ended with {event.returncode}')]
+
+    def on_any_exit(event, context):
+        ended.append(event.process_name)
+        return Shutdown(reason='done') if len(ended) == 2 else None
 
     return LaunchDescription([
         RegisterEventHandler(OnProcessStart(
@@ -104,6 +109,7 @@ def generate_launch_description():
             target_action=worker, on_stdout=on_line,
             on_stderr=lambda event: LogInfo(msg='on stderr: ' + event.text.decode().strip()))),
         RegisterEventHandler(OnProcessExit(target_action=worker, on_exit=on_exit)),
+        RegisterEventHandler(OnProcessExit(on_exit=on_any_exit)),
         RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: LogInfo(msg='why: ' + event.reason))),
         worker,
         other,
