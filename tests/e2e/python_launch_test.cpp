@@ -84,7 +84,7 @@ from launch.substitutions import LocalSubstitution
 def generate_launch_description():
     ended = []
     # Two of the same name: only the process of the action is meant.
-    worker = ExecuteProcess(cmd=['sh', '-c', 'echo ready; echo trouble >&2; exec sleep 1000'], name='worker')
+    worker = ExecuteProcess(cmd=['sh', '-c', 'echo trouble >&2; echo ready; exec sleep 1000'], name='worker')
     other = ExecuteProcess(cmd=['sh', '-c', 'echo other; exit 3'], name='worker',
                            on_exit=[LogInfo(msg=['other: ', LocalSubstitution('event.returncode')])])
 
