@@ -1,6 +1,5 @@
 """The import names of ROS 2's packages that hold one class each."""
 
-import re
 import sys
 
 
@@ -11,8 +10,14 @@ def same_module(module, *names):
 
 
 def snake_case(name):
-    name = re.sub('([a-z0-9])([A-Z])', r'\1_\2', name.replace('ROS', 'Ros'))
-    return re.sub('([A-Z]+)([A-Z][a-z])', r'\1_\2', name).lower()
+    """ExecuteProcess is execute_process, SetROSLogDir set_ros_log_dir."""
+    result = ''
+    for index, character in enumerate(name):
+        before, after = name[index - 1:index], name[index + 1:index + 2]
+        if character.isupper() and before and (not before.isupper() or after.islower()):
+            result += '_'
+        result += character.lower()
+    return result
 
 
 def one_class_modules(module_name):
