@@ -134,13 +134,15 @@ function(stack_package_version variable)
   set(${variable} ${version} PARENT_SCOPE)
 endfunction()
 
-# Puts a binary at `place` in the build tree's prefix and lets it find the stack's libraries from there.
+# Puts a binary at `place` in the build tree's prefix and lets it find the libraries of its own prefix from there. What it
+# was linked with from elsewhere it finds there: the packages of users are in other prefixes than the stack.
 function(_stack_place target place rpath)
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}
     BUILD_RPATH "${rpath}"
-    INSTALL_RPATH "${rpath}")
+    INSTALL_RPATH "${rpath}"
+    INSTALL_RPATH_USE_LINK_PATH ON)
 endfunction()
 
 # Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of DEPENDENCIES that are packages and last runs

@@ -66,7 +66,12 @@ INSTANTIATE_TEST_SUITE_P(
                                 {},
                                 {"[calibrate-1] calibrated", "[server-2] listening", "[client-3] asking",
                                  "client-3 is done, the server may go", "sending signal 'SIGINT' to process[server-2]",
-                                 "[park-4] parked"}}),
+                                 "[park-4] parked"}},
+                        Example{"10_action",
+                                {"cancel_after:=2"},
+                                {"[fibonacci_action_server]: Received goal request with order 8",
+                                 "[fibonacci_action_client]: Feedback: 0 1 1",
+                                 "[fibonacci_action_client]: Goal was canceled: 0 1 1 2", "trace written to: "}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -133,3 +133,11 @@ bool rcl_client_is_valid(const rcl_client_t* client) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(client->impl, "the client is not initialized", return false);
   return true;
 }
+
+rcl_ret_t rcl_client_set_on_new_response_callback(const rcl_client_t* client, rcl_event_callback_t callback,
+                                                  const void* user_data) {
+  if (!rcl_client_is_valid(client)) {
+    return RCL_RET_CLIENT_INVALID;
+  }
+  return rmw_client_set_on_new_response_callback(client->impl->rmw_handle, callback, user_data);
+}

@@ -133,3 +133,11 @@ bool rcl_service_is_valid(const rcl_service_t* service) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(service->impl, "the service is not initialized", return false);
   return true;
 }
+
+rcl_ret_t rcl_service_set_on_new_request_callback(const rcl_service_t* service, rcl_event_callback_t callback,
+                                                  const void* user_data) {
+  if (!rcl_service_is_valid(service)) {
+    return RCL_RET_SERVICE_INVALID;
+  }
+  return rmw_service_set_on_new_request_callback(service->impl->rmw_handle, callback, user_data);
+}

@@ -140,3 +140,11 @@ bool rcl_subscription_is_valid(const rcl_subscription_t* subscription) {
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription) {
   return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->can_loan_messages;
 }
+
+rcl_ret_t rcl_subscription_set_on_new_message_callback(const rcl_subscription_t* subscription,
+                                                       rcl_event_callback_t callback, const void* user_data) {
+  if (!rcl_subscription_is_valid(subscription)) {
+    return RCL_RET_SUBSCRIPTION_INVALID;
+  }
+  return rmw_subscription_set_on_new_message_callback(subscription->impl->rmw_handle, callback, user_data);
+}

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 
 #include "rcl/error_handling.h"
 #include "tracetools/tracetools.h"
@@ -16,12 +17,26 @@ struct rcl_timer_impl_s {
   std::atomic<bool> canceled;
   // Time left until the next call when simulated time is switched on or off; carried over to the other time.
   std::atomic<int64_t> time_left{0};
+  std::mutex on_reset_mutex{};
+  rcl_event_callback_t on_reset = nullptr;
+  const void* on_reset_user_data = nullptr;
 };
 
 namespace {
 
 // Any jump of simulated time can make a timer due, or put its next call too far away.
 constexpr rcl_jump_threshold_t kEveryJump = {true, {1}, {-1}};
+
+// A thread that waits has computed its time before.
+rcl_ret_t wake_waiting(rcl_timer_impl_t& timer) {
+  {
+    const std::lock_guard lock(timer.on_reset_mutex);
+    if (timer.on_reset != nullptr) {
+      timer.on_reset(timer.on_reset_user_data, 1);
+    }
+  }
+  return rcl_trigger_guard_condition(&timer.guard_condition);
+}
 
 bool is_switch(const rcl_time_jump_t& jump) {
   return jump.clock_change == RCL_ROS_TIME_ACTIVATED || jump.clock_change == RCL_ROS_TIME_DEACTIVATED;
@@ -47,8 +62,7 @@ void on_time_jump(const rcl_time_jump_t* jump, bool before_jump, void* user_data
     timer.last_call_time = now;
     timer.next_call_time = now + timer.period;
   }
-  // A thread that waits has computed its time with the old clock.
-  if (rcl_trigger_guard_condition(&timer.guard_condition) != RCL_RET_OK) {
+  if (wake_waiting(timer) != RCL_RET_OK) {
     rcl_reset_error();
   }
 }
@@ -279,7 +293,18 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t* timer) {
   }
   timer->impl->next_call_time = now + timer->impl->period;
   timer->impl->canceled = false;
-  return rcl_trigger_guard_condition(&timer->impl->guard_condition);
+  return wake_waiting(*timer->impl);
+}
+
+rcl_ret_t rcl_timer_set_on_reset_callback(const rcl_timer_t* timer, rcl_event_callback_t callback,
+                                          const void* user_data) {
+  if (const rcl_ret_t result = check(timer); result != RCL_RET_OK) {
+    return result;
+  }
+  const std::lock_guard lock(timer->impl->on_reset_mutex);
+  timer->impl->on_reset = callback;
+  timer->impl->on_reset_user_data = user_data;
+  return RCL_RET_OK;
 }
 
 rcl_guard_condition_t* rcl_timer_get_guard_condition(const rcl_timer_t* timer) {

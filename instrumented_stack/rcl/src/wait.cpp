@@ -15,17 +15,20 @@ struct rcl_wait_set_impl_s {
   std::vector<const rcl_timer_t*> timers;
   std::vector<const rcl_client_t*> clients;
   std::vector<const rcl_service_t*> services;
+  std::vector<const rcl_event_t*> events;
   // How many entries of each are in use.
   size_t subscription_count = 0;
   size_t guard_condition_count = 0;
   size_t timer_count = 0;
   size_t client_count = 0;
   size_t service_count = 0;
+  size_t event_count = 0;
   // What rmw waits for: the same entities, then the guard conditions of the timers.
   std::vector<void*> rmw_subscriptions;
   std::vector<void*> rmw_guard_conditions;
   std::vector<void*> rmw_clients;
   std::vector<void*> rmw_services;
+  std::vector<void*> rmw_events;
 };
 
 namespace {
@@ -97,6 +100,10 @@ void collect_rmw_entities(rcl_wait_set_impl_t& impl) {
   for (size_t i = 0; i < impl.service_count; ++i) {
     impl.rmw_services.push_back(rcl_service_get_rmw_handle(impl.services[i])->data);
   }
+  impl.rmw_events.clear();
+  for (size_t i = 0; i < impl.event_count; ++i) {
+    impl.rmw_events.push_back(rcl_event_get_rmw_handle(impl.events[i])->data);
+  }
 }
 
 // Nulls the entries for which rmw has nulled its own.
@@ -115,6 +122,7 @@ rcl_ret_t keep_ready(rcl_wait_set_impl_t& impl, bool& any_timer) {
   keep_ready(impl.guard_conditions, impl.guard_condition_count, impl.rmw_guard_conditions);
   keep_ready(impl.clients, impl.client_count, impl.rmw_clients);
   keep_ready(impl.services, impl.service_count, impl.rmw_services);
+  keep_ready(impl.events, impl.event_count, impl.rmw_events);
   any_timer = false;
   for (size_t i = 0; i < impl.timer_count; ++i) {
     bool is_ready = false;
@@ -148,9 +156,9 @@ rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscript
     RCL_SET_ERROR_MSG("a wait set needs a context that is initialized and not shut down");
     return RCL_RET_NOT_INIT;
   }
-  rmw_wait_set_t* handle = rmw_create_wait_set(
-      rcl_context_get_rmw_context(context),
-      number_of_subscriptions + number_of_guard_conditions + number_of_timers + number_of_clients + number_of_services);
+  rmw_wait_set_t* handle = rmw_create_wait_set(rcl_context_get_rmw_context(context),
+                                               number_of_subscriptions + number_of_guard_conditions + number_of_timers +
+                                                   number_of_clients + number_of_services + number_of_events);
   if (handle == nullptr) {
     return RCL_RET_ERROR;
   }
@@ -190,8 +198,9 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   std::fill(impl.timers.begin(), impl.timers.end(), nullptr);
   std::fill(impl.clients.begin(), impl.clients.end(), nullptr);
   std::fill(impl.services.begin(), impl.services.end(), nullptr);
+  std::fill(impl.events.begin(), impl.events.end(), nullptr);
   impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
-  impl.client_count = impl.service_count = 0;
+  impl.client_count = impl.service_count = impl.event_count = 0;
   return RCL_RET_OK;
 }
 
@@ -199,10 +208,6 @@ rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_siz
                               size_t timers_size, size_t clients_size, size_t services_size, size_t events_size) {
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
-  }
-  if (events_size != 0) {
-    RCL_SET_ERROR_MSG("a wait set cannot wait for events");
-    return RCL_RET_UNSUPPORTED;
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
   impl.subscriptions.resize(subscriptions_size);
@@ -220,6 +225,9 @@ rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_siz
   impl.services.resize(services_size);
   wait_set->services = impl.services.data();
   wait_set->size_of_services = services_size;
+  impl.events.resize(events_size);
+  wait_set->events = impl.events.data();
+  wait_set->size_of_events = events_size;
   return rcl_wait_set_clear(wait_set);
 }
 
@@ -247,13 +255,17 @@ rcl_ret_t rcl_wait_set_add_service(rcl_wait_set_t* wait_set, const rcl_service_t
   return add(wait_set, &rcl_wait_set_impl_s::services, &rcl_wait_set_impl_s::service_count, service, index);
 }
 
+rcl_ret_t rcl_wait_set_add_event(rcl_wait_set_t* wait_set, const rcl_event_t* event, size_t* index) {
+  return add(wait_set, &rcl_wait_set_impl_s::events, &rcl_wait_set_impl_s::event_count, event, index);
+}
+
 rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
   }
   rcl_wait_set_impl_t& impl = *wait_set->impl;
-  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count + impl.client_count +
-          impl.service_count ==
+  if (impl.subscription_count + impl.guard_condition_count + impl.timer_count + impl.client_count + impl.service_count +
+          impl.event_count ==
       0) {
     RCL_SET_ERROR_MSG("there is nothing to wait for in the wait set");
     return RCL_RET_WAIT_SET_EMPTY;
@@ -271,7 +283,8 @@ rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   rmw_guard_conditions_t guard_conditions{impl.rmw_guard_conditions.size(), impl.rmw_guard_conditions.data()};
   rmw_services_t services{impl.rmw_services.size(), impl.rmw_services.data()};
   rmw_clients_t clients{impl.rmw_clients.size(), impl.rmw_clients.data()};
-  const rmw_ret_t result = rmw_wait(&subscriptions, &guard_conditions, &services, &clients, impl.rmw_wait_set,
+  rmw_events_t events{impl.rmw_events.size(), impl.rmw_events.data()};
+  const rmw_ret_t result = rmw_wait(&subscriptions, &guard_conditions, &services, &clients, &events, impl.rmw_wait_set,
                                     wait_time == kForever ? nullptr : &rmw_timeout);
   if (result != RMW_RET_OK && result != RMW_RET_TIMEOUT) {
     return result;

@@ -1,11 +1,14 @@
 #include "rclcpp/callback_group.hpp"
 
+#include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "rclcpp/client_base.hpp"
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
 
@@ -28,7 +31,9 @@ CallbackGroup::CallbackGroup(CallbackGroupType group_type, bool automatically_ad
 template <typename EntityT>
 void CallbackGroup::add(std::vector<std::weak_ptr<EntityT>> CallbackGroup::*list,
                         const std::shared_ptr<EntityT>& entity) {
-  entity->set_callback_group(weak_from_this());
+  if constexpr (!std::is_same_v<EntityT, Waitable>) {
+    entity->set_callback_group(weak_from_this());
+  }
   {
     const std::lock_guard lock(mutex_);
     auto& entities = this->*list;
@@ -55,18 +60,53 @@ void CallbackGroup::add_client(const std::shared_ptr<ClientBase>& client) {
   add(&CallbackGroup::clients_, client);
 }
 
+void CallbackGroup::add_waitable(const std::shared_ptr<Waitable>& waitable) {
+  add(&CallbackGroup::waitables_, waitable);
+}
+
+void CallbackGroup::remove_waitable(const std::shared_ptr<Waitable>& waitable) noexcept {
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(waitables_, [&waitable](const std::weak_ptr<Waitable>& weak) {
+      return !weak.owner_before(waitable) && !waitable.owner_before(weak);
+    });
+  }
+  notify();
+}
+
 void CallbackGroup::collect(Entities& entities) const {
   const std::lock_guard lock(mutex_);
   append_living(subscriptions_, entities.subscriptions);
   append_living(timers_, entities.timers);
   append_living(services_, entities.services);
   append_living(clients_, entities.clients);
+  append_living(waitables_, entities.waitables);
+}
+
+CallbackGroup::Entities CallbackGroup::living() const {
+  Entities entities;
+  collect(entities);
+  return entities;
 }
 
 size_t CallbackGroup::size() const {
-  Entities entities;
-  collect(entities);
-  return entities.subscriptions.size() + entities.timers.size() + entities.services.size() + entities.clients.size();
+  const Entities entities = living();
+  return entities.subscriptions.size() + entities.timers.size() + entities.services.size() + entities.clients.size() +
+         entities.waitables.size();
+}
+
+void CallbackGroup::collect_all_ptrs(
+    const std::function<void(const std::shared_ptr<SubscriptionBase>&)>& subscription_function,
+    const std::function<void(const std::shared_ptr<ServiceBase>&)>& service_function,
+    const std::function<void(const std::shared_ptr<ClientBase>&)>& client_function,
+    const std::function<void(const std::shared_ptr<TimerBase>&)>& timer_function,
+    const std::function<void(const std::shared_ptr<Waitable>&)>& waitable_function) const {
+  const Entities entities = living();
+  std::for_each(entities.subscriptions.begin(), entities.subscriptions.end(), subscription_function);
+  std::for_each(entities.services.begin(), entities.services.end(), service_function);
+  std::for_each(entities.clients.begin(), entities.clients.end(), client_function);
+  std::for_each(entities.timers.begin(), entities.timers.end(), timer_function);
+  std::for_each(entities.waitables.begin(), entities.waitables.end(), waitable_function);
 }
 
 void CallbackGroup::set_on_change(std::function<void()> on_change) {

@@ -84,6 +84,7 @@ ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node_base, const rosi
 }
 
 ClientBase::~ClientBase() {
+  clear_on_new_response_callback();
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
   }
@@ -179,6 +180,25 @@ int64_t ClientBase::send_type_erased_request(const void* request) {
     exceptions::throw_from_rcl_error(ret, "failed to send request");
   }
   return sequence_number;
+}
+
+void ClientBase::set_on_new_response_callback(std::function<void(size_t)> callback) {
+  on_ready_.set(std::move(callback), "set_on_new_response_callback", "client",
+                [this](rcl_event_callback_t function, const void* user_data) {
+                  const rcl_ret_t ret =
+                      rcl_client_set_on_new_response_callback(client_handle_.get(), function, user_data);
+                  if (ret != RCL_RET_OK) {
+                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a client");
+                  }
+                });
+}
+
+void ClientBase::clear_on_new_response_callback() {
+  on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
+    if (rcl_client_set_on_new_response_callback(client_handle_.get(), function, user_data) != RCL_RET_OK) {
+      rcl_reset_error();
+    }
+  });
 }
 
 }  // namespace rclcpp

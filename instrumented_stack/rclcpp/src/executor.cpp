@@ -2,9 +2,12 @@
 
 #include <tracetools/tracetools.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "executor_entities.hpp"
 #include "rclcpp/node.hpp"
@@ -50,6 +53,24 @@ bool choose(ClientBase::SharedPtr client, AnyExecutable& any_executable) {
   any_executable.client = std::move(client);
   return any_executable.client != nullptr;
 }
+bool choose(Waitable::SharedPtr waitable, AnyExecutable& any_executable) {
+  if (!waitable) {
+    return false;
+  }
+  any_executable.data = waitable->take_data();
+  any_executable.waitable = std::move(waitable);
+  return true;
+}
+
+bool is_waitable(const detail::ReadyEntity& ready) {
+  return std::holds_alternative<Waitable::WeakPtr>(ready.entity);
+}
+
+bool are_same_waitable(const detail::ReadyEntity& a, const detail::ReadyEntity& b) {
+  const auto* waitable_a = std::get_if<Waitable::WeakPtr>(&a.entity);
+  const auto* waitable_b = std::get_if<Waitable::WeakPtr>(&b.entity);
+  return waitable_a && waitable_b && !waitable_a->owner_before(*waitable_b) && !waitable_b->owner_before(*waitable_a);
+}
 
 }  // namespace
 
@@ -89,31 +110,41 @@ Executor::~Executor() {
   entities_->remove_all();
 }
 
-void Executor::add_node(const NodePtr& node) {
+void Executor::add_node(const NodePtr& node, bool) {
   entities_->add_node(node);
 }
-void Executor::add_node(const std::shared_ptr<Node>& node) {
-  add_node(node->get_node_base_interface());
+void Executor::add_node(const std::shared_ptr<Node>& node, bool notify) {
+  add_node(node->get_node_base_interface(), notify);
 }
-void Executor::remove_node(const NodePtr& node) {
+void Executor::remove_node(const NodePtr& node, bool) {
   entities_->remove_node(node);
 }
-void Executor::remove_node(const std::shared_ptr<Node>& node) {
-  remove_node(node->get_node_base_interface());
+void Executor::remove_node(const std::shared_ptr<Node>& node, bool notify) {
+  remove_node(node->get_node_base_interface(), notify);
 }
 
-void Executor::add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node) {
+void Executor::add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool) {
   entities_->add_group(group, node);
 }
-void Executor::remove_callback_group(const CallbackGroup::SharedPtr& group) {
+void Executor::remove_callback_group(const CallbackGroup::SharedPtr& group, bool) {
   entities_->remove_group(group);
 }
 std::vector<CallbackGroup::WeakPtr> Executor::get_all_callback_groups() {
-  return entities_->groups();
+  return entities_->groups(ExecutorEntities::Origin::kAny);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_manually_added_callback_groups() {
+  return entities_->groups(ExecutorEntities::Origin::kAddedByHand);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_automatically_added_callback_groups_from_nodes() {
+  return entities_->groups(ExecutorEntities::Origin::kOfNodes);
 }
 
 void Executor::spin_once(nanoseconds timeout) {
   const SpinningScope scope(*this, "spin_once()");
+  spin_once_impl(timeout);
+}
+
+void Executor::spin_once_impl(nanoseconds timeout) {
   AnyExecutable any_executable;
   if (get_next_executable(any_executable, timeout)) {
     execute_any_executable(any_executable);
@@ -121,6 +152,7 @@ void Executor::spin_once(nanoseconds timeout) {
 }
 
 void Executor::spin_some(nanoseconds max_duration) {
+  const SpinningScope scope(*this, "spin_some()");
   spin_some_impl(max_duration, false);
 }
 
@@ -128,16 +160,15 @@ void Executor::spin_all(nanoseconds max_duration) {
   if (max_duration < nanoseconds::zero()) {
     throw std::invalid_argument("max_duration must be greater than or equal to 0");
   }
+  const SpinningScope scope(*this, "spin_all()");
   spin_some_impl(max_duration, true);
 }
 
 void Executor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
-  const SpinningScope scope(*this, exhaustive ? "spin_all()" : "spin_some()");
   const auto start = steady_clock::now();
   const auto time_left = [&] {
     return max_duration == nanoseconds::zero() || steady_clock::now() - start < max_duration;
   };
-  forget_ready();
   wait_for_work(nanoseconds::zero());
   bool executed_since_wait = false;
   while (context_->is_valid() && spinning_ && time_left()) {
@@ -162,6 +193,14 @@ void Executor::spin_node_some(const std::shared_ptr<Node>& node) {
   spin_node_some(node->get_node_base_interface());
 }
 
+void Executor::spin_node_all(const NodePtr& node, nanoseconds max_duration) {
+  const Membership membership(*this, node);
+  spin_all(max_duration);
+}
+void Executor::spin_node_all(const std::shared_ptr<Node>& node, nanoseconds max_duration) {
+  spin_node_all(node->get_node_base_interface(), max_duration);
+}
+
 void Executor::spin_node_once(const NodePtr& node, nanoseconds timeout) {
   const Membership membership(*this, node);
   spin_once(timeout);
@@ -178,10 +217,7 @@ FutureReturnCode Executor::spin_until(const std::function<bool()>& complete, nan
   const auto start = steady_clock::now();
   nanoseconds timeout_left = timeout;
   while (context_->is_valid() && spinning_) {
-    AnyExecutable any_executable;
-    if (get_next_executable(any_executable, timeout_left)) {
-      execute_any_executable(any_executable);
-    }
+    spin_once_impl(timeout_left);
     if (complete()) {
       return FutureReturnCode::SUCCESS;
     }
@@ -198,6 +234,10 @@ FutureReturnCode Executor::spin_until(const std::function<bool()>& complete, nan
 
 void Executor::cancel() {
   spinning_ = false;
+  interrupt();
+}
+
+void Executor::interrupt() {
   entities_->interrupt();
 }
 
@@ -211,31 +251,48 @@ bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds ti
 
 bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
-  if (entities_->removals() != removals_before_wait_) {
-    // Nothing is lost: messages and timer calls are taken only below, and the next wait finds them again.
-    forget_ready();
+  if (const size_t removals = entities_->removals(); removals != removals_seen_) {
+    removals_seen_ = removals;
+    ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_));
+    next_ready_ = 0;
+    entities_->erase_unserved(ready_);
+    entities_->erase_unserved(postponed_);
   }
   while (next_ready_ < ready_.size()) {
-    const detail::ReadyEntity entity = std::move(ready_[next_ready_++]);
-    if (std::visit([&](const auto& weak) { return choose(weak.lock(), any_executable); }, entity)) {
+    detail::ReadyEntity ready = std::move(ready_[next_ready_++]);
+    CallbackGroup::SharedPtr group = ready.group.lock();
+    if (!group) {
+      continue;
+    }
+    if (group->type() == CallbackGroupType::MutuallyExclusive && !group->can_be_taken_from().exchange(false)) {
+      if (is_waitable(ready)) {
+        postponed_.push_back(std::move(ready));
+      }
+      continue;
+    }
+    any_executable.callback_group = std::move(group);
+    if (std::visit([&](const auto& weak) { return choose(weak.lock(), any_executable); }, ready.entity)) {
       return true;
     }
+    any_executable.release_group();
   }
   return false;
 }
 
 void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
-  removals_before_wait_ = entities_->removals();
-  if (next_ready_ == ready_.size()) {
-    forget_ready();
-  }
-  entities_->wait(timeout, ready_);
-}
-
-void Executor::forget_ready() {
+  std::copy_if(std::make_move_iterator(ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_)),
+               std::make_move_iterator(ready_.end()), std::back_inserter(postponed_), is_waitable);
   ready_.clear();
   next_ready_ = 0;
+  entities_->wait(timeout, ready_);
+  for (detail::ReadyEntity& postponed : postponed_) {
+    if (std::none_of(ready_.begin(), ready_.end(),
+                     [&](const detail::ReadyEntity& ready) { return are_same_waitable(ready, postponed); })) {
+      ready_.push_back(std::move(postponed));
+    }
+  }
+  postponed_.clear();
 }
 
 void Executor::execute_any_executable(AnyExecutable& any_executable) {
@@ -252,13 +309,19 @@ void Executor::execute_any_executable(AnyExecutable& any_executable) {
                           static_cast<const void*>(any_executable.subscription->get_subscription_handle().get()));
     any_executable.subscription->execute();
   }
-  // These two have no rclcpp_executor_execute.
+  // These have no rclcpp_executor_execute.
   if (any_executable.service) {
     any_executable.service->execute();
   }
   if (any_executable.client) {
     any_executable.client->execute();
   }
+  if (any_executable.waitable) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable,
+                              static_cast<const void*>(any_executable.waitable.get()));
+    any_executable.waitable->execute(any_executable.data);
+  }
+  any_executable.release_group();
 }
 
 }  // namespace rclcpp

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "rclcpp/event_handler.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -19,21 +20,14 @@ void require_ok(rcl_ret_t ret, const char* what) {
   }
 }
 
-// The entities of which the wait has left the handle.
-template <typename WaitableT, typename HandleT>
-void append_ready(const std::vector<WaitableT>& waitables, const HandleT* const* handles,
-                  std::vector<detail::ReadyEntity>& ready) {
-  for (size_t i = 0; i < waitables.size(); ++i) {
-    if (handles[i]) {
-      ready.emplace_back(waitables[i].entity);
-    }
-  }
-}
-
 // Compares without owning, not even for a moment.
 template <typename T>
 bool refers_to(const std::weak_ptr<T>& weak, const std::shared_ptr<T>& shared) {
   return !weak.owner_before(shared) && !shared.owner_before(weak);
+}
+template <typename T>
+bool refer_to_same(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b) {
+  return !a.owner_before(b) && !b.owner_before(a);
 }
 
 }  // namespace
@@ -80,14 +74,15 @@ void ExecutorEntities::remove_node(const NodePtr& node) {
   node->set_on_change(nullptr);
   node->get_associated_with_executor_atomic() = false;
   for (auto served = groups_.begin(); served != groups_.end();) {
-    const CallbackGroup::SharedPtr group = served->group.lock();
-    owners.groups.push_back(group);
-    if (group && group->automatically_add_to_executor_with_node() && refers_to(served->node, node)) {
-      release(group);
-      served = groups_.erase(served);
-    } else {
+    if (served->added_by_hand || !refers_to(served->node, node)) {
       ++served;
+      continue;
     }
+    if (CallbackGroup::SharedPtr group = served->group.lock()) {
+      release(group);
+      owners.groups.push_back(std::move(group));
+    }
+    served = groups_.erase(served);
   }
   ++removals_;
   mark_changed(owners);
@@ -99,7 +94,7 @@ void ExecutorEntities::add_group(const CallbackGroup::SharedPtr& group, const No
   }
   {
     const std::lock_guard lock(mutex_);
-    serve(group, node);
+    serve(group, node, true);
   }
   changed();
 }
@@ -139,17 +134,31 @@ void ExecutorEntities::remove_all() {
   mark_changed(owners);
 }
 
-std::vector<CallbackGroup::WeakPtr> ExecutorEntities::groups() {
+std::vector<CallbackGroup::WeakPtr> ExecutorEntities::groups(Origin origin) {
   Owners owners;
   const std::lock_guard lock(mutex_);
-  if (!waiting_) {
-    rebuild(owners);  // a new node's groups count from its adding, not from the next wait
-  }
+  find_groups(owners);  // a new node's groups count from its adding, not from the next wait
   std::vector<CallbackGroup::WeakPtr> groups;
   for (const ServedGroup& served : groups_) {
-    groups.push_back(served.group);
+    if (origin == Origin::kAny || served.added_by_hand == (origin == Origin::kAddedByHand)) {
+      groups.push_back(served.group);
+    }
   }
   return groups;
+}
+
+std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> ExecutorEntities::entities() {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  find_groups(owners);
+  std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> result;
+  for (const ServedGroup& served : groups_) {
+    if (CallbackGroup::SharedPtr group = served.group.lock()) {
+      group->collect(result.emplace_back(served.group, CallbackGroup::Entities{}).second);
+      owners.groups.push_back(std::move(group));
+    }
+  }
+  return result;
 }
 
 void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
@@ -162,15 +171,16 @@ void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail
     waiting_ = true;
   }
 
-  rcl_ret_t ret = RCL_RET_OK;
   std::exception_ptr failure;
+  std::vector<HeldWaitable> waitables;
   try {
-    fill_wait_set();
-    ret = rcl_wait(&wait_set_, timeout.count());
+    fill_wait_set(waitables);
+    const rcl_ret_t ret = rcl_wait(&wait_set_, timeout.count());
     if (ret != RCL_RET_OK && ret != RCL_RET_TIMEOUT) {
       exceptions::throw_from_rcl_error(ret, "rcl_wait() failed");
     }
     rcl_reset_error();
+    append_ready(waitables, ready);
   } catch (...) {
     failure = std::current_exception();
   }
@@ -178,37 +188,123 @@ void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail
   Owners owners;
   const std::lock_guard lock(mutex_);
   waiting_ = false;
-  if (!failure) {
-    append_ready(waitables_.timers, wait_set_.timers, ready);
-    append_ready(waitables_.subscriptions, wait_set_.subscriptions, ready);
-    append_ready(waitables_.services, wait_set_.services, ready);
-    append_ready(waitables_.clients, wait_set_.clients, ready);
-  }
   if (changed_) {
-    mark_changed(owners);
+    owners.waited = std::exchange(waited_, {});
   }
   if (failure) {
     std::rethrow_exception(failure);
   }
 }
 
-void ExecutorEntities::fill_wait_set() {
-  require_ok(rcl_wait_set_clear(&wait_set_), "couldn't clear wait set");
+void ExecutorEntities::fill_wait_set(std::vector<HeldWaitable>& waitables) {
+  size_t timers = 0;
+  size_t subscriptions = 0;
+  size_t services = 0;
+  size_t clients = 0;
+  size_t events = 0;
+  size_t guard_conditions = 1;
+  for (WaitedGroup& group : waited_) {
+    group.in_wait_set = *group.can_be_taken_from;
+    if (!group.in_wait_set) {
+      continue;
+    }
+    timers += group.timers.size();
+    subscriptions += group.subscriptions.size();
+    services += group.services.size();
+    clients += group.clients.size();
+    events += group.events.size();
+    for (const Waitable::WeakPtr& weak : group.waitables) {
+      if (Waitable::SharedPtr waitable = weak.lock()) {
+        timers += waitable->get_number_of_ready_timers();
+        subscriptions += waitable->get_number_of_ready_subscriptions();
+        services += waitable->get_number_of_ready_services();
+        clients += waitable->get_number_of_ready_clients();
+        events += waitable->get_number_of_ready_events();
+        guard_conditions += waitable->get_number_of_ready_guard_conditions();
+        waitables.push_back({std::move(waitable), group.group});
+      }
+    }
+  }
+  require_ok(rcl_wait_set_resize(&wait_set_, subscriptions, guard_conditions, timers, clients, services, events),
+             "couldn't resize the wait set");
   require_ok(rcl_wait_set_add_guard_condition(&wait_set_, &interrupt_.get_rcl_guard_condition(), nullptr),
              "couldn't add guard condition to wait set");
-  for (const auto& timer : waitables_.timers) {
-    require_ok(rcl_wait_set_add_timer(&wait_set_, timer.handle.get(), nullptr), "couldn't add timer to wait set");
+  for (const WaitedGroup& group : waited_) {
+    if (!group.in_wait_set) {
+      continue;
+    }
+    for (const auto& timer : group.timers) {
+      require_ok(rcl_wait_set_add_timer(&wait_set_, timer.handle.get(), nullptr), "couldn't add timer to wait set");
+    }
+    for (const auto& subscription : group.subscriptions) {
+      require_ok(rcl_wait_set_add_subscription(&wait_set_, subscription.handle.get(), nullptr),
+                 "couldn't add subscription to wait set");
+    }
+    for (const auto& service : group.services) {
+      require_ok(rcl_wait_set_add_service(&wait_set_, service.handle.get(), nullptr),
+                 "couldn't add service to wait set");
+    }
+    for (const auto& client : group.clients) {
+      require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
+    }
+    for (const auto& event : group.events) {
+      require_ok(rcl_wait_set_add_event(&wait_set_, event.handle.get(), nullptr), "couldn't add event to wait set");
+    }
   }
-  for (const auto& subscription : waitables_.subscriptions) {
-    require_ok(rcl_wait_set_add_subscription(&wait_set_, subscription.handle.get(), nullptr),
-               "couldn't add subscription to wait set");
+  // Last, so that the indices of the others are known without asking.
+  for (const HeldWaitable& held : waitables) {
+    held.waitable->add_to_wait_set(wait_set_);
   }
-  for (const auto& service : waitables_.services) {
-    require_ok(rcl_wait_set_add_service(&wait_set_, service.handle.get(), nullptr), "couldn't add service to wait set");
+}
+
+void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
+                                    std::vector<detail::ReadyEntity>& ready) const {
+  // The entities of one kind, group after group, of which the wait has left the handle.
+  const auto append = [&](const auto* const* handles, auto WaitedGroup::*kind) {
+    for (const WaitedGroup& group : waited_) {
+      if (group.in_wait_set) {
+        for (const auto& waited : group.*kind) {
+          if (*handles++) {
+            ready.push_back({waited.entity, group.group});
+          }
+        }
+      }
+    }
+  };
+  append(wait_set_.timers, &WaitedGroup::timers);
+  append(wait_set_.subscriptions, &WaitedGroup::subscriptions);
+  append(wait_set_.services, &WaitedGroup::services);
+  append(wait_set_.clients, &WaitedGroup::clients);
+  append(wait_set_.events, &WaitedGroup::events);
+  for (const HeldWaitable& held : waitables) {
+    if (held.waitable->is_ready(wait_set_)) {
+      ready.push_back({Waitable::WeakPtr(held.waitable), held.group});
+    }
   }
-  for (const auto& client : waitables_.clients) {
-    require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
+}
+
+void ExecutorEntities::erase_unserved(std::vector<detail::ReadyEntity>& ready) {
+  const std::lock_guard lock(mutex_);
+  ready.erase(std::remove_if(ready.begin(), ready.end(),
+                             [this](const detail::ReadyEntity& entity) {
+                               return std::none_of(groups_.begin(), groups_.end(), [&](const ServedGroup& served) {
+                                 return refer_to_same(served.group, entity.group);
+                               });
+                             }),
+              ready.end());
+}
+
+void ExecutorEntities::interrupt() {
+  interrupt_.trigger();
+  const std::lock_guard lock(mutex_);
+  if (on_change_) {
+    on_change_();
   }
+}
+
+void ExecutorEntities::set_on_change(std::function<void()> on_change) {
+  const std::lock_guard lock(mutex_);
+  on_change_ = std::move(on_change);
 }
 
 void ExecutorEntities::changed() {
@@ -222,11 +318,14 @@ void ExecutorEntities::mark_changed(Owners& owners) {
   if (waiting_) {
     interrupt_.trigger();
   } else {
-    owners.waitables = std::exchange(waitables_, {});
+    owners.waited = std::exchange(waited_, {});
+  }
+  if (on_change_) {
+    on_change_();
   }
 }
 
-void ExecutorEntities::rebuild(Owners& owners) {
+void ExecutorEntities::find_groups(Owners& owners) {
   const auto expired = [](const auto& weak) { return weak.expired(); };
   nodes_.erase(std::remove_if(nodes_.begin(), nodes_.end(), expired), nodes_.end());
   for (const auto& weak : nodes_) {
@@ -234,7 +333,7 @@ void ExecutorEntities::rebuild(Owners& owners) {
       for (CallbackGroup::SharedPtr& group : node->callback_groups()) {
         if (group->automatically_add_to_executor_with_node() &&
             !group->get_associated_with_executor_atomic().exchange(true)) {
-          serve(group, node);
+          serve(group, node, false);
         }
         owners.groups.push_back(std::move(group));
       }
@@ -244,39 +343,53 @@ void ExecutorEntities::rebuild(Owners& owners) {
   groups_.erase(std::remove_if(groups_.begin(), groups_.end(),
                                [](const ServedGroup& s) { return s.group.expired() || s.node.expired(); }),
                 groups_.end());
-  for (const ServedGroup& served : groups_) {
-    if (CallbackGroup::SharedPtr group = served.group.lock()) {
-      group->collect(owners.entities);
-      owners.groups.push_back(std::move(group));
-    }
-  }
+}
 
-  owners.waitables = std::exchange(waitables_, {});
-  for (const TimerBase::SharedPtr& timer : owners.entities.timers) {
-    waitables_.timers.push_back({timer->get_timer_handle(), timer});
+void ExecutorEntities::rebuild(Owners& owners) {
+  find_groups(owners);
+  owners.waited = std::exchange(waited_, {});
+  for (const ServedGroup& served : groups_) {
+    CallbackGroup::SharedPtr group = served.group.lock();
+    if (!group) {
+      continue;
+    }
+    CallbackGroup::Entities& entities = owners.entities.emplace_back();
+    group->collect(entities);
+    WaitedGroup& waited = waited_.emplace_back();
+    waited.group = group;
+    waited.can_be_taken_from = group->shared_can_be_taken_from();
+    for (const TimerBase::SharedPtr& timer : entities.timers) {
+      waited.timers.push_back({timer->get_timer_handle(), timer});
+    }
+    for (const SubscriptionBase::SharedPtr& subscription : entities.subscriptions) {
+      waited.subscriptions.push_back({subscription->get_subscription_handle(), subscription});
+    }
+    for (const ServiceBase::SharedPtr& service : entities.services) {
+      waited.services.push_back({service->get_service_handle(), service});
+    }
+    for (const ClientBase::SharedPtr& client : entities.clients) {
+      waited.clients.push_back({client->get_client_handle(), client});
+    }
+    for (const Waitable::SharedPtr& waitable : entities.waitables) {
+      // There can be thousands of event handlers, one per publisher and subscription at least.
+      if (const auto* handler = dynamic_cast<const EventHandlerBase*>(waitable.get())) {
+        waited.events.push_back({handler->get_event_handle(), waitable});
+      } else {
+        waited.waitables.push_back(waitable);
+      }
+    }
+    owners.groups.push_back(std::move(group));
   }
-  for (const SubscriptionBase::SharedPtr& subscription : owners.entities.subscriptions) {
-    waitables_.subscriptions.push_back({subscription->get_subscription_handle(), subscription});
-  }
-  for (const ServiceBase::SharedPtr& service : owners.entities.services) {
-    waitables_.services.push_back({service->get_service_handle(), service});
-  }
-  for (const ClientBase::SharedPtr& client : owners.entities.clients) {
-    waitables_.clients.push_back({client->get_client_handle(), client});
-  }
-  require_ok(rcl_wait_set_resize(&wait_set_, waitables_.subscriptions.size(), 1, waitables_.timers.size(),
-                                 waitables_.clients.size(), waitables_.services.size(), 0),
-             "couldn't resize the wait set");
   changed_ = false;
 }
 
-void ExecutorEntities::serve(const CallbackGroup::SharedPtr& group, const NodePtr& node) {
+void ExecutorEntities::serve(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool added_by_hand) {
   group->set_on_change([weak = weak_from_this()] {
     if (const auto self = weak.lock()) {
       self->changed();
     }
   });
-  groups_.push_back({group, node});
+  groups_.push_back({group, node, added_by_hand});
 }
 
 void ExecutorEntities::release(const CallbackGroup::SharedPtr& group) {

@@ -1,8 +1,9 @@
-// What an executor waits for: the nodes and groups it was given, the entities in them, and the wait set.
+// What an executor serves: the nodes and groups it was given, the entities in them, and the wait set.
 //
 // The list of entities is rebuilt only after something changed. It holds the rcl handles, so that a wait never looks at
 // a dead one, and the rclcpp objects weakly, so that a user's reset() destroys a subscription at once. Its handle
-// follows at once too if nobody waits, else as soon as the wait, which the change interrupts, has returned.
+// follows at once too if nobody waits, else as soon as the wait, which the change interrupts, has returned. Waitables
+// are owned while they are waited for.
 #pragma once
 
 #include <rcl/wait.h>
@@ -10,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -23,6 +25,7 @@
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
 
@@ -39,51 +42,75 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   void add_group(const CallbackGroup::SharedPtr& group, const NodePtr& node);
   void remove_group(const CallbackGroup::SharedPtr& group);
   void remove_all();
-  std::vector<CallbackGroup::WeakPtr> groups();
+
+  enum class Origin { kAny, kAddedByHand, kOfNodes };
+  std::vector<CallbackGroup::WeakPtr> groups(Origin origin);
+  // The living entities of each group, in the order of groups().
+  std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> entities();
 
   // Waits until something is ready, interrupt() is called, or the time is over (negative: never). Appends what is
-  // ready. One thread at a time.
+  // ready. Groups that cannot be taken from are left out: interrupt() when they can be again. One thread at a time.
   void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
 
   // How often nodes and groups were removed. What an earlier wait found may be theirs.
   size_t removals() const { return removals_; }
+  // Erases what is of no group that is served.
+  void erase_unserved(std::vector<detail::ReadyEntity>& ready);
 
   // Ends the wait that is going on, or else the next one.
-  void interrupt() { interrupt_.trigger(); }
+  void interrupt();
+
+  // Is called, under a lock, after a change of nodes, groups or entities and by interrupt(): for executors that do not
+  // wait() here. Empty: nothing.
+  void set_on_change(std::function<void()> on_change);
 
  private:
   struct ServedGroup {
     CallbackGroup::WeakPtr group;
     node_interfaces::NodeBaseInterface::WeakPtr node;
+    bool added_by_hand;
   };
   template <typename HandleT, typename EntityT>
-  struct Waitable {
+  struct Waited {
     std::shared_ptr<HandleT> handle;
     std::weak_ptr<EntityT> entity;
   };
-  struct Waitables {
-    std::vector<Waitable<rcl_timer_t, TimerBase>> timers;
-    std::vector<Waitable<rcl_subscription_t, SubscriptionBase>> subscriptions;
-    std::vector<Waitable<rcl_service_t, ServiceBase>> services;
-    std::vector<Waitable<rcl_client_t, ClientBase>> clients;
+  // What is waited for of one group.
+  struct WaitedGroup {
+    CallbackGroup::WeakPtr group;
+    std::shared_ptr<const std::atomic_bool> can_be_taken_from;
+    std::vector<Waited<rcl_timer_t, TimerBase>> timers;
+    std::vector<Waited<rcl_subscription_t, SubscriptionBase>> subscriptions;
+    std::vector<Waited<rcl_service_t, ServiceBase>> services;
+    std::vector<Waited<rcl_client_t, ClientBase>> clients;
+    std::vector<Waited<const rcl_event_t, Waitable>> events;  // of event handlers, which need no care of their own
+    std::vector<Waitable::WeakPtr> waitables;
+    bool in_wait_set = false;
+  };
+  struct HeldWaitable {
+    Waitable::SharedPtr waitable;
+    CallbackGroup::WeakPtr group;
   };
   // Owners that a locked section met on its way. They may be the last ones, and destructors report back here: the
   // caller lets go of them after the lock.
   struct Owners {
     std::vector<NodePtr> nodes;
     std::vector<CallbackGroup::SharedPtr> groups;
-    CallbackGroup::Entities entities;
-    Waitables waitables;
+    std::vector<CallbackGroup::Entities> entities;
+    std::vector<WaitedGroup> waited;
   };
 
   void changed();
   // With the mutex held:
   void mark_changed(Owners& owners);
+  void find_groups(Owners& owners);
   void rebuild(Owners& owners);
-  void serve(const CallbackGroup::SharedPtr& group, const NodePtr& node);
+  void serve(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool added_by_hand);
   static void release(const CallbackGroup::SharedPtr& group);
 
-  void fill_wait_set();
+  // Of the waiting thread:
+  void fill_wait_set(std::vector<HeldWaitable>& waitables);
+  void append_ready(const std::vector<HeldWaitable>& waitables, std::vector<detail::ReadyEntity>& ready) const;
 
   const std::shared_ptr<rcl_context_t> rcl_context_;
   GuardCondition interrupt_;
@@ -93,10 +120,11 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   std::mutex mutex_;
   std::vector<node_interfaces::NodeBaseInterface::WeakPtr> nodes_;
   std::vector<ServedGroup> groups_;
+  std::function<void()> on_change_;
   bool changed_ = true;
   bool waiting_ = false;
   // While waiting_, of the waiting thread alone.
-  Waitables waitables_;
+  std::vector<WaitedGroup> waited_;
 };
 
 }  // namespace rclcpp

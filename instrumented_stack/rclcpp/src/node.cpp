@@ -21,6 +21,7 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
       node_timers_(std::make_shared<node_interfaces::NodeTimersInterface>(node_base_)),
       node_topics_(std::make_shared<node_interfaces::NodeTopicsInterface>(node_base_)),
       node_services_(std::make_shared<node_interfaces::NodeServicesInterface>(node_base_)),
+      node_waitables_(std::make_shared<node_interfaces::NodeWaitablesInterface>(node_base_)),
       clock_(std::make_shared<Clock>(options.clock_type())),
       node_parameters_(std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, node_services_, clock_,
                                                                                   options_, rcl_options)),

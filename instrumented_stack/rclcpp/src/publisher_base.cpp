@@ -12,13 +12,14 @@
 namespace rclcpp {
 
 PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
-                             const rosidl_message_type_support_t& type_support, const QoS& qos) {
+                             const rosidl_message_type_support_t& type_support, const QoS& qos,
+                             const PublisherOptionsBase& options) {
   const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
-  rcl_publisher_options_t options = rcl_publisher_get_default_options();
-  options.qos = qos.get_rmw_qos_profile();
+  rcl_publisher_options_t rcl_options = rcl_publisher_get_default_options();
+  rcl_options.qos = qos.get_rmw_qos_profile();
 
   auto publisher = std::make_unique<rcl_publisher_t>(rcl_get_zero_initialized_publisher());
-  rcl_ret_t ret = rcl_publisher_init(publisher.get(), node_handle.get(), &type_support, topic.c_str(), &options);
+  rcl_ret_t ret = rcl_publisher_init(publisher.get(), node_handle.get(), &type_support, topic.c_str(), &rcl_options);
   if (ret == RCL_RET_TOPIC_NAME_INVALID) {
     detail::throw_invalid_topic_name(topic);
   }
@@ -37,9 +38,16 @@ PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, cons
   if (ret != RMW_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "failed to get the gid of the publisher on '" + topic + "'");
   }
+  bind_event_callbacks(options.event_callbacks, options.use_default_callbacks,
+                       rcl_node_get_logger_name(node_handle.get()));
 }
 
-PublisherBase::~PublisherBase() = default;
+PublisherBase::~PublisherBase() {
+  event_handlers_.clear();  // an executor that looks again must not find them
+  if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
+    group->entity_removed();
+  }
+}
 
 const char* PublisherBase::get_topic_name() const {
   return rcl_publisher_get_topic_name(publisher_handle_.get());

@@ -121,4 +121,29 @@ RosoutQoS::RosoutQoS(const QoSInitialization& history) : QoS(history, rmw_qos_pr
 SystemDefaultsQoS::SystemDefaultsQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_system_default) {}
 BestAvailableQoS::BestAvailableQoS(const QoSInitialization& history) : QoS(history, best_available_profile()) {}
 
+std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t policy_kind) {
+  switch (policy_kind) {
+    case RMW_QOS_POLICY_DURABILITY:
+      return "DURABILITY_QOS_POLICY";
+    case RMW_QOS_POLICY_DEADLINE:
+      return "DEADLINE_QOS_POLICY";
+    case RMW_QOS_POLICY_LIVELINESS:
+      return "LIVELINESS_QOS_POLICY";
+    case RMW_QOS_POLICY_RELIABILITY:
+      return "RELIABILITY_QOS_POLICY";
+    case RMW_QOS_POLICY_HISTORY:
+      return "HISTORY_QOS_POLICY";
+    case RMW_QOS_POLICY_LIFESPAN:
+      return "LIFESPAN_QOS_POLICY";
+    case RMW_QOS_POLICY_DEPTH:
+      return "DEPTH_QOS_POLICY";
+    case RMW_QOS_POLICY_LIVELINESS_LEASE_DURATION:
+      return "LIVELINESS_LEASE_DURATION_QOS_POLICY";
+    case RMW_QOS_POLICY_AVOID_ROS_NAMESPACE_CONVENTIONS:
+      return "AVOID_ROS_NAMESPACE_CONVENTIONS_QOS_POLICY";
+    default:
+      return "INVALID_QOS_POLICY";
+  }
+}
+
 }  // namespace rclcpp

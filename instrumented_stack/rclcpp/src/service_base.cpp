@@ -45,6 +45,7 @@ ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
 }
 
 ServiceBase::~ServiceBase() {
+  clear_on_new_request_callback();
   if (traced_callback_) {
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, traced_callback_);
   }
@@ -112,6 +113,25 @@ void ServiceBase::trace_creation(const AnyServiceCallbackBase& callback) {
   TRACETOOLS_TRACEPOINT(rclcpp_service_callback_added, static_cast<const void*>(service_handle_.get()),
                         static_cast<const void*>(&callback));
   callback.trace_registration();
+}
+
+void ServiceBase::set_on_new_request_callback(std::function<void(size_t)> callback) {
+  on_ready_.set(std::move(callback), "set_on_new_request_callback", "service",
+                [this](rcl_event_callback_t function, const void* user_data) {
+                  const rcl_ret_t ret =
+                      rcl_service_set_on_new_request_callback(service_handle_.get(), function, user_data);
+                  if (ret != RCL_RET_OK) {
+                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a service");
+                  }
+                });
+}
+
+void ServiceBase::clear_on_new_request_callback() {
+  on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
+    if (rcl_service_set_on_new_request_callback(service_handle_.get(), function, user_data) != RCL_RET_OK) {
+      rcl_reset_error();
+    }
+  });
 }
 
 }  // namespace rclcpp

@@ -35,9 +35,13 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
     }
     delete handle;
   });
+  bind_event_callbacks(options.event_callbacks, options.use_default_callbacks,
+                       rcl_node_get_logger_name(node_handle.get()));
 }
 
 SubscriptionBase::~SubscriptionBase() {
+  clear_on_new_message_callback();
+  event_handlers_.clear();  // an executor that looks again must not find them
   if (traced_callback_) {
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, traced_callback_);
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_subscription_fini, static_cast<const void*>(this));
@@ -139,6 +143,25 @@ void SubscriptionBase::trace_creation(const AnySubscriptionCallbackBase& callbac
   TRACETOOLS_TRACEPOINT(rclcpp_subscription_callback_added, static_cast<const void*>(this),
                         static_cast<const void*>(&callback));
   callback.trace_registration();
+}
+
+void SubscriptionBase::set_on_new_message_callback(std::function<void(size_t)> callback) {
+  on_ready_.set(std::move(callback), "set_on_new_message_callback", "subscription",
+                [this](rcl_event_callback_t function, const void* user_data) {
+                  const rcl_ret_t ret =
+                      rcl_subscription_set_on_new_message_callback(subscription_handle_.get(), function, user_data);
+                  if (ret != RCL_RET_OK) {
+                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a subscription");
+                  }
+                });
+}
+
+void SubscriptionBase::clear_on_new_message_callback() {
+  on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
+    if (rcl_subscription_set_on_new_message_callback(subscription_handle_.get(), function, user_data) != RCL_RET_OK) {
+      rcl_reset_error();
+    }
+  });
 }
 
 }  // namespace rclcpp

@@ -42,6 +42,7 @@ TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Co
 }
 
 TimerBase::~TimerBase() {
+  clear_on_reset_callback();
   if (callback_) {
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, callback_);
   }
@@ -101,6 +102,24 @@ void TimerBase::trace_callback(const void* callback, const detail::CallbackSymbo
   callback_ = callback;
   TRACETOOLS_TRACEPOINT(rclcpp_timer_callback_added, static_cast<const void*>(timer_handle_.get()), callback);
   symbol.trace_registration(callback);
+}
+
+void TimerBase::set_on_reset_callback(std::function<void(size_t)> callback) {
+  on_ready_.set(std::move(callback), "set_on_reset_callback", "timer",
+                [this](rcl_event_callback_t function, const void* user_data) {
+                  const rcl_ret_t ret = rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data);
+                  if (ret != RCL_RET_OK) {
+                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a timer");
+                  }
+                });
+}
+
+void TimerBase::clear_on_reset_callback() {
+  on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
+    if (rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data) != RCL_RET_OK) {
+      rcl_reset_error();
+    }
+  });
 }
 
 }  // namespace rclcpp

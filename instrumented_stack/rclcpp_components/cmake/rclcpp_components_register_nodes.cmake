@@ -58,7 +58,7 @@ function(rclcpp_components_register_node target)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/rclcpp_components/${program}.cpp)
   configure_file(${template} ${source} @ONLY)
   add_executable(${program} ${source})
-  set_target_properties(${program} PROPERTIES OUTPUT_NAME ${ARG_EXECUTABLE} INSTALL_RPATH_USE_LINK_PATH ON)
+  set_target_properties(${program} PROPERTIES OUTPUT_NAME ${ARG_EXECUTABLE})
   _stack_place(${program} lib/${pkg} "$ORIGIN/..")
   # The program calls nothing of the library: it is there for what it registers.
   target_link_libraries(${program} PRIVATE
@@ -81,8 +81,13 @@ function(_rclcpp_components_register index pkg target)
   if(NOT pkg)
     set(pkg ${PROJECT_NAME})
   endif()
-  # An installed component finds the libraries that it was linked with, wherever they are.
+  # An installed component finds the libraries that it was linked with: its own package's beside it, others wherever
+  # they are.
   set_target_properties(${target} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  get_target_property(rpath ${target} INSTALL_RPATH)
+  if(NOT rpath)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  endif()
   set(entries RCLCPP_COMPONENTS_${index}_${pkg})
   get_property(known GLOBAL PROPERTY ${entries} SET)
   foreach(class IN LISTS ARGN)

@@ -162,3 +162,10 @@ rmw_ret_t rmw_service_server_is_available(const rmw_node_t* node, const rmw_clie
   *is_available = readers > 0 && readers == owned.response_writers;
   return RMW_RET_OK;
 }
+
+rmw_ret_t rmw_client_set_on_new_response_callback(rmw_client_t* client, rmw_event_callback_t callback,
+                                                  const void* user_data) {
+  RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
+  client_of(*client).set_on_new_data(callback, user_data);
+  return RMW_RET_OK;
+}

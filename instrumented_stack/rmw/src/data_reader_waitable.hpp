@@ -7,6 +7,7 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
+#include "ready_callback.hpp"
 #include "waitable.hpp"
 
 namespace rmw_fastrtps {
@@ -17,6 +18,17 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   void on_data_available(eprosima::fastdds::dds::DataReader*) override {
     arrivals_.fetch_add(1, std::memory_order_release);
     notify();
+    if (on_new_data_.is_set()) {
+      on_new_data_.tell_available(reader->get_unread_count());
+    }
+  }
+
+  // `callback` is told of samples that come, and of those that wait. Null: of none.
+  void set_on_new_data(rmw_event_callback_t callback, const void* user_data) {
+    on_new_data_.set(callback, user_data);
+    if (callback != nullptr) {
+      on_new_data_.tell_available(reader->get_unread_count());
+    }
   }
 
   // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap.
@@ -37,6 +49,7 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   // may hold a sample all the same, one behind another that is missing, which arrives once more when its writer has
   // resent or given up the other.
   bool take_next(void* data, eprosima::fastdds::dds::SampleInfo& info) {
+    on_new_data_.about_to_take();
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     const ReturnCode_t result = reader->take_next_sample(data, &info);
     if (result == ReturnCode_t::RETCODE_NO_DATA) {
@@ -50,6 +63,7 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
  private:
   std::atomic<std::uint64_t> arrivals_{0};
   std::atomic<std::uint64_t> settled_{0};  // arrivals that are known to have left nothing to take
+  ReadyCallback on_new_data_;
 };
 
 }  // namespace rmw_fastrtps

@@ -75,7 +75,7 @@ void GraphChannel::listen() {
     void* stop = stop_->data;
     rmw_subscriptions_t subscriptions{1, &subscription};
     rmw_guard_conditions_t guard_conditions{1, &stop};
-    (void)rmw_wait(&subscriptions, &guard_conditions, nullptr, nullptr, wait_set_, nullptr);
+    (void)rmw_wait(&subscriptions, &guard_conditions, nullptr, nullptr, nullptr, wait_set_, nullptr);
     if (stop != nullptr) {
       return;
     }

@@ -88,6 +88,12 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
 }
 
 // The value of `enclave=…;` in the user data that participants announce.
+// What ROS 2 tells of an endpoint's type to others, so that they can see whether they mean the same definition.
+std::vector<rtps::octet> type_hash_user_data(const message_type_support_callbacks_t& type) {
+  const std::string text = std::string("typehash=") + type.type_hash_ + ";";
+  return {text.begin(), text.end()};
+}
+
 std::string enclave_in(const std::vector<rtps::octet>& user_data) {
   const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
   constexpr std::string_view kKey = "enclave=";
@@ -246,6 +252,7 @@ fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
     throw std::runtime_error("Fast DDS cannot create topic '" + dds_name + "' with type '" + type_name + "'");
   }
   topics_.emplace(dds_name, SharedTopic{topic, 1});
+  ++topics_of_type_[type_name];
   return *topic;
 }
 
@@ -257,11 +264,17 @@ void Participant::release_topic(fdds::Topic& topic) {
   const std::string type_name = topic.get_type_name();
   topics_.erase(found);
   participant_->delete_topic(&topic);
-  // Refused while another topic uses the type. The library with the type support may be unloaded afterwards.
-  participant_->unregister_type(type_name);
+  // The library with the type support may be unloaded after the last one. To ask Fast DDS each time, which would refuse
+  // while a topic uses the type, is to have it go through all endpoints.
+  const auto topics = topics_of_type_.find(type_name);
+  if (--topics->second == 0) {
+    topics_of_type_.erase(topics);
+    participant_->unregister_type(type_name);
+  }
 }
 
-fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name) const {
+fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name,
+                                            const message_type_support_callbacks_t& type) const {
   fdds::DataWriterQos qos = publisher_->get_default_datawriter_qos();
   publisher_->get_datawriter_qos_from_profile(topic_name, qos);
   if (!qos_from_xml_) {
@@ -269,16 +282,19 @@ fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name) const
     qos.data_sharing().off();
     qos.publish_mode().kind = publish_mode(qos.publish_mode().kind);
   }
+  qos.user_data().data_vec(type_hash_user_data(type));
   return qos;
 }
 
-fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name) const {
+fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name,
+                                            const message_type_support_callbacks_t& type) const {
   fdds::DataReaderQos qos = subscriber_->get_default_datareader_qos();
   subscriber_->get_datareader_qos_from_profile(topic_name, qos);
   if (!qos_from_xml_) {
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();
   }
+  qos.user_data().data_vec(type_hash_user_data(type));
   return qos;
 }
 

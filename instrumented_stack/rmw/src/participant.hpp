@@ -46,8 +46,10 @@ class Participant {
   void release_topic(eprosima::fastdds::dds::Topic& topic);
 
   // What an endpoint is created with, before the ROS profile is applied.
-  eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name) const;
-  eprosima::fastdds::dds::DataReaderQos reader_qos(const std::string& topic_name) const;
+  eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name,
+                                                   const message_type_support_callbacks_t& type) const;
+  eprosima::fastdds::dds::DataReaderQos reader_qos(const std::string& topic_name,
+                                                   const message_type_support_callbacks_t& type) const;
 
  private:
   class DiscoveryListener;
@@ -63,6 +65,7 @@ class Participant {
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
   std::map<std::string, SharedTopic> topics_;
+  std::map<std::string, std::size_t> topics_of_type_;
   Gid gid_{};
   bool qos_from_xml_ = false;
 };

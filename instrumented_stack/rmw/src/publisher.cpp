@@ -1,7 +1,5 @@
 // Publishers: a DDS DataWriter each.
-#include <atomic>
 #include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
@@ -17,6 +15,7 @@
 #include "rmw/error_handling.h"
 #include "topic_name.hpp"
 #include "tracetools/tracetools.h"
+#include "writer_events.hpp"
 
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
@@ -25,21 +24,19 @@ using rmw_fastrtps::EndpointIdentity;
 using rmw_fastrtps::kIdentifier;
 using rmw_fastrtps::OutgoingMessage;
 using rmw_fastrtps::Participant;
+using rmw_fastrtps::StatusEvent;
+using rmw_fastrtps::Waitable;
+using rmw_fastrtps::WriterEvents;
 
 namespace {
 
-struct Publisher final : fdds::DataWriterListener {
-  void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& info) override {
-    matched = static_cast<std::size_t>(info.current_count);
-  }
-
+struct Publisher final : WriterEvents {
   rmw_publisher_t handle{};
   std::string topic_name;  // of the handle
   Participant* participant = nullptr;
   fdds::Topic* topic = nullptr;
   fdds::DataWriter* writer = nullptr;
   EndpointIdentity identity{};
-  std::atomic<std::size_t> matched{0};
 };
 
 Publisher& publisher_of(const rmw_publisher_t& handle) {
@@ -67,15 +64,15 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
                                   const std::string& topic_name, const rmw_qos_profile_t& profile,
                                   const rmw_publisher_options_t& options) {
   const auto& callbacks = callbacks_of(&type_support);
-  fdds::DataWriterQos qos = participant.writer_qos(topic_name);
+  fdds::DataWriterQos qos = participant.writer_qos(topic_name, callbacks);
   apply_profile(profile, qos);
 
   auto publisher = std::make_unique<Publisher>();
   const std::string dds_topic = profile.avoid_ros_namespace_conventions ? topic_name : mangled_topic(topic_name);
   publisher->participant = &participant;
   publisher->topic = &participant.acquire_topic(dds_topic, callbacks);
-  publisher->writer = participant.publisher().create_datawriter(publisher->topic, qos, publisher.get(),
-                                                                fdds::StatusMask::publication_matched());
+  publisher->writer =
+      participant.publisher().create_datawriter(publisher->topic, qos, publisher.get(), WriterEvents::mask());
   if (publisher->writer == nullptr) {
     participant.release_topic(*publisher->topic);
     throw std::runtime_error("Fast DDS cannot create a writer on topic '" + dds_topic + "'");
@@ -120,7 +117,7 @@ rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
 rmw_ret_t rmw_publisher_count_matched_subscriptions(const rmw_publisher_t* publisher, size_t* subscription_count) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(subscription_count, RMW_RET_INVALID_ARGUMENT);
-  *subscription_count = publisher_of(*publisher).matched;
+  *subscription_count = publisher_of(*publisher).matched();
   return RMW_RET_OK;
 }
 
@@ -167,5 +164,18 @@ rmw_ret_t rmw_compare_gids_equal(const rmw_gid_t* gid1, const rmw_gid_t* gid2, b
   RMW_CHECK_HANDLE(gid2, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(result, RMW_RET_INVALID_ARGUMENT);
   *result = std::equal(std::begin(gid1->data), std::end(gid1->data), std::begin(gid2->data));
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_publisher_event_init(rmw_event_t* rmw_event, const rmw_publisher_t* publisher,
+                                   rmw_event_type_t event_type) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(rmw_event, RMW_RET_INVALID_ARGUMENT);
+  StatusEvent* event = publisher_of(*publisher).event(event_type);
+  if (event == nullptr) {
+    RMW_SET_ERROR_MSG("provided event_type is not supported for a publisher");
+    return RMW_RET_UNSUPPORTED;
+  }
+  *rmw_event = {kIdentifier, static_cast<Waitable*>(event), event_type};
   return RMW_RET_OK;
 }

@@ -173,3 +173,10 @@ rmw_ret_t rmw_service_response_publisher_get_actual_qos(const rmw_service_t* ser
   RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
   return service_of(*service).get_writer_qos(qos);
 }
+
+rmw_ret_t rmw_service_set_on_new_request_callback(rmw_service_t* service, rmw_event_callback_t callback,
+                                                  const void* user_data) {
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  service_of(*service).set_on_new_data(callback, user_data);
+  return RMW_RET_OK;
+}

@@ -57,7 +57,7 @@ void ServiceChannel::open(End end, Participant& participant, const rosidl_servic
 
 void ServiceChannel::open_reader(const std::string& topic_name, const message_type_support_callbacks_t& type,
                                  const rmw_qos_profile_t& profile) {
-  fdds::DataReaderQos qos = participant_->reader_qos(topic_name);
+  fdds::DataReaderQos qos = participant_->reader_qos(topic_name, type);
   apply_profile(profile, qos);
   reader_topic_ = &participant_->acquire_topic(topic_name, type);
   fdds::StatusMask events = fdds::StatusMask::data_available();
@@ -71,7 +71,7 @@ void ServiceChannel::open_reader(const std::string& topic_name, const message_ty
 
 void ServiceChannel::open_writer(const std::string& topic_name, const message_type_support_callbacks_t& type,
                                  const rmw_qos_profile_t& profile) {
-  fdds::DataWriterQos qos = participant_->writer_qos(topic_name);
+  fdds::DataWriterQos qos = participant_->writer_qos(topic_name, type);
   apply_profile(profile, qos);
   writer_topic_ = &participant_->acquire_topic(topic_name, type);
   writer =

@@ -1,5 +1,4 @@
 // Subscriptions: a DDS DataReader each.
-#include <atomic>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
@@ -8,39 +7,35 @@
 #include <memory>
 #include <stdexcept>
 
-#include "data_reader_waitable.hpp"
 #include "dds_gid.hpp"
 #include "endpoint.hpp"
 #include "identifier.hpp"
 #include "message_type.hpp"
 #include "participant.hpp"
 #include "qos.hpp"
+#include "reader_events.hpp"
 #include "rmw/error_handling.h"
 #include "topic_name.hpp"
 #include "tracetools/tracetools.h"
 
 namespace fdds = eprosima::fastdds::dds;
 
-using rmw_fastrtps::DataReaderWaitable;
 using rmw_fastrtps::EndpointIdentity;
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
 using rmw_fastrtps::Participant;
+using rmw_fastrtps::ReaderEvents;
+using rmw_fastrtps::StatusEvent;
 using rmw_fastrtps::Waitable;
 
 namespace {
 
-struct Subscription final : DataReaderWaitable {
-  void on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& info) override {
-    matched = static_cast<std::size_t>(info.current_count);
-  }
-
+struct Subscription final : ReaderEvents {
   rmw_subscription_t handle{};
   std::string topic_name;  // of the handle
   Participant* participant = nullptr;
   fdds::Topic* topic = nullptr;
   EndpointIdentity identity{};
-  std::atomic<std::size_t> matched{0};
 };
 
 // rmw_wait() takes `data` as a Waitable.
@@ -87,17 +82,15 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options) {
   const auto& callbacks = callbacks_of(&type_support);
-  fdds::DataReaderQos qos = participant.reader_qos(topic_name);
+  fdds::DataReaderQos qos = participant.reader_qos(topic_name, callbacks);
   apply_profile(profile, qos);
 
   auto subscription = std::make_unique<Subscription>();
   const std::string dds_topic = profile.avoid_ros_namespace_conventions ? topic_name : mangled_topic(topic_name);
   subscription->participant = &participant;
   subscription->topic = &participant.acquire_topic(dds_topic, callbacks);
-  fdds::StatusMask events = fdds::StatusMask::data_available();
-  events << fdds::StatusMask::subscription_matched();
   subscription->reader =
-      participant.subscriber().create_datareader(subscription->topic, qos, subscription.get(), events);
+      participant.subscriber().create_datareader(subscription->topic, qos, subscription.get(), ReaderEvents::mask());
   if (subscription->reader == nullptr) {
     participant.release_topic(*subscription->topic);
     throw std::runtime_error("Fast DDS cannot create a reader on topic '" + dds_topic + "'");
@@ -165,7 +158,7 @@ rmw_ret_t rmw_take_serialized_message_with_info(const rmw_subscription_t* subscr
 rmw_ret_t rmw_subscription_count_matched_publishers(const rmw_subscription_t* subscription, size_t* publisher_count) {
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(publisher_count, RMW_RET_INVALID_ARGUMENT);
-  *publisher_count = subscription_of(*subscription).matched;
+  *publisher_count = subscription_of(*subscription).matched();
   return RMW_RET_OK;
 }
 
@@ -173,5 +166,25 @@ rmw_ret_t rmw_subscription_get_actual_qos(const rmw_subscription_t* subscription
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos, RMW_RET_INVALID_ARGUMENT);
   *qos = rmw_fastrtps::profile_of(subscription_of(*subscription).reader->get_qos());
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_subscription_set_on_new_message_callback(rmw_subscription_t* subscription, rmw_event_callback_t callback,
+                                                       const void* user_data) {
+  RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
+  subscription_of(*subscription).set_on_new_data(callback, user_data);
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_subscription_event_init(rmw_event_t* rmw_event, const rmw_subscription_t* subscription,
+                                      rmw_event_type_t event_type) {
+  RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(rmw_event, RMW_RET_INVALID_ARGUMENT);
+  StatusEvent* event = subscription_of(*subscription).event(event_type);
+  if (event == nullptr) {
+    RMW_SET_ERROR_MSG("provided event_type is not supported for a subscription");
+    return RMW_RET_UNSUPPORTED;
+  }
+  *rmw_event = {kIdentifier, static_cast<Waitable*>(event), event_type};
   return RMW_RET_OK;
 }

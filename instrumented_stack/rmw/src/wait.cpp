@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <span>
@@ -33,22 +34,27 @@ std::optional<Waiter::TimePoint> deadline_after(const rmw_time_t* timeout) {
 // The state behind rmw_wait_set_t.
 struct WaitSet {
   Waiter waiter;
-  std::vector<Waitable*> waitables;  // room for the entities of a wait
+  // Room for the entities of a wait.
+  std::vector<Waitable*> waitables;
+  std::vector<Waitable*> ready;
 };
 
 // The entities of one call of rmw_wait(), null entries left out by each function.
 class Entities {
  public:
   Entities(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions, rmw_services_t* services,
-           rmw_clients_t* clients) {
+           rmw_clients_t* clients, rmw_events_t* events) {
     if (subscriptions != nullptr) {
-      readers_[0] = {subscriptions->subscribers, subscriptions->subscriber_count};
+      level_triggered_[0] = {subscriptions->subscribers, subscriptions->subscriber_count};
     }
     if (services != nullptr) {
-      readers_[1] = {services->services, services->service_count};
+      level_triggered_[1] = {services->services, services->service_count};
     }
     if (clients != nullptr) {
-      readers_[2] = {clients->clients, clients->client_count};
+      level_triggered_[2] = {clients->clients, clients->client_count};
+    }
+    if (events != nullptr) {
+      level_triggered_[3] = {events->events, events->event_count};
     }
     if (guard_conditions != nullptr) {
       guard_conditions_ = {guard_conditions->guard_conditions, guard_conditions->guard_condition_count};
@@ -64,23 +70,30 @@ class Entities {
         }
       }
     };
-    std::for_each(readers_.begin(), readers_.end(), append);
+    std::for_each(level_triggered_.begin(), level_triggered_.end(), append);
     append(guard_conditions_);
   }
 
-  // Nulls what is not ready and resets guard conditions. False if nothing is left.
-  bool keep_ready() const {
+  // Nulls what is not in `ready`, a part of collect()'s list in its order, and resets guard conditions. False if
+  // nothing is left.
+  bool keep(const std::vector<Waitable*>& ready) const {
     bool any = false;
-    for (std::span<void*> list : readers_) {
+    auto next = ready.begin();
+    const auto keep_entry = [&](void*& entity) {
+      if (next != ready.end() && entity == *next) {
+        ++next;
+      } else {
+        entity = nullptr;
+      }
+      return entity != nullptr;
+    };
+    for (std::span<void*> list : level_triggered_) {
       for (void*& entity : list) {
-        if (entity != nullptr && !static_cast<Waitable*>(entity)->is_ready()) {
-          entity = nullptr;
-        }
-        any |= entity != nullptr;
+        any |= keep_entry(entity);
       }
     }
     for (void*& entity : guard_conditions_) {
-      if (entity != nullptr && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
+      if (keep_entry(entity) && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
         entity = nullptr;
       }
       any |= entity != nullptr;
@@ -89,13 +102,9 @@ class Entities {
   }
 
  private:
-  std::array<std::span<void*>, 3> readers_;  // of subscriptions, services and clients
+  std::array<std::span<void*>, 4> level_triggered_;  // of subscriptions, services, clients and events
   std::span<void*> guard_conditions_;
 };
-
-bool any_ready(const std::vector<Waitable*>& waitables) {
-  return std::any_of(waitables.begin(), waitables.end(), [](Waitable* waitable) { return waitable->is_ready(); });
-}
 
 }  // namespace
 
@@ -148,20 +157,27 @@ rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set) {
 }
 
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
-                   rmw_services_t* services, rmw_clients_t* clients, rmw_wait_set_t* wait_set,
+                   rmw_services_t* services, rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set,
                    const rmw_time_t* wait_timeout) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
-  const Entities entities(subscriptions, guard_conditions, services, clients);
+  const Entities entities(subscriptions, guard_conditions, services, clients, events);
+  auto& [waiter, waitables, ready] = *static_cast<WaitSet*>(wait_set->data);
+  entities.collect(waitables);
+  ready.clear();
   const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
   if (may_block) {
     const auto deadline = deadline_after(wait_timeout);
-    auto& [waiter, waitables] = *static_cast<WaitSet*>(wait_set->data);
-    entities.collect(waitables);
-    waiter.reset();
     waiter.watch(waitables);
+    waiter.find_ready(waitables, ready);
     // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-    while (!any_ready(waitables) && waiter.wait_until(deadline)) {
+    while (ready.empty() && waiter.wait_until(deadline)) {
+      waiter.find_ready(waitables, ready);
     }
+  } else if (waiter.watches(waitables)) {
+    waiter.find_ready(waitables, ready);
+  } else {
+    std::copy_if(waitables.begin(), waitables.end(), std::back_inserter(ready),
+                 [](Waitable* waitable) { return waitable->is_ready(); });
   }
-  return entities.keep_ready() ? RMW_RET_OK : RMW_RET_TIMEOUT;
+  return entities.keep(ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }

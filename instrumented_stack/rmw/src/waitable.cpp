@@ -12,6 +12,23 @@ std::mutex& attachments() {
   return mutex;
 }
 
+// More are not looked for one by one.
+constexpr std::size_t kManyCandidates = 16;
+
+bool contains(const std::vector<Waitable*>& waitables, const Waitable* waitable) {
+  return std::find(waitables.begin(), waitables.end(), waitable) != waitables.end();
+}
+
+bool is_subsequence(const std::vector<Waitable*>& part, const std::vector<Waitable*>& whole) {
+  auto next = part.begin();
+  for (auto it = whole.begin(); it != whole.end() && next != part.end(); ++it) {
+    if (*it == *next) {
+      ++next;
+    }
+  }
+  return next == part.end();
+}
+
 }  // namespace
 
 Waiter::~Waiter() {
@@ -22,7 +39,7 @@ Waiter::~Waiter() {
 }
 
 void Waiter::watch(const std::vector<Waitable*>& waitables) {
-  if (waitables == wanted_ && !stale_.load(std::memory_order_acquire)) {
+  if (watches(waitables)) {
     return;
   }
   std::lock_guard lock(attachments());
@@ -35,16 +52,65 @@ void Waiter::watch(const std::vector<Waitable*>& waitables) {
   watched_ = waitables;
   wanted_ = waitables;
   stale_ = false;
+  std::lock_guard candidates_lock(mutex_);
+  candidates_.clear();
+  all_are_candidates_ = true;
 }
 
-void Waiter::reset() {
-  std::lock_guard lock(mutex_);
-  woken_ = false;
+bool Waiter::watches(const std::vector<Waitable*>& waitables) const {
+  return !stale_.load(std::memory_order_acquire) && is_subsequence(waitables, wanted_);
 }
 
-void Waiter::wake() {
+void Waiter::find_ready(const std::vector<Waitable*>& waitables, std::vector<Waitable*>& ready) {
+  asked_.clear();
+  bool all = false;
   {
     std::lock_guard lock(mutex_);
+    woken_ = false;
+    asked_.swap(candidates_);
+    all = std::exchange(all_are_candidates_, false);
+  }
+  // Not under the lock: DDS calls wake() under locks of its own, which is_ready() takes too.
+  const std::size_t before = ready.size();
+  for (Waitable* waitable : waitables) {
+    if (all || contains(asked_, waitable)) {
+      std::replace(asked_.begin(), asked_.end(), waitable, static_cast<Waitable*>(nullptr));
+      if (waitable->is_ready()) {
+        ready.push_back(waitable);
+      }
+    }
+  }
+  // Who is ready does not say so again. Who was not asked may be ready.
+  std::lock_guard lock(mutex_);
+  for (std::size_t i = before; i < ready.size(); ++i) {
+    add_candidate(ready[i]);
+  }
+  for (Waitable* waitable : asked_) {
+    if (waitable != nullptr) {
+      add_candidate(waitable);
+    }
+  }
+  if (all && waitables.size() < wanted_.size()) {
+    all_are_candidates_ = true;
+  }
+}
+
+void Waiter::add_candidate(Waitable* waitable) {
+  if (all_are_candidates_ || contains(candidates_, waitable)) {
+    return;
+  }
+  if (candidates_.size() == kManyCandidates) {
+    candidates_.clear();
+    all_are_candidates_ = true;
+  } else {
+    candidates_.push_back(waitable);
+  }
+}
+
+void Waiter::wake(Waitable& waitable) {
+  {
+    std::lock_guard lock(mutex_);
+    add_candidate(&waitable);
     if (woken_) {
       return;
     }
@@ -84,7 +150,7 @@ void Waitable::detach(Waiter& waiter) {
 void Waitable::notify() {
   std::lock_guard lock(mutex_);
   for (Waiter* waiter : waiters_) {
-    waiter->wake();
+    waiter->wake(*this);
   }
 }
 

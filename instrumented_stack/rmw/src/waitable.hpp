@@ -2,7 +2,7 @@
 //
 // They stay known to each other between waits, so that a wait for the same entities as before locks none of them. A
 // message costs one lock and one wake-up of the thread that waits for it, however many other entities that thread waits
-// for.
+// for; and since it says whose message it is, the idle ones are not even looked at.
 #pragma once
 
 #include <atomic>
@@ -26,31 +26,43 @@ class Waiter {
   Waiter(const Waiter&) = delete;
   Waiter& operator=(const Waiter&) = delete;
 
-  // From now on these, and no others, wake the waiter. They may be destroyed at any time before the next call, but not
-  // while the waiter sleeps.
+  // From now on these wake the waiter. If they are some of those of the last call, in the same order, the others go on
+  // waking it too: what an executor leaves out for the moment costs no lock, only a look more when it wakes. They may
+  // be destroyed at any time before the next call, but not while the waiter sleeps.
   void watch(const std::vector<Waitable*>& waitables);
 
-  // Forgets earlier calls of wake().
-  void reset();
+  // Whether watch() would change nothing.
+  bool watches(const std::vector<Waitable*>& waitables) const;
 
-  // Any thread.
-  void wake();
+  // Appends those of `waitables`, which must be watched, that are ready, in their order. Asks only those that have
+  // called wake() since they were last found not to be ready. Forgets earlier wake-ups.
+  void find_ready(const std::vector<Waitable*>& waitables, std::vector<Waitable*>& ready);
 
-  // Returns when wake() was called since the last reset() or wait, true, or at the deadline, false. No deadline:
+  // `waitable` may be ready now. Any thread.
+  void wake(Waitable& waitable);
+
+  // Returns when wake() was called since the last find_ready() or wait, true, or at the deadline, false. No deadline:
   // forever.
   bool wait_until(std::optional<TimePoint> deadline);
 
  private:
   friend class Waitable;
 
-  // The arguments of the last watch(), to be compared only. Of the waiting thread.
+  // The arguments of the last watch() that changed something, to be compared only. Of the waiting thread.
   std::vector<Waitable*> wanted_;
   std::atomic<bool> stale_{false};  // one of them was destroyed: its address may be another's now
   std::vector<Waitable*> watched_;  // those of them that live; under the lock of attachments
 
+  void add_candidate(Waitable* waitable);
+
+  std::vector<Waitable*> asked_;  // the candidates of a find_ready()
+
   std::mutex mutex_;
   std::condition_variable condition_;
   bool woken_ = false;
+  // Those that may be ready, if they are few; they may be gone, too, and are only compared.
+  std::vector<Waitable*> candidates_;
+  bool all_are_candidates_ = true;
 };
 
 // Something that becomes ready. `data` of subscriptions, services, clients and guard conditions points at one.

@@ -1,5 +1,6 @@
 // The stack as its users have it: installed, moved, and found by a project of their own.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <fstream>
 
@@ -12,8 +13,9 @@ namespace fs = std::filesystem;
 using test_support::Command;
 using test_support::CommandResult;
 using test_support::run_command;
+using test_support::RunningCommand;
 
-constexpr std::chrono::seconds kBuildTimeout{120};
+constexpr std::chrono::seconds kBuildTimeout{300};
 
 CommandResult run(std::vector<std::string> argv) {
   const CommandResult result = run_command(Command{std::move(argv)}, kBuildTimeout);
@@ -32,7 +34,7 @@ class InstalledStack : public testing::Test {
   const fs::path prefix_ = sandbox_.directory() / "moved";
 };
 
-TEST_F(InstalledStack, ServesAProjectWithItsOwnMessages) {
+TEST_F(InstalledStack, ServesAProjectWithItsOwnMessagesAndComponents) {
   const fs::path build = sandbox_.directory() / "build";
   run({CMAKE, "-S", OUTSIDE_PROJECT, "-B", build.string(), "-G", GENERATOR, "-DCMAKE_PREFIX_PATH=" + prefix_.string(),
        "-DCMAKE_CXX_COMPILER=" COMPILER, "-DCMAKE_CXX_COMPILER_LAUNCHER=" COMPILER_LAUNCHER});
@@ -49,6 +51,20 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessages) {
         "share/weather/cmake/weatherConfig.cmake", "share/ament_index/resource_index/packages/weather"}) {
     EXPECT_TRUE(fs::exists(other / file)) << file;
   }
+
+  // So are its components: a program, and libraries that a container of the stack finds by the index.
+  EXPECT_EQ(test_support::read_file(other / "share/ament_index/resource_index/rclcpp_components/weather"),
+            "instruments::Barometer;lib/libinstruments.so\ninstruments::Thermometer;lib/libinstruments.so\n");
+  EXPECT_EQ(run({(other / "lib/weather/barometer").string(), "--ros-args", "-r", "__ns:=/roof"}).out,
+            "/roof/barometer: 1013 hPa\n");
+  RunningCommand container(Command{{(prefix_ / "lib/rclcpp_components/component_container").string()},
+                                   {{"AMENT_PREFIX_PATH", other.string()}}});
+  EXPECT_EQ(run({(build / "observer").string()}).out,
+            "loaded /thermometer\n"
+            "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"\"}, temperature: -3.5, sky: \"clear\"}\n");
+  container.send_signal(SIGINT);
+  const CommandResult contained = container.wait();
+  EXPECT_EQ(contained.exit_code, 0) << contained.err;
 }
 
 TEST_F(InstalledStack, FindsItsLibrariesWhereItWasMovedTo) {

@@ -60,7 +60,7 @@ class Node {
     while (!condition()) {
       void* changed = rmw_node_get_graph_guard_condition(handle)->data;
       rmw_guard_conditions_t guard_conditions{1, &changed};
-      ASSERT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, wait_set_, &kPatience), RMW_RET_OK)
+      ASSERT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, nullptr, wait_set_, &kPatience), RMW_RET_OK)
           << "the graph stays as it is";
     }
   }
@@ -135,7 +135,7 @@ class Subscription {
   rmw_ret_t wait(const rmw_time_t& timeout) {
     void* entity = handle->data;
     rmw_subscriptions_t subscriptions{1, &entity};
-    return rmw_wait(&subscriptions, nullptr, nullptr, nullptr, wait_set_, &timeout);
+    return rmw_wait(&subscriptions, nullptr, nullptr, nullptr, nullptr, wait_set_, &timeout);
   }
 
   bool take(Message& message, rmw_message_info_t* info = nullptr) {

@@ -43,7 +43,7 @@ class Service {
   rmw_ret_t wait(const rmw_time_t& timeout) {
     void* entity = handle->data;
     rmw_services_t services{1, &entity};
-    return rmw_wait(nullptr, nullptr, &services, nullptr, wait_set_, &timeout);
+    return rmw_wait(nullptr, nullptr, &services, nullptr, nullptr, wait_set_, &timeout);
   }
   bool take(rmw_service_info_t& info, AddTwoInts::Request& request) {
     bool taken = false;
@@ -105,7 +105,7 @@ class Client {
   rmw_ret_t wait(const rmw_time_t& timeout) {
     void* entity = handle->data;
     rmw_clients_t clients{1, &entity};
-    return rmw_wait(nullptr, nullptr, nullptr, &clients, wait_set_, &timeout);
+    return rmw_wait(nullptr, nullptr, nullptr, &clients, nullptr, wait_set_, &timeout);
   }
   bool take(rmw_service_info_t& info, AddTwoInts::Response& response) {
     bool taken = false;
@@ -260,10 +260,10 @@ TEST_F(ServiceTest, WaitSetOutlivesAndIsOutlivedByWhatItWaitedFor) {
     void* entity = service.handle->data;
     rmw_services_t services{1, &entity};
     constexpr rmw_time_t kAMillisecond{0, 1000000};
-    EXPECT_EQ(rmw_wait(nullptr, nullptr, &services, nullptr, wait_set, &kAMillisecond), RMW_RET_TIMEOUT);
+    EXPECT_EQ(rmw_wait(nullptr, nullptr, &services, nullptr, nullptr, wait_set, &kAMillisecond), RMW_RET_TIMEOUT);
     client.send(1, i);
     entity = service.handle->data;
-    EXPECT_EQ(rmw_wait(nullptr, nullptr, &services, nullptr, wait_set, &kPatience), RMW_RET_OK);
+    EXPECT_EQ(rmw_wait(nullptr, nullptr, &services, nullptr, nullptr, wait_set, &kPatience), RMW_RET_OK);
   }
   EXPECT_EQ(rmw_destroy_wait_set(wait_set), RMW_RET_OK);
 }

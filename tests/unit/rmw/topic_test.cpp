@@ -273,13 +273,14 @@ TEST_F(Topic, GuardConditionsWakeOnceAndAreReset) {
   ASSERT_EQ(rmw_trigger_guard_condition(condition), RMW_RET_OK);
   void* entity = condition->data;
   rmw_guard_conditions_t guard_conditions{1, &entity};
-  EXPECT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, wait_set, &rmw_test::kPatience), RMW_RET_OK);
+  EXPECT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, nullptr, wait_set, &rmw_test::kPatience),
+            RMW_RET_OK);
   EXPECT_EQ(entity, condition->data);
-  EXPECT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, wait_set, &kNoWait), RMW_RET_TIMEOUT);
+  EXPECT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, nullptr, wait_set, &kNoWait), RMW_RET_TIMEOUT);
   EXPECT_EQ(entity, nullptr);
   std::thread other([&] { EXPECT_EQ(rmw_trigger_guard_condition(condition), RMW_RET_OK); });
   entity = condition->data;
-  EXPECT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, wait_set, nullptr), RMW_RET_OK);
+  EXPECT_EQ(rmw_wait(nullptr, &guard_conditions, nullptr, nullptr, nullptr, wait_set, nullptr), RMW_RET_OK);
   other.join();
   EXPECT_EQ(rmw_destroy_wait_set(wait_set), RMW_RET_OK);
   EXPECT_EQ(rmw_destroy_guard_condition(condition), RMW_RET_OK);

@@ -11,14 +11,15 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <random>
 #include <thread>
 #include <vector>
 
+#include "bytes_type.hpp"
 #include "rmw_dds_common/msg/participant_entities_info.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
@@ -29,40 +30,21 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
+using rmw_test::Bytes;
 using rmw_test::Context;
 using rmw_test::Node;
 using rmw_test::Publisher;
 using rmw_test::Subscription;
 
-// Messages of any type as their bytes.
-class Bytes final : public fdds::TopicDataType {
- public:
-  explicit Bytes(const char* type_name) {
-    setName(type_name);
-    m_typeSize = 4096;
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    const auto& bytes = *static_cast<const std::vector<uint8_t>*>(data);
-    std::copy(bytes.begin(), bytes.end(), payload->data);
-    payload->length = static_cast<uint32_t>(bytes.size());
-    payload->encapsulation = CDR_LE;
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    static_cast<std::vector<uint8_t>*>(data)->assign(payload->data, payload->data + payload->length);
-    return true;
-  }
-  std::function<uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<uint32_t>(static_cast<const std::vector<uint8_t>*>(data)->size()); };
-  }
-  void* createData() override { return new std::vector<uint8_t>; }
-  void deleteData(void* data) override { delete static_cast<std::vector<uint8_t>*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-};
-
-// Remembers the user data of the last participant that was found.
+// Remembers the user data of the last participant that was found, and of the endpoints by topic.
 class FoundParticipants final : public fdds::DomainParticipantListener {
  public:
+  void on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
+    remember(info.info.topicName().to_string(), info.info.m_qos.m_userData.data_vec());
+  }
+  void on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
+    remember(info.info.topicName().to_string(), info.info.m_qos.m_userData.data_vec());
+  }
   void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
     if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
       const auto& data = info.info.m_userData.data_vec();
@@ -80,10 +62,22 @@ class FoundParticipants final : public fdds::DomainParticipantListener {
     return name_;
   }
 
+  // Of an endpoint on the DDS topic, "" if none was found.
+  std::string user_data_on(const std::string& topic) {
+    std::lock_guard lock(mutex_);
+    return endpoints_[topic];
+  }
+
  private:
+  void remember(const std::string& topic, const std::vector<rtps::octet>& data) {
+    std::lock_guard lock(mutex_);
+    endpoints_[topic].assign(data.begin(), data.end());
+  }
+
   std::mutex mutex_;
   std::string user_data_;
   std::string name_;
+  std::map<std::string, std::string> endpoints_;
 };
 
 constexpr uint32_t kDomain = 42;
@@ -163,6 +157,17 @@ TEST_F(Wire, ParticipantsAnnounceTheirEnclave) {
   wait_for([&] { return !found_.user_data().empty(); });
   EXPECT_STREQ(found_.user_data().c_str(), "enclave=/;");
   EXPECT_EQ(found_.name(), "/");
+}
+
+TEST_F(Wire, EndpointsAnnounceTheDefinitionOfTheirType) {
+  Node node(context_);
+  const Publisher<std_msgs::msg::String> publisher(node, "/chatter");
+  const Subscription<std_msgs::msg::String> subscription(node, "/heard");
+  for (const char* topic : {"rt/chatter", "rt/heard"}) {
+    wait_for([&] { return !found_.user_data_on(topic).empty(); });
+    EXPECT_EQ(found_.user_data_on(topic),
+              "typehash=RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18;");
+  }
 }
 
 TEST_F(Wire, NodesAreAnnouncedOnRosDiscoveryInfo) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <string_view>
+#include <thread>
 
 #include "tracetools/tracetools.h"
 
@@ -125,6 +126,7 @@ int main(int argc, char** argv) {
   TRACETOOLS_EXT_TRACEPOINT(state_dump_end, 2);
   TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state, at(0x1), "active");
 
+  std::thread([] {}).join();  // with it a sanitizer starts its own, if lttng-ust has not caused that already
   const auto threads = std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   std::printf("%d\n", static_cast<int>(threads));
 }

@@ -169,7 +169,7 @@ TEST_F(StateDump, AgreesWithObjectsThatComeAndGo) {
   run({"lttng", "regenerate", "statedump", "--session=busy"});
   finish_session("busy");
   process.send_signal(SIGTERM);
-  process.wait();
+  EXPECT_EQ(process.wait().err, "");
 
   const Lines events = recorded("busy");
   EXPECT_GE(std::count_if(events.begin(), events.end(),

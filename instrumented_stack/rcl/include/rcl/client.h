@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "rcl/event_callback.h"
 #include "rcl/node.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
 
@@ -46,6 +47,11 @@ rmw_client_t* rcl_client_get_rmw_handle(const rcl_client_t* client);
 const rmw_qos_profile_t* rcl_client_request_publisher_get_actual_qos(const rcl_client_t* client);
 const rmw_qos_profile_t* rcl_client_response_subscription_get_actual_qos(const rcl_client_t* client);
 bool rcl_client_is_valid(const rcl_client_t* client);
+
+// `callback` is told of every response that arrives, and at once of those that wait to be taken. Null ends the calls:
+// none is going on any more when this returns. Not to be called from the callback.
+rcl_ret_t rcl_client_set_on_new_response_callback(const rcl_client_t* client, rcl_event_callback_t callback,
+                                                  const void* user_data);
 
 #ifdef __cplusplus
 }

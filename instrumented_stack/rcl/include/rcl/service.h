@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 
+#include "rcl/event_callback.h"
 #include "rcl/node.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
 
@@ -46,6 +47,11 @@ rmw_service_t* rcl_service_get_rmw_handle(const rcl_service_t* service);
 const rmw_qos_profile_t* rcl_service_request_subscription_get_actual_qos(const rcl_service_t* service);
 const rmw_qos_profile_t* rcl_service_response_publisher_get_actual_qos(const rcl_service_t* service);
 bool rcl_service_is_valid(const rcl_service_t* service);
+
+// `callback` is told of every request that arrives, and at once of those that wait to be taken. Null ends the calls:
+// none is going on any more when this returns. Not to be called from the callback.
+rcl_ret_t rcl_service_set_on_new_request_callback(const rcl_service_t* service, rcl_event_callback_t callback,
+                                                  const void* user_data);
 
 #ifdef __cplusplus
 }

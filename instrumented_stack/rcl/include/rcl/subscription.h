@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "rcl/event_callback.h"
 #include "rcl/node.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
 
@@ -47,6 +48,11 @@ const rmw_qos_profile_t* rcl_subscription_get_actual_qos(const rcl_subscription_
 rcl_ret_t rcl_subscription_get_publisher_count(const rcl_subscription_t* subscription, size_t* publisher_count);
 bool rcl_subscription_is_valid(const rcl_subscription_t* subscription);
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription);
+
+// `callback` is told of every message that arrives, and at once of those that wait to be taken. Null ends the calls:
+// none is going on any more when this returns. Not to be called from the callback.
+rcl_ret_t rcl_subscription_set_on_new_message_callback(const rcl_subscription_t* subscription,
+                                                       rcl_event_callback_t callback, const void* user_data);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,7 @@
 
 #include "rcl/allocator.h"
 #include "rcl/context.h"
+#include "rcl/event_callback.h"
 #include "rcl/guard_condition.h"
 #include "rcl/time.h"
 #include "rcl/types.h"
@@ -64,6 +65,12 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t* timer);
 
 // Triggered by a reset or a jump of simulated time, so that a wait set computes its timeout anew. Owned by the timer.
 rcl_guard_condition_t* rcl_timer_get_guard_condition(const rcl_timer_t* timer);
+
+// `callback` is told of every reset, and of every jump of simulated time, which may make the timer due: for who waits
+// for timers without a wait set. Null ends the calls: none is going on any more when this returns. Not to be called
+// from the callback.
+rcl_ret_t rcl_timer_set_on_reset_callback(const rcl_timer_t* timer, rcl_event_callback_t callback,
+                                          const void* user_data);
 
 #ifdef __cplusplus
 }

@@ -47,4 +47,7 @@ typedef rmw_ret_t rcl_ret_t;
 #define RCL_RET_INVALID_PARAM_RULE 1010
 #define RCL_RET_INVALID_LOG_LEVEL_RULE 1020
 
+#define RCL_RET_EVENT_INVALID 2000
+#define RCL_RET_EVENT_TAKE_FAILED 2001
+
 typedef rmw_serialized_message_t rcl_serialized_message_t;

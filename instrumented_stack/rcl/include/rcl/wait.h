@@ -1,4 +1,4 @@
-// Waiting for subscriptions, guard conditions, timers, clients and services.
+// Waiting for subscriptions, guard conditions, timers, clients, services and events.
 //
 // Each round: rcl_wait_set_clear(), add everything, rcl_wait(); afterwards the entries that are not ready are null.
 // A wait set serves one thread at a time.
@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "rcl/client.h"
+#include "rcl/event.h"
 #include "rcl/guard_condition.h"
 #include "rcl/service.h"
 #include "rcl/subscription.h"
@@ -31,12 +32,14 @@ typedef struct rcl_wait_set_s {
   size_t size_of_clients;
   const rcl_service_t** services;
   size_t size_of_services;
+  const rcl_event_t** events;
+  size_t size_of_events;
   rcl_wait_set_impl_t* impl;
 } rcl_wait_set_t;
 
 rcl_wait_set_t rcl_get_zero_initialized_wait_set(void);
 
-// Makes room for that many of each kind. Events are not waited for: their number must be 0.
+// Makes room for that many of each kind.
 rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscriptions, size_t number_of_guard_conditions,
                             size_t number_of_timers, size_t number_of_clients, size_t number_of_services,
                             size_t number_of_events, rcl_context_t* context, rcl_allocator_t allocator);
@@ -58,6 +61,7 @@ rcl_ret_t rcl_wait_set_add_guard_condition(rcl_wait_set_t* wait_set, const rcl_g
 rcl_ret_t rcl_wait_set_add_timer(rcl_wait_set_t* wait_set, const rcl_timer_t* timer, size_t* index);
 rcl_ret_t rcl_wait_set_add_client(rcl_wait_set_t* wait_set, const rcl_client_t* client, size_t* index);
 rcl_ret_t rcl_wait_set_add_service(rcl_wait_set_t* wait_set, const rcl_service_t* service, size_t* index);
+rcl_ret_t rcl_wait_set_add_event(rcl_wait_set_t* wait_set, const rcl_event_t* event, size_t* index);
 
 // `timeout` in ns: 0 does not block, negative waits forever. RCL_RET_TIMEOUT when nothing became ready in that time,
 // RCL_RET_WAIT_SET_EMPTY when there is nothing to wait for.

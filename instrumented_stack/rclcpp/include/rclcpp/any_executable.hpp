@@ -3,18 +3,36 @@
 
 #include <memory>
 
+#include "rclcpp/callback_group.hpp"
 #include "rclcpp/client_base.hpp"
+#include "rclcpp/macros.hpp"
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
 
+// Holds its group: while it lives, nothing else of a mutually exclusive group is executed.
 struct AnyExecutable {
+  AnyExecutable() = default;
+  ~AnyExecutable() { release_group(); }
+  RCLCPP_DISABLE_COPY(AnyExecutable)
+
+  void release_group() {
+    if (callback_group) {
+      callback_group->can_be_taken_from() = true;
+      callback_group.reset();
+    }
+  }
+
   TimerBase::SharedPtr timer;
   SubscriptionBase::SharedPtr subscription;
   ServiceBase::SharedPtr service;
   ClientBase::SharedPtr client;
+  Waitable::SharedPtr waitable;
+  std::shared_ptr<void> data;  // of the waitable
+  CallbackGroup::SharedPtr callback_group;
 };
 
 }  // namespace rclcpp

@@ -1,5 +1,5 @@
-// The entities (timers, subscriptions, services, clients) whose callbacks belong together, and the unit that an
-// executor serves.
+// The entities (timers, subscriptions, services, clients, waitables) whose callbacks belong together, and the unit that
+// an executor serves.
 #pragma once
 
 #include <atomic>
@@ -17,6 +17,7 @@ class ClientBase;
 class ServiceBase;
 class SubscriptionBase;
 class TimerBase;
+class Waitable;
 
 enum class CallbackGroupType {
   MutuallyExclusive,  // one callback at a time
@@ -36,21 +37,57 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   bool automatically_add_to_executor_with_node() const { return automatically_add_to_executor_with_node_; }
   // True while an executor has the group. Executors set it.
   std::atomic_bool& get_associated_with_executor_atomic() { return associated_with_executor_; }
+  // False while a callback of a mutually exclusive group runs, or is about to. Executors set it.
+  std::atomic_bool& can_be_taken_from() { return *can_be_taken_from_; }
+  // The same, for who may outlive the group.
+  std::shared_ptr<const std::atomic_bool> shared_can_be_taken_from() const { return can_be_taken_from_; }
 
   void add_subscription(const std::shared_ptr<SubscriptionBase>& subscription);
   void add_timer(const std::shared_ptr<TimerBase>& timer);
   void add_service(const std::shared_ptr<ServiceBase>& service);
   void add_client(const std::shared_ptr<ClientBase>& client);
+  void add_waitable(const std::shared_ptr<Waitable>& waitable);
+  void remove_waitable(const std::shared_ptr<Waitable>& waitable) noexcept;
 
   struct Entities {
     std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
     std::vector<std::shared_ptr<TimerBase>> timers;
     std::vector<std::shared_ptr<ServiceBase>> services;
     std::vector<std::shared_ptr<ClientBase>> clients;
+    std::vector<std::shared_ptr<Waitable>> waitables;
   };
   // Appends the living entities. Release them outside of every lock: they may be the last owners.
   void collect(Entities& entities) const;
   size_t size() const;
+
+  // The first living entity of the kind for which `function` is true, else null.
+  template <typename FunctionT>
+  std::shared_ptr<SubscriptionBase> find_subscription_ptrs_if(FunctionT function) const {
+    return find_if(living().subscriptions, function);
+  }
+  template <typename FunctionT>
+  std::shared_ptr<TimerBase> find_timer_ptrs_if(FunctionT function) const {
+    return find_if(living().timers, function);
+  }
+  template <typename FunctionT>
+  std::shared_ptr<ServiceBase> find_service_ptrs_if(FunctionT function) const {
+    return find_if(living().services, function);
+  }
+  template <typename FunctionT>
+  std::shared_ptr<ClientBase> find_client_ptrs_if(FunctionT function) const {
+    return find_if(living().clients, function);
+  }
+  template <typename FunctionT>
+  std::shared_ptr<Waitable> find_waitable_ptrs_if(FunctionT function) const {
+    return find_if(living().waitables, function);
+  }
+
+  // Calls the function of its kind with every living entity.
+  void collect_all_ptrs(const std::function<void(const std::shared_ptr<SubscriptionBase>&)>& subscription_function,
+                        const std::function<void(const std::shared_ptr<ServiceBase>&)>& service_function,
+                        const std::function<void(const std::shared_ptr<ClientBase>&)>& client_function,
+                        const std::function<void(const std::shared_ptr<TimerBase>&)>& timer_function,
+                        const std::function<void(const std::shared_ptr<Waitable>&)>& waitable_function) const;
 
   // What happens after an entity was added or destroyed, and when the group is: the executor's business. Called under
   // no lock.
@@ -64,16 +101,28 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   template <typename EntityT>
   void add(std::vector<std::weak_ptr<EntityT>> CallbackGroup::*list, const std::shared_ptr<EntityT>& entity);
   void notify() const;
+  Entities living() const;
+  template <typename EntityT, typename FunctionT>
+  static std::shared_ptr<EntityT> find_if(const std::vector<std::shared_ptr<EntityT>>& entities, FunctionT function) {
+    for (const std::shared_ptr<EntityT>& entity : entities) {
+      if (function(entity)) {
+        return entity;
+      }
+    }
+    return nullptr;
+  }
 
   const CallbackGroupType type_;
   const bool automatically_add_to_executor_with_node_;
   std::atomic_bool associated_with_executor_{false};
+  const std::shared_ptr<std::atomic_bool> can_be_taken_from_ = std::make_shared<std::atomic_bool>(true);
 
   mutable std::mutex mutex_;
   std::vector<std::weak_ptr<SubscriptionBase>> subscriptions_;
   std::vector<std::weak_ptr<TimerBase>> timers_;
   std::vector<std::weak_ptr<ServiceBase>> services_;
   std::vector<std::weak_ptr<ClientBase>> clients_;
+  std::vector<std::weak_ptr<Waitable>> waitables_;
   std::function<void()> on_change_;
 };
 

@@ -3,13 +3,16 @@
 
 #include <rcl/client.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "rclcpp/callback_group.hpp"
+#include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/qos.hpp"
@@ -49,6 +52,14 @@ class ClientBase {
   std::shared_ptr<rcl_client_t> get_client_handle() { return client_handle_; }
   std::shared_ptr<const rcl_client_t> get_client_handle() const { return client_handle_; }
 
+  // For executors that are told instead of waiting: `callback` gets the number of new responses, also of those that
+  // wait to be taken when it is set. It is called by threads of the middleware and must only take note. Throws
+  // std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  void set_on_new_response_callback(std::function<void(size_t)> callback);
+  void clear_on_new_response_callback();
+  // Sets whether a wait set uses this; the former state.
+  bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
+
   // The group that serves this client, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
@@ -66,6 +77,8 @@ class ClientBase {
   std::shared_ptr<Context> context_;
   std::shared_ptr<rcl_client_t> client_handle_;
   CallbackGroup::WeakPtr callback_group_;
+  detail::OnReadyCallback on_ready_;
+  std::atomic_bool in_use_by_wait_set_{false};
 };
 
 }  // namespace rclcpp

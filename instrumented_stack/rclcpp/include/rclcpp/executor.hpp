@@ -35,16 +35,22 @@ class Executor {
   RCLCPP_DISABLE_COPY(Executor)
 
   // Adds the node's callback groups, present and future ones, unless they were made to be added one by one. Throws
-  // std::runtime_error if an executor has the node already.
-  void add_node(const NodePtr& node);
-  void add_node(const std::shared_ptr<Node>& node);
+  // std::runtime_error if an executor has the node already. Executors that wait take note at once; `notify` is of
+  // rclcpp's interface.
+  virtual void add_node(const NodePtr& node, bool notify = true);
+  virtual void add_node(const std::shared_ptr<Node>& node, bool notify = true);
   // Throws std::runtime_error if this executor does not have the node.
-  void remove_node(const NodePtr& node);
-  void remove_node(const std::shared_ptr<Node>& node);
+  virtual void remove_node(const NodePtr& node, bool notify = true);
+  virtual void remove_node(const std::shared_ptr<Node>& node, bool notify = true);
 
-  void add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node);
-  void remove_callback_group(const CallbackGroup::SharedPtr& group);
-  std::vector<CallbackGroup::WeakPtr> get_all_callback_groups();
+  // Adds one group; with the node only after remove_callback_group(). Throw like the functions for nodes.
+  virtual void add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool notify = true);
+  virtual void remove_callback_group(const CallbackGroup::SharedPtr& group, bool notify = true);
+  virtual std::vector<CallbackGroup::WeakPtr> get_all_callback_groups();
+  // Those of add_callback_group().
+  virtual std::vector<CallbackGroup::WeakPtr> get_manually_added_callback_groups();
+  // Those of the nodes.
+  virtual std::vector<CallbackGroup::WeakPtr> get_automatically_added_callback_groups_from_nodes();
 
   // Runs callbacks until shutdown or cancel().
   virtual void spin() = 0;
@@ -64,6 +70,8 @@ class Executor {
   void spin_node_once(const NodePtr& node, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
   void spin_node_once(const std::shared_ptr<Node>& node,
                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+  void spin_node_all(const NodePtr& node, std::chrono::nanoseconds max_duration);
+  void spin_node_all(const std::shared_ptr<Node>& node, std::chrono::nanoseconds max_duration);
 
   // Runs callbacks until the future has its value. Negative waits for ever.
   template <typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
@@ -80,28 +88,35 @@ class Executor {
  protected:
   class SpinningScope;
 
-  // The next thing to execute; waits for one if there is none. False when the wait ended with nothing.
+  // What spin_once(), spin_some() and spin_all() do when the executor is marked as spinning.
+  virtual void spin_once_impl(std::chrono::nanoseconds timeout);
+  virtual void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive);
+
+  // The next thing to execute; waits for one if there is none. False when the wait ended with nothing. It, and the two
+  // it consists of, are for one thread at a time.
   bool get_next_executable(AnyExecutable& any_executable,
                            std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
   bool get_next_ready_executable(AnyExecutable& any_executable);
   void wait_for_work(std::chrono::nanoseconds timeout);
+  // Executes it and lets go of its group. Any thread.
   void execute_any_executable(AnyExecutable& any_executable);
+  // Ends the wait of the thread that waits, or else the next wait.
+  void interrupt();
 
   std::atomic_bool spinning_{false};
   Context::SharedPtr context_;
+  const std::shared_ptr<ExecutorEntities> entities_;
 
  private:
   FutureReturnCode spin_until(const std::function<bool()>& complete, std::chrono::nanoseconds timeout);
-  void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive);
-
-  std::shared_ptr<ExecutorEntities> entities_;
-  void forget_ready();
 
   // What the last wait found, the first next_ready_ of it used up: O(1) per callback, however many entities there are,
   // and no allocation once it has grown.
   std::vector<detail::ReadyEntity> ready_;
   size_t next_ready_ = 0;
-  size_t removals_before_wait_ = 0;  // of nodes and groups; later ones make ready_ stale
+  // Waitables that were found ready while their group was busy. Other entities will be found again.
+  std::vector<detail::ReadyEntity> postponed_;
+  size_t removals_seen_ = 0;  // of nodes and groups; later ones make ready_ stale
   OnShutdownCallbackHandle shutdown_callback_;
 };
 

@@ -1,10 +1,12 @@
-// Spinning in one line: a single-threaded executor for one node.
+// Spinning in one line: a single-threaded executor for one node. And every executor.
 #pragma once
 
 #include <chrono>
 #include <memory>
 
+#include "rclcpp/executors/multi_threaded_executor.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
+#include "rclcpp/executors/static_single_threaded_executor.hpp"
 #include "rclcpp/node.hpp"
 
 namespace rclcpp {

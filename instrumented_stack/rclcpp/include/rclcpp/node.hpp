@@ -25,6 +25,7 @@
 #include "rclcpp/node_interfaces/node_timers.hpp"
 #include "rclcpp/node_interfaces/node_topics.hpp"
 #include "rclcpp/node_interfaces/node_type_descriptions.hpp"
+#include "rclcpp/node_interfaces/node_waitables.hpp"
 #include "rclcpp/node_options.hpp"
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/publisher.hpp"
@@ -71,8 +72,9 @@ class Node : public std::enable_shared_from_this<Node> {
   // Throw exceptions::InvalidTopicNameError or exceptions::RCLError. Publisher, subscription and timer live as long as
   // the pointer.
   template <typename MessageT>
-  std::shared_ptr<Publisher<MessageT>> create_publisher(const std::string& topic_name, const QoS& qos) {
-    return rclcpp::create_publisher<MessageT>(*this, topic_name, qos);
+  std::shared_ptr<Publisher<MessageT>> create_publisher(const std::string& topic_name, const QoS& qos,
+                                                        const PublisherOptions& options = PublisherOptions()) {
+    return rclcpp::create_publisher<MessageT>(*this, topic_name, qos, options);
   }
 
   // For the forms of the callback see any_subscription_callback.hpp.
@@ -206,6 +208,7 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeTopicsInterface::SharedPtr get_node_topics_interface() { return node_topics_; }
   node_interfaces::NodeTimersInterface::SharedPtr get_node_timers_interface() { return node_timers_; }
   node_interfaces::NodeServicesInterface::SharedPtr get_node_services_interface() { return node_services_; }
+  node_interfaces::NodeWaitablesInterface::SharedPtr get_node_waitables_interface() { return node_waitables_; }
   node_interfaces::NodeParametersInterface::SharedPtr get_node_parameters_interface() { return node_parameters_; }
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr get_node_type_descriptions_interface() {
     return node_type_descriptions_;
@@ -222,6 +225,7 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeTimersInterface::SharedPtr node_timers_;
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
   node_interfaces::NodeServicesInterface::SharedPtr node_services_;
+  node_interfaces::NodeWaitablesInterface::SharedPtr node_waitables_;
   Clock::SharedPtr clock_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr node_type_descriptions_;

@@ -16,8 +16,10 @@ class Publisher : public PublisherBase {
   using ROSMessageType = MessageT;
   RCLCPP_SMART_PTR_DEFINITIONS(Publisher<MessageT>)
 
-  Publisher(node_interfaces::NodeBaseInterface* node_base, const std::string& topic, const QoS& qos)
-      : PublisherBase(node_base, topic, *rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>(), qos) {}
+  Publisher(node_interfaces::NodeBaseInterface* node_base, const std::string& topic, const QoS& qos,
+            const PublisherOptionsBase& options = PublisherOptionsBase())
+      : PublisherBase(node_base, topic, *rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>(), qos,
+                      options) {}
 
   virtual void publish(const MessageT& message) { publish_message(&message); }
   virtual void publish(std::unique_ptr<MessageT> message) { publish_message(message.get()); }

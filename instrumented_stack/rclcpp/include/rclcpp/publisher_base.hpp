@@ -9,9 +9,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
+#include "rclcpp/event_handler.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/publisher_options.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/serialized_message.hpp"
 
@@ -23,7 +27,8 @@ class PublisherBase {
 
   // Throws exceptions::InvalidTopicNameError or exceptions::RCLError.
   PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
-                const rosidl_message_type_support_t& type_support, const QoS& qos);
+                const rosidl_message_type_support_t& type_support, const QoS& qos,
+                const PublisherOptionsBase& options = PublisherOptionsBase());
   virtual ~PublisherBase();
   RCLCPP_DISABLE_COPY(PublisherBase)
 
@@ -47,6 +52,12 @@ class PublisherBase {
     return wait_for_all_acked_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
 
+  // Of the callbacks in the options, and the default one.
+  using EventHandlers = std::unordered_map<rcl_publisher_event_type_t, std::shared_ptr<EventHandlerBase>>;
+  const EventHandlers& get_event_handlers() const { return event_handlers_; }
+  // The group that serves the event handlers.
+  void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
+
   std::shared_ptr<rcl_publisher_t> get_publisher_handle() { return publisher_handle_; }
   std::shared_ptr<const rcl_publisher_t> get_publisher_handle() const { return publisher_handle_; }
 
@@ -58,9 +69,15 @@ class PublisherBase {
  private:
   bool wait_for_all_acked_ns(std::chrono::nanoseconds timeout) const;
   void check_published(rcl_ret_t ret, const char* what) const;
+  void bind_event_callbacks(const PublisherEventCallbacks& callbacks, bool use_default_callbacks,
+                            const std::string& logger_name);
+  template <typename EventCallbackT>
+  void add_event_handler(const EventCallbackT& callback, rcl_publisher_event_type_t event_type);
 
   std::shared_ptr<rcl_publisher_t> publisher_handle_;
   rmw_gid_t gid_;
+  EventHandlers event_handlers_;
+  CallbackGroup::WeakPtr callback_group_;
 };
 
 }  // namespace rclcpp

@@ -6,10 +6,12 @@
 //   rclcpp::SensorDataQoS()                        newest data first, losses allowed
 #pragma once
 
+#include <rmw/qos_policy_kind.h>
 #include <rmw/types.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "rclcpp/duration.hpp"
 
@@ -128,6 +130,9 @@ class ClockQoS : public QoS {
  public:
   explicit ClockQoS(const QoSInitialization& history = KeepLast(1));
 };
+
+// RELIABILITY_QOS_POLICY and so on; INVALID_QOS_POLICY for what is none.
+std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t policy_kind);
 
 class SensorDataQoS : public QoS {
  public:

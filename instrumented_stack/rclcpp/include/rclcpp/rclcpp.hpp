@@ -10,7 +10,9 @@
 //   parameter.hpp        Parameter                             parameter_value.hpp
 //   parameter_client.hpp SyncParametersClient                  AsyncParametersClient
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
-//   executors.hpp        spin, SingleThreadedExecutor          executor.hpp, callback_group.hpp, guard_condition.hpp
+//   executors.hpp        spin, the executors                   executor.hpp, executors/, callback_group.hpp
+//   waitable.hpp         Waitable                              guard_condition.hpp, node_interfaces/node_waitables.hpp
+//   wait_set.hpp         WaitSet and its like                  wait_for_message.hpp
 //   logging.hpp          RCLCPP_INFO and its like              logger.hpp
 //   exceptions.hpp       what all of this throws
 //
@@ -28,3 +30,6 @@
 #include "rclcpp/serialization.hpp"
 #include "rclcpp/time.hpp"
 #include "rclcpp/utilities.hpp"
+#include "rclcpp/wait_for_message.hpp"
+#include "rclcpp/wait_set.hpp"
+#include "rclcpp/waitable.hpp"

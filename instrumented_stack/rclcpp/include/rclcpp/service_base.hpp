@@ -3,12 +3,15 @@
 
 #include <rcl/service.h>
 
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "rclcpp/any_service_callback.hpp"
 #include "rclcpp/callback_group.hpp"
+#include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/qos.hpp"
@@ -39,6 +42,14 @@ class ServiceBase {
   std::shared_ptr<rcl_service_t> get_service_handle() { return service_handle_; }
   std::shared_ptr<const rcl_service_t> get_service_handle() const { return service_handle_; }
 
+  // For executors that are told instead of waiting: `callback` gets the number of new requests, also of those that wait
+  // to be taken when it is set. It is called by threads of the middleware and must only take note. Throws
+  // std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  void set_on_new_request_callback(std::function<void(size_t)> callback);
+  void clear_on_new_request_callback();
+  // Sets whether a wait set uses this; the former state.
+  bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
+
   // The group that serves this service, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
@@ -55,6 +66,8 @@ class ServiceBase {
  private:
   std::shared_ptr<rcl_service_t> service_handle_;
   CallbackGroup::WeakPtr callback_group_;
+  detail::OnReadyCallback on_ready_;
+  std::atomic_bool in_use_by_wait_set_{false};
   const void* traced_callback_ = nullptr;  // as trace_creation() told it
 };
 

@@ -3,13 +3,18 @@
 
 #include <rcl/subscription.h>
 
+#include <atomic>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 
 #include "rclcpp/any_subscription_callback.hpp"
 #include "rclcpp/callback_group.hpp"
+#include "rclcpp/detail/on_ready_callback.hpp"
+#include "rclcpp/event_handler.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/message_info.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
@@ -43,8 +48,20 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // What an executor does with a subscription that is ready: one message, from the middleware to the callback.
   void execute();
 
+  // Of the callbacks in the options, and the default one.
+  using EventHandlers = std::unordered_map<rcl_subscription_event_type_t, std::shared_ptr<EventHandlerBase>>;
+  const EventHandlers& get_event_handlers() const { return event_handlers_; }
+
   std::shared_ptr<rcl_subscription_t> get_subscription_handle() { return subscription_handle_; }
   std::shared_ptr<const rcl_subscription_t> get_subscription_handle() const { return subscription_handle_; }
+
+  // For executors that are told instead of waiting: `callback` gets the number of new messages, also of those that wait
+  // to be taken when it is set. It is called by threads of the middleware and must only take note. Throws
+  // std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  void set_on_new_message_callback(std::function<void(size_t)> callback);
+  void clear_on_new_message_callback();
+  // Sets whether a wait set uses this; the former state.
+  bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
   // The group that serves this subscription, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
@@ -58,6 +75,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
  private:
   bool check_taken(rcl_ret_t ret) const;
+  void bind_event_callbacks(const SubscriptionEventCallbacks& callbacks, bool use_default_callbacks,
+                            const std::string& logger_name);
+  template <typename EventCallbackT>
+  void add_event_handler(const EventCallbackT& callback, rcl_subscription_event_type_t event_type);
   // A message, or serialized message, for the callback, and after the callback the way back.
   std::shared_ptr<void> borrow_message();
   void return_message(std::shared_ptr<void> message);
@@ -65,6 +86,9 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;
   CallbackGroup::WeakPtr callback_group_;
+  EventHandlers event_handlers_;
+  detail::OnReadyCallback on_ready_;
+  std::atomic_bool in_use_by_wait_set_{false};
   const void* traced_callback_ = nullptr;  // as trace_creation() told it
   // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
   // run such a callback several times at once.

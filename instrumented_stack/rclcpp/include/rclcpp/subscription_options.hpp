@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rclcpp/callback_group.hpp"
+#include "rclcpp/event_handler.hpp"
 
 namespace rclcpp {
 
@@ -10,6 +11,9 @@ struct SubscriptionOptions {
   CallbackGroup::SharedPtr callback_group;
   // Drops what publishers of the same context send.
   bool ignore_local_publications = false;
+  // Whether events without a callback get the default one: a warning that an endpoint cannot match.
+  bool use_default_callbacks = true;
+  SubscriptionEventCallbacks event_callbacks;
 };
 
 }  // namespace rclcpp

@@ -3,7 +3,9 @@
 
 #include <rcl/timer.h>
 
+#include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -13,6 +15,7 @@
 #include "rclcpp/clock.hpp"
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/callback_symbol.hpp"
+#include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/macros.hpp"
 
 namespace rclcpp {
@@ -46,6 +49,13 @@ class TimerBase {
   std::shared_ptr<const rcl_timer_t> get_timer_handle() const { return timer_handle_; }
   std::shared_ptr<rcl_timer_t> get_timer_handle() { return timer_handle_; }
 
+  // `callback` is called after every reset(), and after every jump of simulated time, by the thread that does it.
+  // Throws std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  void set_on_reset_callback(std::function<void(size_t)> callback);
+  void clear_on_reset_callback();
+  // Sets whether a wait set uses this; the former state.
+  bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
+
   // The group that serves this timer, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
@@ -60,6 +70,8 @@ class TimerBase {
   std::shared_ptr<rcl_timer_t> timer_handle_;
   const void* callback_ = nullptr;
   CallbackGroup::WeakPtr callback_group_;
+  detail::OnReadyCallback on_ready_;
+  std::atomic_bool in_use_by_wait_set_{false};
 };
 
 // `FunctorT` is callable with nothing or with a TimerBase &.

@@ -11,6 +11,8 @@
 #include <stdint.h>
 
 #include "rcutils/types/string_array.h"
+#include "rmw/event.h"
+#include "rmw/event_callback_type.h"
 #include "rmw/init.h"
 #include "rmw/names_and_types.h"
 #include "rmw/qos_profiles.h"
@@ -66,6 +68,12 @@ rmw_ret_t rmw_destroy_subscription(rmw_node_t* node, rmw_subscription_t* subscri
 rmw_ret_t rmw_subscription_count_matched_publishers(const rmw_subscription_t* subscription, size_t* publisher_count);
 rmw_ret_t rmw_subscription_get_actual_qos(const rmw_subscription_t* subscription, rmw_qos_profile_t* qos);
 
+// `callback` is told of every message that arrives from now on, and at once of those that wait to be taken. It may be
+// told of more than can be taken, but not of less. Null ends the calls: none is going on any more when this returns.
+// Not to be called from the callback. The same holds for services and clients below.
+rmw_ret_t rmw_subscription_set_on_new_message_callback(rmw_subscription_t* subscription, rmw_event_callback_t callback,
+                                                       const void* user_data);
+
 // Takes the next message without waiting; `taken` is false when there is none.
 rmw_ret_t rmw_take(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
                    rmw_subscription_allocation_t* allocation);
@@ -91,6 +99,8 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
 // Waits a moment for the client's reader to be known, then RMW_RET_TIMEOUT. RMW_RET_OK, and nothing is sent, if the
 // client is gone.
 rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* request_header, void* ros_response);
+rmw_ret_t rmw_service_set_on_new_request_callback(rmw_service_t* service, rmw_event_callback_t callback,
+                                                  const void* user_data);
 rmw_ret_t rmw_service_request_subscription_get_actual_qos(const rmw_service_t* service, rmw_qos_profile_t* qos);
 rmw_ret_t rmw_service_response_publisher_get_actual_qos(const rmw_service_t* service, rmw_qos_profile_t* qos);
 
@@ -105,6 +115,8 @@ rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, 
 // another client.
 rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* request_header, void* ros_response,
                             bool* taken);
+rmw_ret_t rmw_client_set_on_new_response_callback(rmw_client_t* client, rmw_event_callback_t callback,
+                                                  const void* user_data);
 rmw_ret_t rmw_client_request_publisher_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos);
 rmw_ret_t rmw_client_response_subscription_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos);
 
@@ -129,7 +141,7 @@ rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set);
 // Blocks until an entity is ready or the time is over (null: forever; zero: not at all). Entries that are not ready
 // become null; triggered guard conditions are reset. RMW_RET_TIMEOUT when nothing became ready.
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
-                   rmw_services_t* services, rmw_clients_t* clients, rmw_wait_set_t* wait_set,
+                   rmw_services_t* services, rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set,
                    const rmw_time_t* wait_timeout);
 
 // ---- graph

@@ -111,6 +111,11 @@ typedef struct rmw_clients_s {
   void** clients;
 } rmw_clients_t;
 
+typedef struct rmw_events_s {
+  size_t event_count;
+  void** events;
+} rmw_events_t;
+
 typedef struct rmw_guard_conditions_s {
   size_t guard_condition_count;
   void** guard_conditions;

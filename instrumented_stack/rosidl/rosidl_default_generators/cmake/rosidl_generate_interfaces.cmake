@@ -50,6 +50,7 @@ function(rosidl_generate_interfaces pkg)
     list(REMOVE_DUPLICATES ARG_DEPENDENCIES)
   endif()
   set(known "")
+  set(descriptions "")
   set(libraries "")
   foreach(dependency IN LISTS ARG_DEPENDENCIES)
     if(NOT TARGET ${dependency}::${dependency})
@@ -59,6 +60,11 @@ function(rosidl_generate_interfaces pkg)
     get_target_property(of_dependency ${dependency}::${dependency} ROSIDL_INTERFACES)
     if(of_dependency)
       list(APPEND known ${of_dependency})
+      get_target_property(folder ${dependency}::${dependency} ROSIDL_OUTPUT)
+      if(NOT folder)  # of a package that was found
+        set(folder ${${dependency}_DIR}/..)
+      endif()
+      list(APPEND descriptions ${folder}/type_descriptions.json)
     endif()
     list(APPEND libraries ${dependency}::${dependency})
   endforeach()
@@ -68,9 +74,10 @@ function(rosidl_generate_interfaces pkg)
   set(paths ${files})
   list(TRANSFORM paths PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   add_custom_command(
-    OUTPUT ${source} ${headers}
-    COMMAND ${Python3_EXECUTABLE} -B ${generator} --package ${pkg} --output ${output} --known ${known} -- ${paths}
-    DEPENDS ${paths} ${generator_sources}
+    OUTPUT ${source} ${headers} ${output}/type_descriptions.json
+    COMMAND ${Python3_EXECUTABLE} -B ${generator} --package ${pkg} --output ${output} --known ${known}
+      --descriptions ${descriptions} -- ${paths}
+    DEPENDS ${paths} ${descriptions} ${generator_sources}
     COMMENT "Generating the C++ of ${pkg}"
     VERBATIM)
 
@@ -83,7 +90,10 @@ function(rosidl_generate_interfaces pkg)
            rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp ${libraries}
     PRIVATE fastcdr
     INCLUDE ${output}/include)
-  set_target_properties(${pkg} PROPERTIES ROSIDL_INTERFACES "${types}")
+  if(NOT ARG_SKIP_INSTALL)
+    install(FILES ${output}/type_descriptions.json DESTINATION share/${pkg})
+  endif()
+  set_target_properties(${pkg} PROPERTIES ROSIDL_INTERFACES "${types}" ROSIDL_OUTPUT ${output})
   set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES ROSIDL_INTERFACES)
 endfunction()
 

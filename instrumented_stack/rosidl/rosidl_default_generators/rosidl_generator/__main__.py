@@ -1,11 +1,13 @@
-"""python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... FILE...
+"""python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... [--descriptions JSON]... FILE...
 
-Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp. The
+Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp; and
+DIR/type_descriptions.json, which packages that use its messages need as --descriptions. The
 folder of a file, msg, srv or action, is the namespace of its types. --known names the messages of other packages that may be
 used.
 """
 
 import argparse
+import json
 import os
 import sys
 
@@ -14,7 +16,7 @@ if __package__ in (None, ''):
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     __package__ = 'rosidl_generator'
 
-from . import cpp_source, cpp_struct, cpp_traits  # noqa: E402
+from . import cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
 from .interface_parser import InterfaceError, parse_file  # noqa: E402
 
 
@@ -34,6 +36,7 @@ def main() -> int:
     arguments.add_argument('--package', required=True)
     arguments.add_argument('--output', required=True)
     arguments.add_argument('--known', nargs='*', default=[])
+    arguments.add_argument('--descriptions', nargs='*', default=[])
     arguments.add_argument('files', nargs='+', metavar='FILE')
     options = arguments.parse_args()
 
@@ -53,6 +56,17 @@ def main() -> int:
         print('\n'.join(errors), file=sys.stderr)
         return 1
 
+    descriptions = {}
+    for path in options.descriptions:
+        with open(path, encoding='utf-8') as of_dependency:
+            descriptions.update(json.load(of_dependency))
+    own = [type_hash.describe(message) for file in files for message in file.messages]
+    descriptions.update((description['type_name'], description) for description in own)
+    hashes = {description['type_name']: type_hash.type_hash(description, descriptions) for description in own}
+    needed = {*(description['type_name'] for description in own), *type_hash.referenced(own, descriptions)}
+    write_if_changed(os.path.join(options.output, 'type_descriptions.json'),
+                     json.dumps({name: descriptions[name] for name in sorted(needed)}, indent=1) + '\n')
+
     include = os.path.join(options.output, 'include')
     for file in files:
         write_if_changed(os.path.join(include, file.header), cpp_struct.main_header(file))
@@ -62,7 +76,7 @@ def main() -> int:
     write_if_changed(os.path.join(include, cpp_source.codec_header_path(options.package)),
                      cpp_source.codec_header(options.package, files))
     write_if_changed(os.path.join(options.output, f'{options.package}__interfaces.cpp'),
-                     cpp_source.source(options.package, files))
+                     cpp_source.source(options.package, files, hashes))
     return 0
 
 

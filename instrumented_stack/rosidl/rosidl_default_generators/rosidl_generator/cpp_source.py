@@ -3,7 +3,7 @@
 One file for all types, because most of the time to compile it goes into headers that every type needs.
 """
 
-from typing import Iterable, List
+from typing import Iterable, List, Mapping
 
 from . import cpp_types
 from .cpp_struct import constant_definitions
@@ -36,7 +36,7 @@ def _namespaces(messages: Iterable[Message]) -> List[str]:
     return sorted({m.namespace for m in messages})
 
 
-def source(package: str, files: List[InterfaceFile]) -> str:
+def source(package: str, files: List[InterfaceFile], hashes: Mapping[str, str]) -> str:
     messages = [message for file in files for message in file.messages]
     packages = {package} | {str(t.package) for m in messages for t in m.messages_used}
     includes = [*(f'#include "{file.header}"' for file in files),
@@ -49,7 +49,7 @@ def source(package: str, files: List[InterfaceFile]) -> str:
             constant_definitions(m) + _printing(m) for m in messages if m.namespace == namespace)))
     parts.append('namespace rosidl_typesupport_fastrtps_cpp {\n\n' + '\n'.join(_codec(m) for m in messages)
                  + '\n}  // namespace rosidl_typesupport_fastrtps_cpp\n')
-    parts.append('namespace rosidl_typesupport_cpp {\n\n' + '\n'.join(_handles(file) for file in files)
+    parts.append('namespace rosidl_typesupport_cpp {\n\n' + '\n'.join(_handles(file, hashes) for file in files)
                  + '\n}  // namespace rosidl_typesupport_cpp\n')
     return '\n'.join(parts)
 
@@ -98,10 +98,11 @@ void CdrCodec<{cpp}>::add_to(MaxSize& size) {{
 '''
 
 
-def _handles(file: InterfaceFile) -> str:
+def _handles(file: InterfaceFile, hashes: Mapping[str, str]) -> str:
     text = ''.join(f'''template <>
 const rosidl_message_type_support_t* get_message_type_support_handle<{m.cpp}>() {{
-  return rosidl_typesupport_fastrtps_cpp::message_type_support<{m.cpp}>("{m.package}::{m.namespace}", "{m.name}");
+  return rosidl_typesupport_fastrtps_cpp::message_type_support<{m.cpp}>(
+      "{m.package}::{m.namespace}", "{m.name}", "{hashes[f'{m.package}/{m.namespace}/{m.name}']}");
 }}
 ''' for m in file.messages)
     text += ''.join(f'''template <>

@@ -3,14 +3,20 @@
 
 #include <variant>
 
+#include "rclcpp/callback_group.hpp"
 #include "rclcpp/client_base.hpp"
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp::detail {
 
-using ReadyEntity =
-    std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr>;
+struct ReadyEntity {
+  std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr,
+               Waitable::WeakPtr>
+      entity;
+  CallbackGroup::WeakPtr group;
+};
 
 }  // namespace rclcpp::detail

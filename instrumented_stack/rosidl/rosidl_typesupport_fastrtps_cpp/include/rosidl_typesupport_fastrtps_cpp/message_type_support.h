@@ -25,6 +25,8 @@ typedef struct message_type_support_callbacks_t {
   const char* message_namespace_;
   /// "String"
   const char* message_name_;
+  /// Names the definition of the type: "RIHS01_" and 64 hexadecimal digits.
+  const char* type_hash_;
   /// Writes the message. False if the buffer is too small.
   bool (*cdr_serialize)(const void* untyped_ros_message, eprosima::fastcdr::Cdr& cdr);
   /// Reads into the message. False if the bytes are cut short or hold a longer sequence than the type allows; the

@@ -53,10 +53,12 @@ const Handle* itself(const Handle* handle, const char* identifier) {
 }
 
 template <typename Message>
-const rosidl_message_type_support_t* message_type_support(const char* message_namespace, const char* message_name) {
+const rosidl_message_type_support_t* message_type_support(const char* message_namespace, const char* message_name,
+                                                          const char* type_hash) {
   using Functions = Callbacks<Message>;
-  static const message_type_support_callbacks_t callbacks{message_namespace, message_name,    Functions::write,
-                                                          Functions::read,   Functions::size, Functions::max_size};
+  static const message_type_support_callbacks_t callbacks{message_namespace,  message_name,    type_hash,
+                                                          Functions::write,   Functions::read, Functions::size,
+                                                          Functions::max_size};
   static const rosidl_message_type_support_t handle{typesupport_identifier, &callbacks,
                                                     itself<rosidl_message_type_support_t>};
   return &handle;

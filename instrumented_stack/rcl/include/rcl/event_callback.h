@@ -1,0 +1,6 @@
+// How rcl tells of messages, requests, responses, events and timer resets: see rmw/event_callback_type.h.
+#pragma once
+
+#include "rmw/event_callback_type.h"
+
+typedef rmw_event_callback_t rcl_event_callback_t;

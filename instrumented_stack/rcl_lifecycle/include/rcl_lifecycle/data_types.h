@@ -1,0 +1,52 @@
+// The parts of a state machine. Ids are those of lifecycle_msgs.
+#pragma once
+
+#include <stdbool.h>
+
+#include "rcl/node.h"
+#include "rcl/publisher.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rcl_lifecycle_transition_s rcl_lifecycle_transition_t;
+
+// A state and the transitions that begin in it.
+typedef struct rcl_lifecycle_state_s {
+  const char* label;
+  unsigned int id;
+  const rcl_lifecycle_transition_t* valid_transitions;
+  unsigned int valid_transition_size;
+} rcl_lifecycle_state_t;
+
+// Labels are unique among the transitions of one state, not among all.
+struct rcl_lifecycle_transition_s {
+  const char* label;
+  unsigned int id;
+  const rcl_lifecycle_state_t* start;
+  const rcl_lifecycle_state_t* goal;
+};
+
+// All states and transitions. They are constants: nothing here is owned.
+typedef struct rcl_lifecycle_transition_map_s {
+  const rcl_lifecycle_state_t* states;
+  unsigned int states_size;
+  const rcl_lifecycle_transition_t* transitions;
+  unsigned int transitions_size;
+} rcl_lifecycle_transition_map_t;
+
+typedef struct rcl_lifecycle_state_machine_options_s {
+  bool enable_com_interface;  // with the topic
+} rcl_lifecycle_state_machine_options_t;
+
+typedef struct rcl_lifecycle_state_machine_s {
+  const rcl_lifecycle_state_t* current_state;  // null when not initialized
+  rcl_lifecycle_transition_map_t transition_map;
+  rcl_publisher_t pub_transition_event;
+  rcl_lifecycle_state_machine_options_t options;
+} rcl_lifecycle_state_machine_t;
+
+#ifdef __cplusplus
+}
+#endif

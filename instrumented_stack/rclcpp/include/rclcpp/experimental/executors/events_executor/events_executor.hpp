@@ -1,0 +1,66 @@
+// An executor that does not wait for entities, but is told by the middleware what has arrived and keeps that in a
+// queue: the work per message does not depend on the number of entities.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+#include "rclcpp/executor.hpp"
+#include "rclcpp/experimental/executors/events_executor/events_queue.hpp"
+#include "rclcpp/experimental/executors/events_executor/simple_events_queue.hpp"
+#include "rclcpp/experimental/timers_manager.hpp"
+
+namespace rclcpp::experimental::executors {
+
+// It executes in the thread that calls spin(), except, with `execute_timers_separate_thread`, timers in a thread of
+// their own, beside the callbacks of their group. Waitables must override set_on_ready_callback(). It fires none of the
+// rclcpp_executor_* tracepoints, which tell of waiting.
+class EventsExecutor : public rclcpp::Executor {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(EventsExecutor)
+
+  explicit EventsExecutor(EventsQueue::UniquePtr events_queue = std::make_unique<SimpleEventsQueue>(),
+                          bool execute_timers_separate_thread = false,
+                          const rclcpp::ExecutorOptions& options = rclcpp::ExecutorOptions());
+  ~EventsExecutor() override;
+
+  void spin() override;
+
+ protected:
+  void spin_once_impl(std::chrono::nanoseconds timeout) override;
+  void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive) override;
+
+ private:
+  template <typename EntityT>
+  using Served = std::unordered_map<const void*, std::weak_ptr<EntityT>>;
+
+  // Adds a wake-up to the queue, after which the entities are looked at again.
+  void wake();
+  bool is_wake_up(const ExecutorEvent& event) const { return event.entity_key == this; }
+  // Has the entities that came since tell the queue, and those that went tell it no more.
+  void refresh();
+  template <typename EntityT, typename StartT, typename StopT>
+  void update(Served<EntityT>& served, Served<EntityT> found, StartT start, StopT stop);
+  void enqueue(const void* entity, ExecutorEventType type, size_t count, int waitable_data = 0);
+  // False if the queue stayed empty for the time.
+  bool execute_next(std::chrono::nanoseconds timeout, bool& was_wake_up);
+  void execute_event(const ExecutorEvent& event);
+
+  const EventsQueue::UniquePtr events_queue_;
+  const bool execute_timers_separate_thread_;
+  std::atomic_bool wake_up_queued_{false};
+  TimersManager timers_;
+  // Of the spinning thread.
+  bool timers_thread_runs_ = false;
+  bool timer_was_last_ = false;
+  Served<SubscriptionBase> subscriptions_;
+  Served<ServiceBase> services_;
+  Served<ClientBase> clients_;
+  Served<Waitable> waitables_;
+  Served<TimerBase> timers_served_;
+};
+
+}  // namespace rclcpp::experimental::executors

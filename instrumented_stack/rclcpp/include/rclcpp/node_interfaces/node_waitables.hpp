@@ -1,0 +1,31 @@
+// Puts waitables where an executor finds them.
+#pragma once
+
+#include <utility>
+
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/waitable.hpp"
+
+namespace rclcpp::node_interfaces {
+
+class NodeWaitables {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeWaitables)
+
+  explicit NodeWaitables(NodeBaseInterface::SharedPtr node_base) : node_base_(std::move(node_base)) {}
+
+  // Null: the default group. The group refers to the waitable weakly. Throws std::runtime_error for a group of another
+  // node.
+  void add_waitable(const Waitable::SharedPtr& waitable, const CallbackGroup::SharedPtr& group);
+  // Does nothing if the group, null for the default one, is not of this node or does not have the waitable.
+  void remove_waitable(const Waitable::SharedPtr& waitable, const CallbackGroup::SharedPtr& group) noexcept;
+
+ private:
+  NodeBaseInterface::SharedPtr node_base_;
+};
+
+using NodeWaitablesInterface = NodeWaitables;
+
+}  // namespace rclcpp::node_interfaces

@@ -1,0 +1,82 @@
+// What a WaitSet's wait() found.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "rclcpp/detail/wait_set_entities.hpp"
+#include "rclcpp/wait_result_kind.hpp"
+
+namespace rclcpp {
+
+// Owns what it found ready. Refers to the wait set, which must outlive it.
+template <typename WaitSetT>
+class WaitResult final {
+ public:
+  WaitResult(WaitResultKind kind, WaitSetT& wait_set, detail::WaitSetFindings findings)
+      : kind_(kind), wait_set_(&wait_set), findings_(std::move(findings)) {}
+  WaitResult(WaitResult&& other) noexcept
+      : kind_(std::exchange(other.kind_, WaitResultKind::Invalid)),
+        wait_set_(other.wait_set_),
+        findings_(std::move(other.findings_)) {}
+  WaitResult(const WaitResult&) = delete;
+  WaitResult& operator=(const WaitResult&) = delete;
+
+  WaitResultKind kind() const { return kind_; }
+
+  // To look at get_rcl_wait_set(). Throw std::runtime_error unless something was ready.
+  const WaitSetT& get_wait_set() const {
+    require_ready();
+    return *wait_set_;
+  }
+  WaitSetT& get_wait_set() {
+    require_ready();
+    return *wait_set_;
+  }
+
+  // The first ready timer at that index or after it, and its index; null if there is none.
+  std::pair<std::shared_ptr<TimerBase>, size_t> peek_next_ready_timer(size_t start_index = 0) {
+    require_ready();
+    for (size_t i = start_index; i < findings_.timers.size(); ++i) {
+      if (findings_.timers[i]) {
+        return {findings_.timers[i], i};
+      }
+    }
+    return {nullptr, findings_.timers.size()};
+  }
+  // Says that the timer was dealt with.
+  void clear_timer_with_index(size_t index) { findings_.timers.at(index).reset(); }
+
+  // Each ready one once, then null.
+  std::shared_ptr<SubscriptionBase> next_ready_subscription() { return next(findings_.subscriptions); }
+  std::shared_ptr<ServiceBase> next_ready_service() { return next(findings_.services); }
+  std::shared_ptr<ClientBase> next_ready_client() { return next(findings_.clients); }
+  std::shared_ptr<Waitable> next_ready_waitable() { return next(findings_.waitables); }
+
+ private:
+  void require_ready() const {
+    if (kind_ != WaitResultKind::Ready) {
+      throw std::runtime_error("cannot access wait set when the result was not ready");
+    }
+  }
+
+  template <typename EntityT>
+  std::shared_ptr<EntityT> next(std::vector<std::shared_ptr<EntityT>>& entities) {
+    require_ready();
+    for (std::shared_ptr<EntityT>& entity : entities) {
+      if (entity) {
+        return std::exchange(entity, nullptr);
+      }
+    }
+    return nullptr;
+  }
+
+  WaitResultKind kind_;
+  WaitSetT* wait_set_;
+  detail::WaitSetFindings findings_;
+};
+
+}  // namespace rclcpp

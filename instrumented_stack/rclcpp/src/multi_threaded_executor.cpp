@@ -1,0 +1,70 @@
+#include "rclcpp/executors/multi_threaded_executor.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace rclcpp::executors {
+
+MultiThreadedExecutor::MultiThreadedExecutor(const ExecutorOptions& options, size_t number_of_threads,
+                                             bool yield_before_execute, std::chrono::nanoseconds timeout)
+    : Executor(options),
+      number_of_threads_(number_of_threads > 0 ? number_of_threads : std::max(std::thread::hardware_concurrency(), 2U)),
+      yield_before_execute_(yield_before_execute),
+      next_exec_timeout_(timeout) {}
+
+void MultiThreadedExecutor::spin() {
+  const SpinningScope scope(*this, "spin()");
+  std::vector<std::thread> threads;
+  for (size_t i = 1; i < number_of_threads_; ++i) {
+    threads.emplace_back([this] { run_and_keep_failure(); });
+  }
+  run_and_keep_failure();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  if (failure_) {
+    std::rethrow_exception(std::exchange(failure_, nullptr));
+  }
+}
+
+void MultiThreadedExecutor::run_and_keep_failure() {
+  try {
+    run();
+  } catch (...) {
+    {
+      const std::lock_guard lock(failure_mutex_);
+      if (!failure_) {
+        failure_ = std::current_exception();
+      }
+    }
+    cancel();
+  }
+}
+
+void MultiThreadedExecutor::run() {
+  while (context_->is_valid() && spinning_) {
+    AnyExecutable any_executable;
+    {
+      const std::lock_guard lock(wait_mutex_);
+      if (!context_->is_valid() || !spinning_) {
+        return;
+      }
+      if (!get_next_executable(any_executable, next_exec_timeout_)) {
+        continue;
+      }
+    }
+    if (yield_before_execute_) {
+      std::this_thread::yield();
+    }
+    const bool was_exclusive = any_executable.callback_group->type() == CallbackGroupType::MutuallyExclusive;
+    execute_any_executable(any_executable);
+    any_executable.release_group();
+    if (was_exclusive) {
+      interrupt();  // whoever waits has left the group out
+    }
+  }
+}
+
+}  // namespace rclcpp::executors

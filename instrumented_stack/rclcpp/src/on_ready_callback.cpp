@@ -1,0 +1,33 @@
+#include "rclcpp/detail/on_ready_callback.hpp"
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp::detail {
+
+std::unique_ptr<OnReadyCallback::Target> OnReadyCallback::make_target(std::function<void(size_t)> callback,
+                                                                      const char* function, const char* what) {
+  if (!callback) {
+    throw std::invalid_argument(std::string("The callback passed to ") + function + " is not callable.");
+  }
+  return std::make_unique<Target>(Target{std::move(callback), what});
+}
+
+void OnReadyCallback::call(const void* target, size_t count) {
+  const Target& called = *static_cast<const Target*>(target);
+  try {
+    called.callback(count);
+  } catch (const std::exception& error) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "caught exception in user-provided callback for 'on ready' of a %s: %s",
+                 called.what, error.what());
+  } catch (...) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "caught unhandled exception in user-provided callback for 'on ready' of a %s",
+                 called.what);
+  }
+}
+
+}  // namespace rclcpp::detail

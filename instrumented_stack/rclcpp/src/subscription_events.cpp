@@ -1,0 +1,53 @@
+// The event handlers of subscriptions.
+#include <string>
+#include <utility>
+
+#include "rclcpp/logging.hpp"
+#include "rclcpp/subscription_base.hpp"
+
+namespace rclcpp {
+
+void SubscriptionBase::bind_event_callbacks(const SubscriptionEventCallbacks& callbacks, bool use_default_callbacks,
+                                            const std::string& logger_name) {
+  if (callbacks.deadline_callback) {
+    add_event_handler(callbacks.deadline_callback, RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED);
+  }
+  if (callbacks.liveliness_callback) {
+    add_event_handler(callbacks.liveliness_callback, RCL_SUBSCRIPTION_LIVELINESS_CHANGED);
+  }
+  if (callbacks.incompatible_qos_callback) {
+    add_event_handler(callbacks.incompatible_qos_callback, RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS);
+  } else if (use_default_callbacks) {
+    const QOSRequestedIncompatibleQoSCallbackType warn = [topic = std::string(get_topic_name()),
+                                                          logger_name](const QOSRequestedIncompatibleQoSInfo& event) {
+      RCLCPP_WARN(
+          get_logger(logger_name),
+          "New publisher discovered on topic '%s', offering incompatible QoS. No messages will be received from "
+          "it. Last incompatible policy: %s",
+          topic.c_str(), qos_policy_name_from_kind(event.last_policy_kind).c_str());
+    };
+    add_event_handler(warn, RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS);
+  }
+  if (callbacks.message_lost_callback) {
+    add_event_handler(callbacks.message_lost_callback, RCL_SUBSCRIPTION_MESSAGE_LOST);
+  }
+  if (callbacks.incompatible_type_callback) {
+    try {
+      add_event_handler(callbacks.incompatible_type_callback, RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE);
+    } catch (const UnsupportedEventTypeException&) {
+      RCLCPP_WARN(get_logger(logger_name), "Failed to add event handler for incompatible type; not supported");
+    }
+  }
+  if (callbacks.matched_callback) {
+    add_event_handler(callbacks.matched_callback, RCL_SUBSCRIPTION_MATCHED);
+  }
+}
+
+template <typename EventCallbackT>
+void SubscriptionBase::add_event_handler(const EventCallbackT& callback, rcl_subscription_event_type_t event_type) {
+  event_handlers_.insert_or_assign(event_type,
+                                   std::make_shared<EventHandler<EventCallbackT, std::shared_ptr<rcl_subscription_t>>>(
+                                       callback, rcl_subscription_event_init, subscription_handle_, event_type));
+}
+
+}  // namespace rclcpp

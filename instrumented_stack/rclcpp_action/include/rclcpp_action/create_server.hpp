@@ -1,0 +1,27 @@
+// Servers of actions for nodes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp_action/detail/add_to_node.hpp"
+#include "rclcpp_action/server.hpp"
+
+namespace rclcpp_action {
+
+// `node` points to a node. Null group: the default callback group. Throws rclcpp::exceptions::RCLError.
+template <typename ActionT, typename NodeT>
+typename Server<ActionT>::SharedPtr create_server(
+    NodeT node, const std::string& name, typename Server<ActionT>::GoalCallback handle_goal,
+    typename Server<ActionT>::CancelCallback handle_cancel, typename Server<ActionT>::AcceptedCallback handle_accepted,
+    const rcl_action_server_options_t& options = rcl_action_server_get_default_options(),
+    rclcpp::CallbackGroup::SharedPtr group = nullptr) {
+  return detail::add_to_node(std::make_shared<Server<ActionT>>(
+                                 node->get_node_base_interface(), node->get_clock(), node->get_logger(), name, options,
+                                 std::move(handle_goal), std::move(handle_cancel), std::move(handle_accepted)),
+                             node->get_node_waitables_interface(), group);
+}
+
+}  // namespace rclcpp_action

@@ -1,0 +1,23 @@
+// What clients throw about goals.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rclcpp_action::exceptions {
+
+// The goal is not, or no longer, one of the client's.
+class UnknownGoalHandleError : public std::invalid_argument {
+ public:
+  UnknownGoalHandleError() : std::invalid_argument("Goal handle is not known to this client.") {}
+};
+
+// The result of the goal was not asked for.
+class UnawareGoalHandleError : public std::runtime_error {
+ public:
+  explicit UnawareGoalHandleError(
+      const std::string& message = "Goal handle is not tracking the goal result because its result was not requested.")
+      : std::runtime_error(message) {}
+};
+
+}  // namespace rclcpp_action::exceptions

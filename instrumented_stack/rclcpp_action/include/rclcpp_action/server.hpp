@@ -1,0 +1,225 @@
+// Executes the goals of clients. Created by create_server().
+#pragma once
+
+#include <rcl_action/action_server.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "action_msgs/srv/cancel_goal.hpp"
+#include "rclcpp/clock.hpp"
+#include "rclcpp/detail/on_ready_callback.hpp"
+#include "rclcpp/logger.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/waitable.hpp"
+#include "rclcpp_action/server_goal_handle.hpp"
+#include "rclcpp_action/types.hpp"
+#include "rosidl_typesupport_cpp/action_type_support.hpp"
+
+namespace rclcpp_action {
+
+enum class GoalResponse : int8_t {
+  REJECT = 1,
+  ACCEPT_AND_EXECUTE = 2,  // begins to execute at once
+  ACCEPT_AND_DEFER = 3,    // begins with ServerGoalHandle::execute()
+};
+
+enum class CancelResponse : int8_t { REJECT = 1, ACCEPT = 2 };
+
+// What all servers have in common, and what an executor needs to know of one. An executor runs one request at a time;
+// the functions for the goals may be called from any thread.
+class ServerBase : public rclcpp::Waitable {
+ public:
+  enum class EntityType : size_t { GoalService, ResultService, CancelService };
+
+  ~ServerBase() override;
+
+  size_t get_number_of_ready_timers() override;
+  size_t get_number_of_ready_services() override;
+  void add_to_wait_set(rcl_wait_set_t& wait_set) override;
+  bool is_ready(const rcl_wait_set_t& wait_set) override;
+  std::shared_ptr<void> take_data() override;
+  std::shared_ptr<void> take_data_by_entity_id(size_t id) override;
+  // The identifiers are those of EntityType.
+  void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
+  void clear_on_ready_callback() override;
+  void execute(const std::shared_ptr<void>& data) override;
+
+ protected:
+  // Throws rclcpp::exceptions::RCLError, for a wrong name among others.
+  ServerBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base, rclcpp::Clock::SharedPtr clock,
+             const rclcpp::Logger& logger, const std::string& name, const rosidl_action_type_support_t* type_support,
+             const rcl_action_server_options_t& options);
+
+  // What only the type of the action can do. None is called under a lock.
+  virtual std::shared_ptr<void> create_goal_request() = 0;
+  virtual GoalUUID get_goal_id_from_goal_request(void* message) = 0;
+  virtual GoalResponse call_handle_goal_callback(const GoalUUID& uuid, std::shared_ptr<void> goal_request) = 0;
+  virtual std::shared_ptr<void> create_goal_response(bool accepted, const rcl_action_goal_info_t& info) = 0;
+  virtual void call_goal_accepted_callback(std::shared_ptr<rcl_action_goal_handle_t> rcl_goal_handle,
+                                           const GoalUUID& uuid, std::shared_ptr<void> goal_request) = 0;
+  virtual CancelResponse call_handle_cancel_callback(const GoalUUID& uuid) = 0;
+  virtual std::shared_ptr<void> create_result_request() = 0;
+  virtual GoalUUID get_goal_id_from_result_request(void* message) = 0;
+  virtual std::shared_ptr<void> create_result_response(int8_t status) = 0;
+
+  void publish_status();
+  void publish_feedback(const std::shared_ptr<void>& feedback_msg);
+  // Ends a goal: answers who waits for the result, keeps it for who will ask, and lets it expire.
+  void publish_result(const GoalUUID& uuid, std::shared_ptr<void> result_response);
+
+ private:
+  struct Ready {
+    bool goal = false;
+    bool cancel = false;
+    bool result = false;
+    bool expired = false;
+  };
+  using Work = std::function<void()>;  // what take_data() gives
+
+  Work take_goal_request();
+  Work take_cancel_request();
+  Work take_result_request();
+  void answer_goal_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
+  void answer_cancel_request(rmw_request_id_t header, const action_msgs::srv::CancelGoal::Request& request);
+  void answer_result_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
+  void forget_expired_goals();
+  std::shared_ptr<rcl_action_goal_handle_t> accept(const GoalUUID& uuid, rcl_action_goal_info_t& info);
+  void warn(rcl_ret_t ret, const char* what) const;
+
+  rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base_;
+  rclcpp::Clock::SharedPtr clock_;
+  const rclcpp::Logger logger_;
+
+  std::array<rclcpp::detail::OnReadyCallback, 3> on_ready_;  // by EntityType
+
+  std::mutex mutex_;  // of everything below, the rcl server included
+  rcl_action_server_t server_;
+  Ready ready_;
+  std::map<GoalUUID, std::shared_ptr<rcl_action_goal_handle_t>> goals_;   // until they expire
+  std::map<GoalUUID, std::shared_ptr<void>> results_;                     // of goals at their end
+  std::map<GoalUUID, std::vector<rmw_request_id_t>> waiting_for_result_;  // of goals before it
+};
+
+template <typename ActionT>
+class Server : public ServerBase, public std::enable_shared_from_this<Server<ActionT>> {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(Server)
+
+  // Whether to accept a goal; must not block. Then what to do with it: long work belongs into another thread, or the
+  // executor cannot serve requests to cancel.
+  using GoalCallback = std::function<GoalResponse(const GoalUUID&, std::shared_ptr<const typename ActionT::Goal>)>;
+  using CancelCallback = std::function<CancelResponse(std::shared_ptr<ServerGoalHandle<ActionT>>)>;
+  using AcceptedCallback = std::function<void(std::shared_ptr<ServerGoalHandle<ActionT>>)>;
+
+  Server(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base, rclcpp::Clock::SharedPtr clock,
+         const rclcpp::Logger& logger, const std::string& name, const rcl_action_server_options_t& options,
+         GoalCallback handle_goal, CancelCallback handle_cancel, AcceptedCallback handle_accepted)
+      : ServerBase(std::move(node_base), std::move(clock), logger, name,
+                   rosidl_typesupport_cpp::get_action_type_support_handle<ActionT>(), options),
+        handle_goal_(std::move(handle_goal)),
+        handle_cancel_(std::move(handle_cancel)),
+        handle_accepted_(std::move(handle_accepted)) {}
+
+ protected:
+  using GoalRequest = typename ActionT::Impl::SendGoalService::Request;
+  using ResultRequest = typename ActionT::Impl::GetResultService::Request;
+
+  std::shared_ptr<void> create_goal_request() override { return std::make_shared<GoalRequest>(); }
+  GoalUUID get_goal_id_from_goal_request(void* message) override {
+    return static_cast<GoalRequest*>(message)->goal_id.uuid;
+  }
+
+  GoalResponse call_handle_goal_callback(const GoalUUID& uuid, std::shared_ptr<void> goal_request) override {
+    return handle_goal_(uuid, goal_in(std::move(goal_request)));
+  }
+
+  std::shared_ptr<void> create_goal_response(bool accepted, const rcl_action_goal_info_t& info) override {
+    auto response = std::make_shared<typename ActionT::Impl::SendGoalService::Response>();
+    response->accepted = accepted;
+    response->stamp.sec = info.stamp_sec;
+    response->stamp.nanosec = info.stamp_nanosec;
+    return response;
+  }
+
+  void call_goal_accepted_callback(std::shared_ptr<rcl_action_goal_handle_t> rcl_goal_handle, const GoalUUID& uuid,
+                                   std::shared_ptr<void> goal_request) override {
+    // A goal handle may outlive the server.
+    const std::weak_ptr<Server> weak_this = this->shared_from_this();
+    const auto on_terminal_state = [weak_this](const GoalUUID& ended, std::shared_ptr<void> result_response) {
+      if (const auto server = weak_this.lock()) {
+        server->publish_result(ended, std::move(result_response));
+        server->publish_status();
+        const std::lock_guard lock(server->handles_mutex_);
+        server->handles_.erase(ended);
+      }
+    };
+    const auto on_executing = [weak_this](const GoalUUID&) {
+      if (const auto server = weak_this.lock()) {
+        server->publish_status();
+      }
+    };
+    const auto publish = [weak_this](std::shared_ptr<typename ActionT::Impl::FeedbackMessage> message) {
+      if (const auto server = weak_this.lock()) {
+        server->publish_feedback(message);
+      }
+    };
+    const std::shared_ptr<ServerGoalHandle<ActionT>> handle(new ServerGoalHandle<ActionT>(
+        std::move(rcl_goal_handle), uuid, goal_in(std::move(goal_request)), on_terminal_state, on_executing, publish));
+    {
+      const std::lock_guard lock(handles_mutex_);
+      handles_[uuid] = handle;
+    }
+    handle_accepted_(handle);
+  }
+
+  CancelResponse call_handle_cancel_callback(const GoalUUID& uuid) override {
+    std::shared_ptr<ServerGoalHandle<ActionT>> handle;
+    {
+      const std::lock_guard lock(handles_mutex_);
+      if (const auto found = handles_.find(uuid); found != handles_.end()) {
+        handle = found->second.lock();
+      }
+    }
+    if (!handle) {
+      return CancelResponse::REJECT;
+    }
+    const CancelResponse response = handle_cancel_(handle);
+    if (response == CancelResponse::ACCEPT) {
+      handle->begin_canceling();
+    }
+    return response;
+  }
+
+  std::shared_ptr<void> create_result_request() override { return std::make_shared<ResultRequest>(); }
+  GoalUUID get_goal_id_from_result_request(void* message) override {
+    return static_cast<ResultRequest*>(message)->goal_id.uuid;
+  }
+
+  std::shared_ptr<void> create_result_response(int8_t status) override {
+    auto response = std::make_shared<typename ActionT::Impl::GetResultService::Response>();
+    response->status = status;
+    return response;
+  }
+
+ private:
+  static std::shared_ptr<const typename ActionT::Goal> goal_in(std::shared_ptr<void> goal_request) {
+    const auto request = std::static_pointer_cast<GoalRequest>(std::move(goal_request));
+    return {request, &request->goal};
+  }
+
+  GoalCallback handle_goal_;
+  CancelCallback handle_cancel_;
+  AcceptedCallback handle_accepted_;
+
+  std::mutex handles_mutex_;
+  std::map<GoalUUID, std::weak_ptr<ServerGoalHandle<ActionT>>> handles_;  // of goals before their end
+};
+
+}  // namespace rclcpp_action

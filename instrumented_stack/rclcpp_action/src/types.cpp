@@ -1,0 +1,28 @@
+#include "rclcpp_action/types.hpp"
+
+#include <algorithm>
+
+namespace rclcpp_action {
+
+std::string to_string(const GoalUUID& goal_id) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (std::size_t i = 0; i < goal_id.size(); ++i) {
+    if (i == 4 || i == 6 || i == 8 || i == 10) {
+      text += '-';
+    }
+    text += kDigits[goal_id[i] >> 4];
+    text += kDigits[goal_id[i] & 15];
+  }
+  return text;
+}
+
+void convert(const GoalUUID& goal_id, rcl_action_goal_info_t* info) {
+  std::copy(goal_id.begin(), goal_id.end(), info->goal_id);
+}
+
+void convert(const rcl_action_goal_info_t& info, GoalUUID* goal_id) {
+  std::copy(std::begin(info.goal_id), std::end(info.goal_id), goal_id->begin());
+}
+
+}  // namespace rclcpp_action

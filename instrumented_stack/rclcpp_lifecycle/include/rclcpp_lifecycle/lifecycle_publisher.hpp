@@ -1,0 +1,53 @@
+// A publisher that is silent while its node is not active. Created by LifecycleNode::create_publisher().
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "rclcpp/logging.hpp"
+#include "rclcpp/publisher.hpp"
+#include "rclcpp_lifecycle/managed_entity.hpp"
+
+namespace rclcpp_lifecycle {
+
+// Publishing while it is off does nothing; the first time since it was switched off, it warns.
+template <typename MessageT>
+class LifecyclePublisher : public SimpleManagedEntity, public rclcpp::Publisher<MessageT> {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(LifecyclePublisher<MessageT>)
+
+  using rclcpp::Publisher<MessageT>::Publisher;
+
+  void publish(std::unique_ptr<MessageT> message) override {
+    if (is_activated_or_warn()) {
+      rclcpp::Publisher<MessageT>::publish(std::move(message));
+    }
+  }
+  void publish(const MessageT& message) override {
+    if (is_activated_or_warn()) {
+      rclcpp::Publisher<MessageT>::publish(message);
+    }
+  }
+
+  void on_activate() override {
+    SimpleManagedEntity::on_activate();
+    should_log_ = true;
+  }
+
+ private:
+  bool is_activated_or_warn() {
+    if (is_activated()) {
+      return true;
+    }
+    if (should_log_.exchange(false)) {
+      RCLCPP_WARN(rclcpp::get_logger("LifecyclePublisher"),
+                  "Trying to publish message on the topic '%s', but the publisher is not activated",
+                  this->get_topic_name());
+    }
+    return false;
+  }
+
+  std::atomic_bool should_log_{true};
+};
+
+}  // namespace rclcpp_lifecycle

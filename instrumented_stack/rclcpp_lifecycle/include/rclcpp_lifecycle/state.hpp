@@ -1,0 +1,31 @@
+// A state of a managed node: an id of lifecycle_msgs/msg/State and its label.
+#pragma once
+
+#include <rcl_lifecycle/data_types.h>
+
+#include <cstdint>
+#include <string>
+
+namespace rclcpp_lifecycle {
+
+// A value: it may be copied to and read in any thread.
+class State {
+ public:
+  State() = default;  // unknown
+  // Throws std::runtime_error if the label is empty.
+  State(uint8_t id, const std::string& label);
+  // Throws std::invalid_argument for null.
+  explicit State(const rcl_lifecycle_state_t* rcl_lifecycle_state);
+  virtual ~State() = default;
+  State(const State&) = default;
+  State& operator=(const State&) = default;
+
+  uint8_t id() const { return id_; }
+  std::string label() const { return label_; }
+
+ private:
+  uint8_t id_ = 0;
+  std::string label_ = "unknown";
+};
+
+}  // namespace rclcpp_lifecycle

@@ -1,0 +1,36 @@
+// A transition of a managed node: an id of lifecycle_msgs/msg/Transition, its label, and the states that it joins.
+#pragma once
+
+#include <rcl_lifecycle/data_types.h>
+
+#include <cstdint>
+#include <string>
+
+#include "rclcpp_lifecycle/state.hpp"
+
+namespace rclcpp_lifecycle {
+
+// A value: it may be copied to and read in any thread.
+class Transition {
+ public:
+  explicit Transition(uint8_t id, const std::string& label = "");
+  Transition(uint8_t id, const std::string& label, State&& start, State&& goal);
+  // Throws std::invalid_argument for null.
+  explicit Transition(const rcl_lifecycle_transition_t* rcl_lifecycle_transition);
+  virtual ~Transition() = default;
+  Transition(const Transition&) = default;
+  Transition& operator=(const Transition&) = default;
+
+  uint8_t id() const { return id_; }
+  std::string label() const { return label_; }
+  State start_state() const { return start_; }
+  State goal_state() const { return goal_; }
+
+ private:
+  uint8_t id_;
+  std::string label_;
+  State start_;
+  State goal_;
+};
+
+}  // namespace rclcpp_lifecycle

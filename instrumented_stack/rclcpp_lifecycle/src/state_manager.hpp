@@ -1,0 +1,69 @@
+// Leads a node through its transitions: the state machine of rcl_lifecycle with the callbacks of the node.
+#pragma once
+
+#include <rcl_lifecycle/rcl_lifecycle.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "rclcpp/logger.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp_lifecycle/node_interfaces/lifecycle_node_interface.hpp"
+#include "rclcpp_lifecycle/transition.hpp"
+
+namespace rclcpp_lifecycle {
+
+// Thread safe, once init() has returned.
+class StateManager {
+ public:
+  using CallbackReturn = node_interfaces::LifecycleNodeInterface::CallbackReturn;
+  using Callback = std::function<CallbackReturn(const State&)>;
+
+  StateManager(rclcpp::node_interfaces::NodeBaseInterface& node_base, rclcpp::Logger logger);
+  ~StateManager();
+  StateManager(const StateManager&) = delete;
+  StateManager& operator=(const StateManager&) = delete;
+
+  // Starts in `unconfigured`, with or without the topic of transitions. Throws rclcpp::exceptions::RCLError.
+  void init(bool enable_communication_interface);
+
+  // The callback of a transition state, TRANSITION_STATE_… of lifecycle_msgs/msg/State. Replaces an earlier one.
+  void set_callback(uint8_t transition_state, Callback callback);
+  // Transitions succeed from now on without calling anything.
+  void forget_callbacks();
+
+  // Of the states that last as long as the program.
+  const State& current_state() const { return *current_state_; }
+  std::vector<State> states() const;
+  std::vector<Transition> transitions() const;
+  std::vector<Transition> transitions_of_current_state() const;
+
+  // Runs a whole transition with its callback, and error processing if that is needed. False, after logging why, if the
+  // current state has no such transition.
+  bool change_state(uint8_t transition_id, CallbackReturn& result);
+  // By label. False, without logging, if the current state has no such transition.
+  bool change_state(const std::string& transition_label, CallbackReturn& result);
+
+ private:
+  // Triggers a transition that the current state has. Under the lock.
+  void go_on(const char* transition_label);
+  // The end of a transition state.
+  void finish(CallbackReturn result);
+  CallbackReturn run_callback(const State& previous_state);
+  void update_current_state();  // under the lock
+
+  const std::shared_ptr<rcl_node_t> node_handle_;
+  const rclcpp::Logger logger_;
+  mutable std::mutex mutex_;  // never held while a callback runs
+  rcl_lifecycle_state_machine_t state_machine_ = rcl_lifecycle_get_zero_initialized_state_machine();
+  std::atomic<const State*> current_state_{nullptr};
+  std::map<uint8_t, Callback> callbacks_;  // by transition state
+};
+
+}  // namespace rclcpp_lifecycle

@@ -1,0 +1,23 @@
+#include "rclcpp_lifecycle/transition.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace rclcpp_lifecycle {
+
+Transition::Transition(uint8_t id, const std::string& label) : id_(id), label_(label) {}
+
+Transition::Transition(uint8_t id, const std::string& label, State&& start, State&& goal)
+    : id_(id), label_(label), start_(std::move(start)), goal_(std::move(goal)) {}
+
+Transition::Transition(const rcl_lifecycle_transition_t* rcl_lifecycle_transition) {
+  if (rcl_lifecycle_transition == nullptr) {
+    throw std::invalid_argument("rcl_lifecycle_transition_handle is null");
+  }
+  id_ = static_cast<uint8_t>(rcl_lifecycle_transition->id);
+  label_ = rcl_lifecycle_transition->label;
+  start_ = State(rcl_lifecycle_transition->start);
+  goal_ = State(rcl_lifecycle_transition->goal);
+}
+
+}  // namespace rclcpp_lifecycle

@@ -1,0 +1,61 @@
+// Whom a Waitable tells that something came, beside those who wait for it.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+
+#include "rmw/event_callback_type.h"
+
+namespace rmw_fastrtps {
+
+class ReadyCallback {
+ public:
+  // After this, the former callback does not run any more.
+  void set(rmw_event_callback_t callback, const void* user_data) {
+    const std::lock_guard lock(mutex_);
+    callback_ = callback;
+    user_data_ = user_data;
+    outstanding_ = 0;
+    is_set_.store(callback != nullptr, std::memory_order_release);
+  }
+
+  bool is_set() const { return is_set_.load(std::memory_order_acquire); }
+
+  // Tells of `count` more.
+  void tell(std::size_t count) {
+    const std::lock_guard lock(mutex_);
+    if (callback_ != nullptr && count != 0) {
+      callback_(user_data_, count);
+    }
+  }
+
+  // Tells of what `available` exceeds those it was told of and that nobody has tried to take since.
+  void tell_available(std::size_t available) {
+    const std::lock_guard lock(mutex_);
+    if (callback_ != nullptr && available > outstanding_) {
+      const std::size_t more = available - outstanding_;
+      outstanding_ = available;
+      callback_(user_data_, more);
+    }
+  }
+
+  // To be called before every try to take: a count that comes between leads to one call too many, never to one too few.
+  void about_to_take() {
+    if (is_set()) {
+      const std::lock_guard lock(mutex_);
+      if (outstanding_ > 0) {
+        --outstanding_;
+      }
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  rmw_event_callback_t callback_ = nullptr;
+  const void* user_data_ = nullptr;
+  std::size_t outstanding_ = 0;
+  std::atomic<bool> is_set_{false};
+};
+
+}  // namespace rmw_fastrtps

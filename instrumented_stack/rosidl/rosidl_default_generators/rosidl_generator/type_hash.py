@@ -1,0 +1,71 @@
+"""Describes messages as type_description_interfaces does, and hashes the descriptions (RIHS01).
+
+The hash names the definition of a type: it is SHA-256 over a JSON text of the description, without defaults, and of
+those of all messages in it. Two ROS 2 systems have the same hash for the same definition.
+"""
+
+import hashlib
+import json
+from typing import Any, Dict, Iterable, List, Mapping
+
+from .interface_definition import Message, Type
+
+# The values of type_description_interfaces/FieldType. `char` is an unsigned byte, as in its C++ type.
+TYPE_IDS = {'int8': 2, 'uint8': 3, 'char': 3, 'int16': 4, 'uint16': 5, 'int32': 6, 'uint32': 7, 'int64': 8, 'uint64': 9,
+            'float32': 10, 'float64': 11, 'bool': 15, 'byte': 16, 'string': 17, 'wstring': 18}
+NESTED_TYPE = 1
+BOUNDED_STRINGS = {'string': 21, 'wstring': 22}
+ARRAY = 48
+BOUNDED_SEQUENCE = 96
+UNBOUNDED_SEQUENCE = 144
+
+Description = Dict[str, Any]  # of one message: its name, and name and type of its fields
+
+
+def describe(message: Message) -> Description:
+    return {'type_name': f'{message.package}/{message.namespace}/{message.name}',
+            'fields': [{'name': field.name, 'type': _describe_type(field.type)} for field in message.members]}
+
+
+def _describe_type(type_: Type) -> Description:
+    nested = ''
+    if type_.is_message:
+        type_id = NESTED_TYPE
+        nested = f'{type_.package}/{type_.namespace}/{type_.name}'
+    elif type_.string_bound is not None:
+        type_id = BOUNDED_STRINGS[type_.name]
+    else:
+        type_id = TYPE_IDS[type_.name]
+    capacity = 0
+    if type_.is_array:
+        type_id += ARRAY
+        capacity = type_.array_size
+    elif type_.sequence_bound is not None:
+        type_id += BOUNDED_SEQUENCE
+        capacity = type_.sequence_bound
+    elif type_.is_sequence:
+        type_id += UNBOUNDED_SEQUENCE
+    return {'type_id': type_id, 'capacity': capacity, 'string_capacity': type_.string_bound or 0,
+            'nested_type_name': nested}
+
+
+def type_hash(description: Description, known: Mapping[str, Description]) -> str:
+    """`known` has the descriptions of all messages in this one, by name."""
+    whole = {'type_description': description,
+             'referenced_type_descriptions': [known[name] for name in sorted(referenced([description], known))]}
+    # The separators are part of the definition of the hash.
+    text = json.dumps(whole, ensure_ascii=True, separators=(', ', ': '))
+    return 'RIHS01_' + hashlib.sha256(text.encode()).hexdigest()
+
+
+def referenced(descriptions: Iterable[Description], known: Mapping[str, Description]) -> List[str]:
+    """Names of the messages in these, and in those, and so on."""
+    found: Dict[str, None] = {}
+    waiting = list(descriptions)
+    while waiting:
+        for field in waiting.pop()['fields']:
+            name = field['type']['nested_type_name']
+            if name and name not in found:
+                found[name] = None
+                waiting.append(known[name])
+    return list(found)

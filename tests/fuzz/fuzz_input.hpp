@@ -1,0 +1,29 @@
+// What the fuzz targets share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/source.hpp"
+
+namespace fuzz {
+
+inline std::shared_ptr<const launch::SourceFile> as_file(const std::uint8_t* data, std::size_t size) {
+  return std::make_shared<launch::SourceFile>("/fuzz/input", std::string(reinterpret_cast<const char*>(data), size));
+}
+
+// Runs a step that may refuse its input with a LaunchError, whose text must then be possible to show. Anything else
+// that is thrown is a finding.
+template <typename Step>
+void try_step(Step step) {
+  try {
+    step();
+  } catch (const launch::LaunchError& error) {
+    static_cast<void>(launch::render(error.diagnostics(), true));
+  }
+}
+
+}  // namespace fuzz

@@ -1,0 +1,146 @@
+// How event handlers, commands and dependencies are written: both formats, and what is refused at load.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/unit/actions/launch_text.hpp"
+
+namespace {
+
+using test_support::plan_actions;
+using test_support::plan_text;
+using testing::ElementsAre;
+
+// What a plan says of handlers, commands and dependencies, a line each.
+std::vector<std::string> lines_of(const launch::LaunchPlan& plan) {
+  std::vector<std::string> lines;
+  for (const launch::Dependency& dependency : plan.dependencies) {
+    const double timeout = std::chrono::duration<double>(dependency.timeout.value_or(launch::Duration(0))).count();
+    lines.push_back(fmt::format("{} until {}, {} s, else {}", plan.processes[dependency.process].name,
+                                describe(dependency), timeout, to_string(dependency.on_failure)));
+  }
+  for (const launch::PlannedHandler& planned : plan.handlers) {
+    lines.push_back(describe(planned.handler) + (planned.handler.once ? " once:" : ":"));
+    for (const std::string& line : lines_of(planned.plan)) {
+      lines.push_back("  " + line);
+    }
+    for (const launch::ProcessCommand& command : planned.plan.commands) {
+      lines.push_back(fmt::format("  {} {} {}", name_of(command.kind), command.process, command.signal));
+    }
+    for (const std::string& log : planned.plan.logs) {
+      lines.push_back("  log " + log);
+    }
+  }
+  return lines;
+}
+
+TEST(EventHandlersText, MeansTheSameInBothFormats) {
+  const char* const xml = R"xml(<launch>
+  <executable cmd="a"/>
+  <executable cmd="b">
+    <depends_on process="a" condition="exited" exit_code="nonzero" timeout="2.5" on_failure="skip"/>
+    <depends_on process="a" condition="output" pattern="rea+dy" stream="stderr"/>
+    <depends_on process="a" if="false"/>
+  </executable>
+  <on_process_start process="a"><restart process="b"/></on_process_start>
+  <on_process_exit exit_code="SIGKILL,3" once="true">
+    <signal process="a" signal="HUP"/>
+    <log message="code $(var event.exit_code)"/>
+    <on_process_io pattern="x" stream="stdout"><stop process="b"/></on_process_io>
+  </on_process_exit>
+  <on_shutdown timeout="1"/>
+</launch>
+)xml";
+  const char* const yaml = R"(launch:
+- executable: {cmd: a}
+- executable:
+    cmd: b
+    depends_on:
+    - {process: a, condition: exited, exit_code: nonzero, timeout: 2.5, on_failure: skip}
+    - {process: a, condition: output, pattern: rea+dy, stream: stderr}
+    - {process: a, if: "false"}
+- on_process_start:
+    process: a
+    children:
+    - restart: {process: b}
+- on_process_exit:
+    exit_code: SIGKILL,3
+    once: true
+    children:
+    - signal: {process: a, signal: HUP}
+    - log: {message: code $(var event.exit_code)}
+    - on_process_io:
+        pattern: x
+        stream: stdout
+        children:
+        - stop: {process: b}
+- on_shutdown:
+    timeout: 1.0
+    children: []
+)";
+  for (const char* const text : {xml, yaml}) {
+    const auto planned = plan_text(text);
+    EXPECT_EQ(planned.error, "");
+    EXPECT_THAT(lines_of(planned.plan),
+                ElementsAre("b until 'a' has exited with exit code nonzero, 2.5 s, else skip",
+                            "b until 'a' has written a line that matches 'rea+dy' on stderr, 0 s, else shutdown",
+                            "on_process_start of 'a':", "  restart b 0",
+                            "on_process_exit of any process with exit code SIGKILL,3 once:",
+                            "  on_process_io of any process with a line that matches 'x' on stdout:", "    stop b 0",
+                            "  signal a 1", "  log code -9", "on_shutdown:"));
+  }
+}
+
+std::string error_of(const std::string& xml) {
+  return plan_actions(xml).error;
+}
+
+TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
+  EXPECT_EQ(
+      error_of("<on_process_exit exit_code=\"-0x1\"/>"),
+      "/test/system.launch.xml:2:29: error: '-0x1' is no exit code\n"
+      "    2 | <on_process_exit exit_code=\"-0x1\"/>\n"
+      "      |                             ^~~~\n"
+      "      = help: write any, nonzero, or numbers from 0 to 255 and signals such as SIGSEGV, separated by commas");
+  EXPECT_EQ(error_of("<on_process_io stream=\"out\"/>"),
+            "/test/system.launch.xml:2:24: error: 'out' is no stream of a process, expected stdout, stderr or both\n"
+            "    2 | <on_process_io stream=\"out\"/>\n"
+            "      |                        ^~~");
+  EXPECT_EQ(error_of("<on_process_start proces=\"a\"/>"),
+            "/test/system.launch.xml:2:19: error: unexpected attribute 'proces' in 'on_process_start'\n"
+            "    2 | <on_process_start proces=\"a\"/>\n"
+            "      |                   ^~~~~~\n"
+            "      = help: did you mean 'process'?");
+  EXPECT_EQ(error_of("<signal process=\"a\" signal=\"SIGUSER1\"/>"),
+            "/test/system.launch.xml:2:29: error: 'SIGUSER1' is no signal\n"
+            "    2 | <signal process=\"a\" signal=\"SIGUSER1\"/>\n"
+            "      |                             ^~~~~~~~\n"
+            "      = help: did you mean 'SIGUSR1'?");
+  EXPECT_EQ(error_of("<on_shutdown timeout=\"-1\"/>"),
+            "/test/system.launch.xml:2:23: error: expected a number that is not negative, got '-1'\n"
+            "    2 | <on_shutdown timeout=\"-1\"/>\n"
+            "      |                       ^~");
+  EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>"),
+            "/test/system.launch.xml:2:56: error: condition can be started, exited or output, got 'exite'\n"
+            "    2 | <executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>\n"
+            "      |                                                        ^~~~~\n"
+            "      = help: did you mean 'exited'?");
+  EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" pattern=\"x\"/></executable>"),
+            "/test/system.launch.xml:2:54: error: pattern goes with condition=\"output\" only\n"
+            "    2 | <executable cmd=\"a\"><depends_on process=\"b\" pattern=\"x\"/></executable>\n"
+            "      |                                                      ^");
+  EXPECT_EQ(error_of("<executable cmd=\"a\" respawn=\"true\" respawn_backoff=\"2\"/>"),
+            "/test/system.launch.xml:2:53: error: respawn_backoff can't make a respawn_delay of 0 longer\n"
+            "    2 | <executable cmd=\"a\" respawn=\"true\" respawn_backoff=\"2\"/>\n"
+            "      |                                                     ^\n"
+            "      = help: add respawn_delay, the first delay in seconds");
+}
+
+TEST(EventHandlersText, EndsAtShutdownWithoutTraces) {
+  EXPECT_EQ(error_of("<on_shutdown><trace session-name=\"late\"/></on_shutdown>"),
+            "/test/system.launch.xml:2:15: error: a trace can't begin when the system ends\n"
+            "    2 | <on_shutdown><trace session-name=\"late\"/></on_shutdown>\n"
+            "      |               ^~~~~\n"
+            "      = help: put it outside of on_shutdown");
+}
+
+}  // namespace

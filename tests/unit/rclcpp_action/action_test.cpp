@@ -1,0 +1,290 @@
+#include <gmock/gmock.h>
+
+#include <example_interfaces/action/fibonacci.hpp>
+#include <memory>
+#include <rclcpp/experimental/executors/events_executor/events_executor.hpp>
+#include <rclcpp_action/rclcpp_action.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/unit/rclcpp/ros_test.hpp"
+
+namespace {
+
+using example_interfaces::action::Fibonacci;
+using rclcpp_action::CancelResponse;
+using rclcpp_action::GoalResponse;
+using rclcpp_action::GoalStatus;
+using rclcpp_action::ResultCode;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Client = rclcpp_action::Client<Fibonacci>;
+using Server = rclcpp_action::Server<Fibonacci>;
+using ServerGoal = rclcpp_action::ServerGoalHandle<Fibonacci>;
+using CancelAnswer = action_msgs::srv::CancelGoal::Response;
+
+std::shared_ptr<Fibonacci::Result> result_of(std::vector<int32_t> sequence) {
+  auto result = std::make_shared<Fibonacci::Result>();
+  result->sequence = std::move(sequence);
+  return result;
+}
+
+class ActionTest : public RosTest {
+ protected:
+  ActionTest() {
+    executor_.add_node(server_node_);
+    executor_.add_node(client_node_);
+  }
+
+  // A server whose answers are the members below; it keeps the goals in `goals_`.
+  void start_server(const rcl_action_server_options_t& options = rcl_action_server_get_default_options()) {
+    server_ = rclcpp_action::create_server<Fibonacci>(
+        server_node_, "fibonacci",
+        [this](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
+          orders_.push_back(goal->order);
+          return goal_answer_;
+        },
+        [this](std::shared_ptr<ServerGoal>) { return cancel_answer_; },
+        [this](std::shared_ptr<ServerGoal> goal) { goals_.push_back(std::move(goal)); }, options);
+    client_ = rclcpp_action::create_client<Fibonacci>(client_node_, "fibonacci");
+    ASSERT_TRUE(client_->wait_for_action_server(kPatience));
+  }
+
+  template <typename FutureT>
+  auto value_of(const FutureT& future) {
+    EXPECT_TRUE(
+        spin_until(executor_, [&] { return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+    return future.get();
+  }
+
+  Client::GoalHandle::SharedPtr send(int32_t order, const Client::SendGoalOptions& options = {}) {
+    Fibonacci::Goal goal;
+    goal.order = order;
+    return value_of(client_->async_send_goal(goal, options));
+  }
+
+  rclcpp::Node::SharedPtr server_node_ = std::make_shared<rclcpp::Node>("server");
+  rclcpp::Node::SharedPtr client_node_ = std::make_shared<rclcpp::Node>("client");
+  rclcpp::executors::SingleThreadedExecutor executor_;
+  GoalResponse goal_answer_ = GoalResponse::ACCEPT_AND_EXECUTE;
+  CancelResponse cancel_answer_ = CancelResponse::ACCEPT;
+  std::vector<int32_t> orders_;
+  std::vector<std::shared_ptr<ServerGoal>> goals_;
+  Server::SharedPtr server_;
+  Client::SharedPtr client_;
+};
+
+TEST_F(ActionTest, CarriesGoalFeedbackAndResult) {
+  start_server();
+  std::vector<std::vector<int32_t>> feedback;
+  std::vector<ResultCode> codes;
+  Client::SendGoalOptions options;
+  options.feedback_callback = [&](Client::GoalHandle::SharedPtr, std::shared_ptr<const Fibonacci::Feedback> message) {
+    feedback.push_back(message->sequence);
+  };
+  options.result_callback = [&](const Client::WrappedResult& result) { codes.push_back(result.code); };
+  const auto goal = send(5, options);
+  ASSERT_TRUE(goal);
+  EXPECT_THAT(orders_, ElementsAre(5));
+  ASSERT_THAT(goals_, SizeIs(1));
+  EXPECT_EQ(goals_[0]->get_goal_id(), goal->get_goal_id());
+  EXPECT_EQ(goals_[0]->get_goal()->order, 5);
+  EXPECT_TRUE(goals_[0]->is_executing());
+  EXPECT_GT(goal->get_goal_stamp().nanoseconds(), 0);
+  EXPECT_TRUE(spin_until(executor_, [&] { return goal->get_status() == GoalStatus::STATUS_EXECUTING; }));
+
+  auto message = std::make_shared<Fibonacci::Feedback>();
+  message->sequence = {0, 1};
+  goals_[0]->publish_feedback(message);
+  EXPECT_TRUE(spin_until(executor_, [&] { return !feedback.empty(); }));
+  EXPECT_THAT(feedback, ElementsAre(ElementsAre(0, 1)));
+
+  const auto future = client_->async_get_result(goal);
+  goals_[0]->succeed(result_of({0, 1, 1}));
+  EXPECT_FALSE(goals_[0]->is_active());
+  const Client::WrappedResult result = value_of(future);
+  EXPECT_EQ(result.code, ResultCode::SUCCEEDED);
+  EXPECT_EQ(result.goal_id, goal->get_goal_id());
+  EXPECT_THAT(result.result->sequence, ElementsAre(0, 1, 1));
+  EXPECT_THAT(codes, ElementsAre(ResultCode::SUCCEEDED));
+  EXPECT_EQ(goal->get_status(), GoalStatus::STATUS_SUCCEEDED);
+  EXPECT_THROW(client_->async_get_result(goal), rclcpp_action::exceptions::UnknownGoalHandleError);
+}
+
+TEST_F(ActionTest, ResultMayBeAskedForAfterTheEnd) {
+  start_server();
+  const auto goal = send(1);
+  goals_[0]->abort(result_of({0}));
+  const Client::WrappedResult result = value_of(client_->async_get_result(goal));
+  EXPECT_EQ(result.code, ResultCode::ABORTED);
+  EXPECT_THAT(result.result->sequence, ElementsAre(0));
+}
+
+TEST_F(ActionTest, RejectedGoalIsNull) {
+  start_server();
+  goal_answer_ = GoalResponse::REJECT;
+  int answers = 0;
+  Client::SendGoalOptions options;
+  options.goal_response_callback = [&](Client::GoalHandle::SharedPtr goal) {
+    EXPECT_EQ(goal, nullptr);
+    ++answers;
+  };
+  EXPECT_EQ(send(-1, options), nullptr);
+  EXPECT_EQ(answers, 1);
+  EXPECT_THAT(goals_, IsEmpty());
+}
+
+TEST_F(ActionTest, GoalIsCanceledWhenTheServerAgrees) {
+  start_server();
+  const auto goal = send(5);
+  const auto result = client_->async_get_result(goal);
+  const auto answer = value_of(client_->async_cancel_goal(goal));
+  EXPECT_EQ(answer->return_code, CancelAnswer::ERROR_NONE);
+  ASSERT_THAT(answer->goals_canceling, SizeIs(1));
+  EXPECT_EQ(answer->goals_canceling[0].goal_id.uuid, goal->get_goal_id());
+  EXPECT_TRUE(goals_[0]->is_canceling());
+  goals_[0]->canceled(result_of({0, 1}));
+  EXPECT_EQ(value_of(result).code, ResultCode::CANCELED);
+}
+
+TEST_F(ActionTest, CancelingTellsWhyNot) {
+  start_server();
+  cancel_answer_ = CancelResponse::REJECT;
+  const auto goal = send(5);
+  EXPECT_EQ(value_of(client_->async_cancel_goal(goal))->return_code, CancelAnswer::ERROR_REJECTED);
+  EXPECT_TRUE(goals_[0]->is_executing());
+  goals_[0]->succeed(result_of({}));
+  EXPECT_EQ(value_of(client_->async_cancel_goal(goal))->return_code, CancelAnswer::ERROR_GOAL_TERMINATED);
+}
+
+TEST_F(ActionTest, CancelsAllGoalsOrThoseUntilATime) {
+  start_server();
+  const auto first = send(1);
+  const auto second = send(2);
+  ASSERT_LT(first->get_goal_stamp(), second->get_goal_stamp());
+  const auto before = value_of(client_->async_cancel_goals_before(first->get_goal_stamp()));
+  ASSERT_THAT(before->goals_canceling, SizeIs(1));
+  EXPECT_EQ(before->goals_canceling[0].goal_id.uuid, first->get_goal_id());
+  // The first is on its way already.
+  const auto all = value_of(client_->async_cancel_all_goals());
+  ASSERT_THAT(all->goals_canceling, SizeIs(1));
+  EXPECT_EQ(all->goals_canceling[0].goal_id.uuid, second->get_goal_id());
+}
+
+TEST_F(ActionTest, DeferredGoalWaitsForItsExecution) {
+  start_server();
+  goal_answer_ = GoalResponse::ACCEPT_AND_DEFER;
+  const auto goal = send(3);
+  EXPECT_FALSE(goals_[0]->is_executing());
+  EXPECT_TRUE(goals_[0]->is_active());
+  try {
+    goals_[0]->succeed(result_of({}));
+    FAIL() << "succeeded without having begun";
+  } catch (const rclcpp::exceptions::RCLError& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith("the goal could not succeed: a goal that is accepted cannot succeed"));
+  }
+  goals_[0]->execute();
+  EXPECT_TRUE(spin_until(executor_, [&] { return goal->get_status() == GoalStatus::STATUS_EXECUTING; }));
+}
+
+TEST_F(ActionTest, GoalThatIsGivenUpIsCanceled) {
+  start_server();
+  const auto result = client_->async_get_result(send(3));
+  goals_.clear();
+  EXPECT_EQ(value_of(result).code, ResultCode::CANCELED);
+}
+
+TEST_F(ActionTest, ResultExpires) {
+  rcl_action_server_options_t options = rcl_action_server_get_default_options();
+  options.result_timeout = 1'000'000;
+  start_server(options);
+  const auto goal = send(3);
+  goals_[0]->succeed(result_of({}));
+  EXPECT_TRUE(spin_until(executor_, [&] {
+    return value_of(client_->async_cancel_goal(goal))->return_code == CancelAnswer::ERROR_UNKNOWN_GOAL_ID;
+  }));
+  const Client::WrappedResult result = value_of(client_->async_get_result(goal));
+  EXPECT_EQ(result.code, ResultCode::UNKNOWN);
+}
+
+TEST_F(ActionTest, ResultOfAClientThatIsGoneIsAnException) {
+  start_server();
+  const auto result = client_->async_get_result(send(3));
+  client_.reset();
+  EXPECT_THROW(value_of(result), rclcpp_action::exceptions::UnawareGoalHandleError);
+}
+
+TEST_F(ActionTest, GoalOutlivesItsServer) {
+  start_server();
+  (void)send(3);
+  server_.reset();
+  goals_[0]->succeed(result_of({}));
+  EXPECT_FALSE(goals_[0]->is_active());
+}
+
+TEST_F(ActionTest, GoalMayBeGivenUpAfterTheShutdown) {
+  start_server();
+  (void)send(3);
+  rclcpp::shutdown();
+  goals_.clear();
+}
+
+TEST_F(ActionTest, StoppedCallbacksAreNotCalled) {
+  start_server();
+  int calls = 0;
+  Client::SendGoalOptions options;
+  options.result_callback = [&](const Client::WrappedResult&) { ++calls; };
+  const auto goal = send(3, options);
+  client_->stop_callbacks(goal);
+  goals_[0]->succeed(result_of({}));
+  const auto next = send(4);
+  goals_[1]->succeed(result_of({}));
+  EXPECT_EQ(value_of(client_->async_get_result(next)).code, ResultCode::SUCCEEDED);
+  EXPECT_EQ(calls, 0);
+}
+
+TEST_F(ActionTest, IsServedByTheEventsExecutor) {
+  executor_.remove_node(server_node_);
+  executor_.remove_node(client_node_);
+  start_server();
+  rclcpp::experimental::executors::EventsExecutor executor;
+  executor.add_node(server_node_);
+  executor.add_node(client_node_);
+  std::vector<ResultCode> codes;
+  std::vector<std::size_t> feedback;
+  Client::SendGoalOptions options;
+  options.feedback_callback = [&](Client::GoalHandle::SharedPtr, std::shared_ptr<const Fibonacci::Feedback> message) {
+    feedback.push_back(message->sequence.size());
+  };
+  options.result_callback = [&](const Client::WrappedResult& result) { codes.push_back(result.code); };
+  const auto accepted = client_->async_send_goal(Fibonacci::Goal(), options);
+  EXPECT_TRUE(spin_until(executor, [&] {
+    return !goals_.empty() && accepted.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }));
+  goals_[0]->publish_feedback(std::make_shared<Fibonacci::Feedback>());
+  EXPECT_TRUE(spin_until(executor, [&] { return !feedback.empty(); }));
+  client_->async_cancel_goal(accepted.get());
+  EXPECT_TRUE(spin_until(executor, [&] { return goals_[0]->is_canceling(); }));
+  goals_[0]->canceled(result_of({}));
+  EXPECT_TRUE(spin_until(executor, [&] { return !codes.empty(); }));
+  EXPECT_THAT(codes, ElementsAre(ResultCode::CANCELED));
+}
+
+TEST_F(ActionTest, WrongNameIsAnException) {
+  try {
+    rclcpp_action::create_client<Fibonacci>(client_node_, "not a name");
+    FAIL() << "created";
+  } catch (const rclcpp::exceptions::RCLError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("could not create a client of action 'not a name': "));
+  }
+}
+
+TEST_F(ActionTest, WaitingForAServerEndsInTime) {
+  const auto client = rclcpp_action::create_client<Fibonacci>(client_node_, "nobody");
+  EXPECT_FALSE(client->action_server_is_ready());
+  EXPECT_FALSE(client->wait_for_action_server(std::chrono::milliseconds(1)));
+}
+
+}  // namespace

@@ -1,0 +1,132 @@
+// The states and transitions of rcl_lifecycle.
+#include <gmock/gmock.h>
+#include <rcl/error_handling.h>
+#include <rcl_lifecycle/rcl_lifecycle.h>
+
+#include <lifecycle_msgs/msg/transition.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
+
+#include "tests/unit/rclcpp/ros_test.hpp"
+
+namespace {
+
+using lifecycle_msgs::msg::Transition;
+using testing::ElementsAre;
+
+std::string to_string(const rcl_lifecycle_transition_t& transition) {
+  return std::to_string(transition.id) + " " + transition.label + ": " + transition.start->label + " > " +
+         transition.goal->label;
+}
+
+TEST(LifecycleTransitionMap, HasTheStatesAndTransitionsOfRos2) {
+  const rcl_lifecycle_transition_map_t map = rcl_lifecycle_get_default_transition_map();
+  std::vector<std::string> states;
+  for (unsigned int i = 0; i < map.states_size; ++i) {
+    states.push_back(std::to_string(map.states[i].id) + " " + map.states[i].label);
+  }
+  EXPECT_THAT(states, ElementsAre("0 unknown", "1 unconfigured", "2 inactive", "3 active", "4 finalized",
+                                  "10 configuring", "11 cleaningup", "12 shuttingdown", "13 activating",
+                                  "14 deactivating", "15 errorprocessing"));
+  std::vector<std::string> transitions;
+  for (unsigned int i = 0; i < map.transitions_size; ++i) {
+    transitions.push_back(to_string(map.transitions[i]));
+  }
+  EXPECT_THAT(
+      transitions,
+      ElementsAre(
+          "1 configure: unconfigured > configuring", "10 transition_success: configuring > inactive",
+          "11 transition_failure: configuring > unconfigured", "12 transition_error: configuring > errorprocessing",
+          "2 cleanup: inactive > cleaningup", "20 transition_success: cleaningup > unconfigured",
+          "21 transition_failure: cleaningup > inactive", "22 transition_error: cleaningup > errorprocessing",
+          "3 activate: inactive > activating", "30 transition_success: activating > active",
+          "31 transition_failure: activating > inactive", "32 transition_error: activating > errorprocessing",
+          "4 deactivate: active > deactivating", "40 transition_success: deactivating > inactive",
+          "41 transition_failure: deactivating > active", "42 transition_error: deactivating > errorprocessing",
+          "5 shutdown: unconfigured > shuttingdown", "6 shutdown: inactive > shuttingdown",
+          "7 shutdown: active > shuttingdown", "50 transition_success: shuttingdown > finalized",
+          "51 transition_failure: shuttingdown > finalized", "52 transition_error: shuttingdown > errorprocessing",
+          "60 transition_success: errorprocessing > unconfigured", "61 transition_failure: errorprocessing > finalized",
+          "62 transition_error: errorprocessing > finalized"));
+}
+
+TEST(LifecycleTransitionMap, StatesKnowTheTransitionsThatBeginInThem) {
+  const rcl_lifecycle_transition_map_t map = rcl_lifecycle_get_default_transition_map();
+  const rcl_lifecycle_state_t* inactive = rcl_lifecycle_get_state(&map, 2);
+  std::vector<std::string> labels;
+  for (unsigned int i = 0; i < inactive->valid_transition_size; ++i) {
+    labels.emplace_back(inactive->valid_transitions[i].label);
+  }
+  EXPECT_THAT(labels, ElementsAre("cleanup", "activate", "shutdown"));
+  EXPECT_EQ(rcl_lifecycle_get_transition_by_label(inactive, "shutdown")->id,
+            Transition::TRANSITION_INACTIVE_SHUTDOWN + 0u);
+  EXPECT_EQ(rcl_lifecycle_get_transition_by_label(inactive, "configure"), nullptr);
+  EXPECT_EQ(rcl_lifecycle_get_transition_by_id(inactive, Transition::TRANSITION_ACTIVATE)->goal,
+            rcl_lifecycle_get_state(&map, 13));
+  EXPECT_EQ(rcl_lifecycle_get_state(&map, 4)->valid_transition_size, 0u);
+  EXPECT_EQ(rcl_lifecycle_get_state(&map, 99), nullptr);
+}
+
+class StateMachineTest : public RosTest {
+ protected:
+  StateMachineTest() { options_.enable_com_interface = false; }
+  ~StateMachineTest() override { rcl_reset_error(); }
+
+  rcl_ret_t init() {
+    return rcl_lifecycle_state_machine_init(&machine_, node_->get_node_base_interface()->get_rcl_node_handle(),
+                                            &options_);
+  }
+  rcl_ret_t fini() {
+    return rcl_lifecycle_state_machine_fini(&machine_, node_->get_node_base_interface()->get_rcl_node_handle());
+  }
+  static std::string error() {
+    const std::string text = rcl_get_error_string().str;
+    rcl_reset_error();
+    return text.substr(0, text.find(", at "));
+  }
+
+  const rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("node");
+  rcl_lifecycle_state_machine_t machine_ = rcl_lifecycle_get_zero_initialized_state_machine();
+  rcl_lifecycle_state_machine_options_t options_ = rcl_lifecycle_get_default_state_machine_options();
+};
+
+TEST_F(StateMachineTest, GoesOnlyWhereTheCurrentStateLeads) {
+  EXPECT_EQ(rcl_lifecycle_state_machine_is_initialized(&machine_), RCL_RET_INVALID_ARGUMENT);
+  EXPECT_EQ(error(), "State machine not initialized");
+  ASSERT_EQ(init(), RCL_RET_OK);
+  EXPECT_EQ(init(), RCL_RET_ALREADY_INIT);
+  EXPECT_EQ(error(), "the state machine is initialized already");
+  EXPECT_STREQ(machine_.current_state->label, "unconfigured");
+
+  EXPECT_EQ(rcl_lifecycle_trigger_transition_by_id(&machine_, Transition::TRANSITION_ACTIVATE, true), RCL_RET_ERROR);
+  EXPECT_EQ(error(), "Transition is not registered.");
+  EXPECT_STREQ(machine_.current_state->label, "unconfigured");
+  EXPECT_EQ(rcl_lifecycle_trigger_transition_by_id(&machine_, Transition::TRANSITION_CONFIGURE, true), RCL_RET_OK);
+  EXPECT_STREQ(machine_.current_state->label, "configuring");
+  EXPECT_EQ(rcl_lifecycle_trigger_transition_by_label(&machine_, "transition_success", true), RCL_RET_OK);
+  EXPECT_STREQ(machine_.current_state->label, "inactive");
+  EXPECT_EQ(fini(), RCL_RET_OK);
+  EXPECT_EQ(rcl_lifecycle_trigger_transition_by_label(&machine_, "activate", true), RCL_RET_INVALID_ARGUMENT);
+}
+
+TEST_F(StateMachineTest, HasItsTopicWhileItIsInitialized) {
+  options_ = rcl_lifecycle_get_default_state_machine_options();
+  EXPECT_EQ(init(), RCL_RET_OK);
+  EXPECT_EQ(node_->count_publishers("/node/transition_event"), 1u);
+  EXPECT_EQ(fini(), RCL_RET_OK);
+}
+
+TEST(LifecycleValues, StatesAndTransitionsAreValues) {
+  const rclcpp_lifecycle::State unknown;
+  EXPECT_EQ(unknown.id(), 0);
+  EXPECT_EQ(unknown.label(), "unknown");
+  EXPECT_EQ(rclcpp_lifecycle::State(3, "active").label(), "active");
+  EXPECT_THROW(rclcpp_lifecycle::State(3, ""), std::runtime_error);
+  EXPECT_THROW(rclcpp_lifecycle::State(nullptr), std::invalid_argument);
+  const rclcpp_lifecycle::Transition transition(3, "activate", rclcpp_lifecycle::State(2, "inactive"),
+                                                rclcpp_lifecycle::State(13, "activating"));
+  EXPECT_EQ(transition.start_state().label(), "inactive");
+  EXPECT_EQ(transition.goal_state().id(), 13);
+  EXPECT_THROW(rclcpp_lifecycle::Transition(nullptr), std::invalid_argument);
+}
+
+}  // namespace
