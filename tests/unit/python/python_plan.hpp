@@ -10,6 +10,9 @@
 
 namespace test_support {
 
+// An install prefix with a package "demo_nodes", whose programs talker and listener do nothing.
+const std::string& stand_in_prefix();
+
 struct PythonPlan {
   launch::LaunchPlan plan;
   std::vector<std::string> messages;  // "[logger] text"

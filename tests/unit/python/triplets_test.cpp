@@ -10,6 +10,7 @@
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/core/launch_plan.hpp"
 #include "launcher/substitution/python_module.hpp"
+#include "tests/unit/python/python_plan.hpp"
 
 namespace {
 
@@ -49,7 +50,7 @@ json comparable(json value) {
 json plan(const std::string& name, const std::string& suffix) {
   const launch::Registry registry = launch::builtin_actions();
   const launch::Environment environment = {{"HOME", "/home/user"}, {"PATH", "/usr/bin:/bin"}};
-  launch::LaunchContext context(registry, environment, BUILD_PREFIX, [](auto...) {});
+  launch::LaunchContext context(registry, environment, test_support::stand_in_prefix(), [](auto...) {});
   const auto description =
       launch::load_launch_description(GOLDEN_FILES "/triplets/" + name + suffix, registry, context.scope());
   return comparable(json::parse(launch::plan_as_json(launch::plan_launch(context, *description), environment)));
