@@ -11,6 +11,7 @@ target_compile_options(project_options INTERFACE
 if(SANITIZE)
   # Sanitized code must be whole: third-party calls into it otherwise give false reports.
   # GCC's analysis of uninitialised variables is wrong in sanitized code of the standard library.
-  add_compile_options(-fsanitize=${SANITIZE} -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+  add_compile_options(-fsanitize=${SANITIZE} -fno-omit-frame-pointer
+    $<$<OR:$<C_COMPILER_ID:GNU>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${SANITIZE})
 endif()

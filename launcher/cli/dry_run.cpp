@@ -265,17 +265,18 @@ Json dependency_as_json(const Dependency& dependency) {
           {"source", source_as_json(dependency.where)}};
 }
 
-Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_environment);
+void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher_environment);
 
 Json handler_as_json(const PlannedHandler& planned, const Environment& launcher_environment) {
-  Json handler = plan_content_as_json(planned.plan, launcher_environment);
+  Json handler;
   handler["event"] = describe(planned.handler);
   handler["once"] = planned.handler.once;
   handler["source"] = source_as_json(planned.handler.where);
+  add_content(handler, planned.plan, launcher_environment);
   return handler;
 }
 
-Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
+void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher_environment) {
   Json processes = Json::array();
   for (const ProcessSpec& spec : plan.processes) {
     processes.push_back(process_as_json(spec, launcher_environment));
@@ -306,7 +307,6 @@ Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_en
     trace["source"] = source_as_json(scope->origin());
     traces.push_back(std::move(trace));
   }
-  Json root;
   root["processes"] = std::move(processes);
   root["composable"] = std::move(loads);
   if (!transitions.empty()) {
@@ -317,22 +317,20 @@ Json plan_content_as_json(const LaunchPlan& plan, const Environment& launcher_en
   root["python_includes"] = plan.python_includes;
   root["includes"] = plan.includes;
   root["shutdown"] = plan.shutdown;
-  root["commands"] = Json::array();
   for (const ProcessCommand& command : plan.commands) {
     root["commands"].push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
   }
-  root["handlers"] = Json::array();
   for (const PlannedHandler& planned : plan.handlers) {
     root["handlers"].push_back(handler_as_json(planned, launcher_environment));
   }
-  return root;
 }
 
 }  // namespace
 
 std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
-  Json root = plan_content_as_json(plan, launcher_environment);
+  Json root;
   root["outcome"] = "ok";
+  add_content(root, plan, launcher_environment);
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,6 +1,8 @@
 #include "rcl/graph.h"
 
 #include "rcl/error_handling.h"
+#include "rmw/get_node_info_and_types.h"
+#include "rmw/get_topic_endpoint_info.h"
 #include "rmw/rmw.h"
 
 rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t* names_and_types) {
@@ -47,6 +49,58 @@ rcl_ret_t rcl_get_service_names_and_types(const rcl_node_t* node, rcl_allocator_
   return rcl_node_is_valid(node)
              ? rmw_get_service_names_and_types(rcl_node_get_rmw_handle(node), allocator, service_names_and_types)
              : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_publisher_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                    bool no_demangle, const char* node_name, const char* node_namespace,
+                                                    rcl_names_and_types_t* topic_names_and_types) {
+  return rcl_node_is_valid(node)
+             ? rmw_get_publisher_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
+                                                         node_namespace, no_demangle, topic_names_and_types)
+             : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_subscriber_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                     bool no_demangle, const char* node_name,
+                                                     const char* node_namespace,
+                                                     rcl_names_and_types_t* topic_names_and_types) {
+  return rcl_node_is_valid(node)
+             ? rmw_get_subscriber_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
+                                                          node_namespace, no_demangle, topic_names_and_types)
+             : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_service_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                  const char* node_name, const char* node_namespace,
+                                                  rcl_names_and_types_t* service_names_and_types) {
+  return rcl_node_is_valid(node)
+             ? rmw_get_service_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
+                                                       node_namespace, service_names_and_types)
+             : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_client_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                 const char* node_name, const char* node_namespace,
+                                                 rcl_names_and_types_t* service_names_and_types) {
+  return rcl_node_is_valid(node)
+             ? rmw_get_client_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
+                                                      node_namespace, service_names_and_types)
+             : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_publishers_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator, const char* topic_name,
+                                           bool no_mangle, rcl_topic_endpoint_info_array_t* publishers_info) {
+  return rcl_node_is_valid(node) ? rmw_get_publishers_info_by_topic(rcl_node_get_rmw_handle(node), allocator,
+                                                                    topic_name, no_mangle, publishers_info)
+                                 : RCL_RET_NODE_INVALID;
+}
+
+rcl_ret_t rcl_get_subscriptions_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                              const char* topic_name, bool no_mangle,
+                                              rcl_topic_endpoint_info_array_t* subscriptions_info) {
+  return rcl_node_is_valid(node) ? rmw_get_subscriptions_info_by_topic(rcl_node_get_rmw_handle(node), allocator,
+                                                                       topic_name, no_mangle, subscriptions_info)
+                                 : RCL_RET_NODE_INVALID;
 }
 
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available) {

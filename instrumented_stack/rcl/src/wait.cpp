@@ -2,10 +2,23 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "rcl/error_handling.h"
+#include "rcl/wait_restore.h"
 #include "rmw/rmw.h"
+
+namespace {
+
+// The entities of one kind that were kept, and what rmw knows them by.
+template <typename Entity>
+struct Kept {
+  std::vector<const Entity*> entities;
+  std::vector<void*> rmw_entities;
+};
+
+}  // namespace
 
 struct rcl_wait_set_impl_s {
   rmw_wait_set_t* rmw_wait_set = nullptr;
@@ -29,6 +42,14 @@ struct rcl_wait_set_impl_s {
   std::vector<void*> rmw_clients;
   std::vector<void*> rmw_services;
   std::vector<void*> rmw_events;
+  // Of rcl_wait_set_keep(): the first ones of each kind, whenever they are in use.
+  bool has_kept = false;
+  Kept<rcl_subscription_t> kept_subscriptions;
+  Kept<rcl_guard_condition_t> kept_guard_conditions;
+  Kept<rcl_timer_t> kept_timers;  // rmw does not know them
+  Kept<rcl_client_t> kept_clients;
+  Kept<rcl_service_t> kept_services;
+  Kept<rcl_event_t> kept_events;
 };
 
 namespace {
@@ -78,32 +99,64 @@ rcl_ret_t time_until_first_timer(const rcl_wait_set_impl_t& impl, int64_t& time)
   return RCL_RET_OK;
 }
 
+void* rmw_entity_of(const rcl_subscription_t* subscription) {
+  return rcl_subscription_get_rmw_handle(subscription)->data;
+}
+void* rmw_entity_of(const rcl_guard_condition_t* guard_condition) {
+  return rcl_guard_condition_get_rmw_handle(guard_condition)->data;
+}
+void* rmw_entity_of(const rcl_client_t* client) {
+  return rcl_client_get_rmw_handle(client)->data;
+}
+void* rmw_entity_of(const rcl_service_t* service) {
+  return rcl_service_get_rmw_handle(service)->data;
+}
+void* rmw_entity_of(const rcl_event_t* event) {
+  return rcl_event_get_rmw_handle(event)->data;
+}
+
+template <typename Entity>
+void collect(const std::vector<const Entity*>& entities, size_t count, const Kept<Entity>& kept,
+             std::vector<void*>& rmw_entities) {
+  rmw_entities = kept.rmw_entities;
+  for (size_t i = kept.rmw_entities.size(); i < count; ++i) {
+    rmw_entities.push_back(rmw_entity_of(entities[i]));
+  }
+}
+
 void collect_rmw_entities(rcl_wait_set_impl_t& impl) {
-  impl.rmw_subscriptions.clear();
-  for (size_t i = 0; i < impl.subscription_count; ++i) {
-    impl.rmw_subscriptions.push_back(rcl_subscription_get_rmw_handle(impl.subscriptions[i])->data);
-  }
-  impl.rmw_guard_conditions.clear();
-  for (size_t i = 0; i < impl.guard_condition_count; ++i) {
-    impl.rmw_guard_conditions.push_back(rcl_guard_condition_get_rmw_handle(impl.guard_conditions[i])->data);
-  }
+  collect(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions, impl.rmw_subscriptions);
+  collect(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions, impl.rmw_guard_conditions);
   // A timer that is reset from another thread, or whose clock jumps, ends the wait.
   for (size_t i = 0; i < impl.timer_count; ++i) {
-    impl.rmw_guard_conditions.push_back(
-        rcl_guard_condition_get_rmw_handle(rcl_timer_get_guard_condition(impl.timers[i]))->data);
+    impl.rmw_guard_conditions.push_back(rmw_entity_of(rcl_timer_get_guard_condition(impl.timers[i])));
   }
-  impl.rmw_clients.clear();
-  for (size_t i = 0; i < impl.client_count; ++i) {
-    impl.rmw_clients.push_back(rcl_client_get_rmw_handle(impl.clients[i])->data);
+  collect(impl.clients, impl.client_count, impl.kept_clients, impl.rmw_clients);
+  collect(impl.services, impl.service_count, impl.kept_services, impl.rmw_services);
+  collect(impl.events, impl.event_count, impl.kept_events, impl.rmw_events);
+}
+
+template <typename Entity>
+void keep(const std::vector<const Entity*>& entities, size_t count, Kept<Entity>& kept) {
+  kept.entities.assign(entities.begin(), entities.begin() + static_cast<std::ptrdiff_t>(count));
+  kept.rmw_entities.clear();
+  if constexpr (!std::is_same_v<Entity, rcl_timer_t>) {
+    for (const Entity* entity : kept.entities) {
+      kept.rmw_entities.push_back(rmw_entity_of(entity));
+    }
   }
-  impl.rmw_services.clear();
-  for (size_t i = 0; i < impl.service_count; ++i) {
-    impl.rmw_services.push_back(rcl_service_get_rmw_handle(impl.services[i])->data);
-  }
-  impl.rmw_events.clear();
-  for (size_t i = 0; i < impl.event_count; ++i) {
-    impl.rmw_events.push_back(rcl_event_get_rmw_handle(impl.events[i])->data);
-  }
+}
+
+template <typename Entity>
+void restore(std::vector<const Entity*>& entities, size_t& count, const Kept<Entity>& kept) {
+  std::fill(std::copy(kept.entities.begin(), kept.entities.end(), entities.begin()), entities.end(), nullptr);
+  count = kept.entities.size();
+}
+
+template <typename Entity>
+void forget(Kept<Entity>& kept) {
+  kept.entities.clear();
+  kept.rmw_entities.clear();
 }
 
 // Nulls the entries for which rmw has nulled its own.
@@ -201,6 +254,46 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   std::fill(impl.events.begin(), impl.events.end(), nullptr);
   impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
   impl.client_count = impl.service_count = impl.event_count = 0;
+  impl.has_kept = false;
+  forget(impl.kept_subscriptions);
+  forget(impl.kept_guard_conditions);
+  forget(impl.kept_timers);
+  forget(impl.kept_clients);
+  forget(impl.kept_services);
+  forget(impl.kept_events);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  keep(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
+  keep(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
+  keep(impl.timers, impl.timer_count, impl.kept_timers);
+  keep(impl.clients, impl.client_count, impl.kept_clients);
+  keep(impl.services, impl.service_count, impl.kept_services);
+  keep(impl.events, impl.event_count, impl.kept_events);
+  impl.has_kept = true;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set) {
+  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_wait_set_impl_t& impl = *wait_set->impl;
+  if (!impl.has_kept) {
+    RCL_SET_ERROR_MSG("the wait set has kept nothing");
+    return RCL_RET_WAIT_SET_EMPTY;
+  }
+  restore(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
+  restore(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
+  restore(impl.timers, impl.timer_count, impl.kept_timers);
+  restore(impl.clients, impl.client_count, impl.kept_clients);
+  restore(impl.services, impl.service_count, impl.kept_services);
+  restore(impl.events, impl.event_count, impl.kept_events);
   return RCL_RET_OK;
 }
 

@@ -1,7 +1,7 @@
 #include "rclcpp/client_base.hpp"
 
 #include <rcl/graph.h>
-#include <rcl/wait.h>
+#include <rmw/wait_for_graph_change.h>
 #include <tracetools/tracetools.h>
 
 #include <algorithm>
@@ -17,45 +17,12 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// The graph guard condition wakes one of those who wait for it, and none at shutdown: look again after this time.
-constexpr nanoseconds kGraphPatience = std::chrono::milliseconds(100);
-
 QoS to_qos(const rmw_qos_profile_t* profile) {
   if (!profile) {
     exceptions::throw_from_rcl_error(RCL_RET_CLIENT_INVALID, "failed to get qos settings");
   }
   return QoS(QoSInitialization::from_rmw(*profile), *profile);
 }
-
-// Waits for changes of the graph.
-class GraphWait {
- public:
-  explicit GraphWait(const rcl_node_t& node)
-      : changed_(rcl_node_get_graph_guard_condition(&node)), wait_set_(rcl_get_zero_initialized_wait_set()) {
-    require_ok(rcl_wait_set_init(&wait_set_, 0, 1, 0, 0, 0, 0, node.context, rcl_get_default_allocator()));
-  }
-  ~GraphWait() { (void)rcl_wait_set_fini(&wait_set_); }
-  RCLCPP_DISABLE_COPY(GraphWait)
-
-  void wait(nanoseconds timeout) {
-    require_ok(rcl_wait_set_clear(&wait_set_));
-    require_ok(rcl_wait_set_add_guard_condition(&wait_set_, changed_, nullptr));
-    const rcl_ret_t ret = rcl_wait(&wait_set_, timeout.count());
-    if (ret != RCL_RET_TIMEOUT) {
-      require_ok(ret);
-    }
-  }
-
- private:
-  static void require_ok(rcl_ret_t ret) {
-    if (ret != RCL_RET_OK) {
-      exceptions::throw_from_rcl_error(ret, "failed to wait for the graph");
-    }
-  }
-
-  const rcl_guard_condition_t* changed_;
-  rcl_wait_set_t wait_set_;
-};
 
 }  // namespace
 
@@ -122,22 +89,20 @@ bool ClientBase::wait_for_service_nanoseconds(nanoseconds timeout) {
   if (timeout == nanoseconds::zero() || !context_->is_valid()) {
     return false;
   }
-  GraphWait graph(*node_handle_);
   const auto start = steady_clock::now();
+  const rmw_node_t* node = rcl_node_get_rmw_handle(node_handle_.get());
+  uint64_t changes = 0;  // whatever it is, the first wait returns at once unless the graph never changed
   nanoseconds left = timeout;
-  while (context_->is_valid()) {
-    if (service_is_ready()) {
-      return true;
+  while (context_->is_valid() && !service_is_ready()) {
+    // Of all changes; shutdown ends it, too.
+    if (rmw_wait_for_graph_change(node, &changes, left.count()) == RMW_RET_TIMEOUT) {
+      break;
     }
-    graph.wait(timeout < nanoseconds::zero() ? kGraphPatience : std::min(left, kGraphPatience));
     if (timeout >= nanoseconds::zero()) {
-      left = timeout - (steady_clock::now() - start);
-      if (left <= nanoseconds::zero()) {
-        return service_is_ready();
-      }
+      left = std::max(timeout - (steady_clock::now() - start), nanoseconds::zero());
     }
   }
-  return false;
+  return context_->is_valid() && service_is_ready();
 }
 
 bool ClientBase::take_type_erased_response(void* response_out, rmw_request_id_t& request_header_out) {

@@ -1,7 +1,6 @@
 #include "executor_entities.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -161,128 +160,6 @@ std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> Executor
   return result;
 }
 
-void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
-  {
-    Owners owners;
-    const std::lock_guard lock(mutex_);
-    if (changed_) {
-      rebuild(owners);
-    }
-    waiting_ = true;
-  }
-
-  std::exception_ptr failure;
-  std::vector<HeldWaitable> waitables;
-  try {
-    fill_wait_set(waitables);
-    const rcl_ret_t ret = rcl_wait(&wait_set_, timeout.count());
-    if (ret != RCL_RET_OK && ret != RCL_RET_TIMEOUT) {
-      exceptions::throw_from_rcl_error(ret, "rcl_wait() failed");
-    }
-    rcl_reset_error();
-    append_ready(waitables, ready);
-  } catch (...) {
-    failure = std::current_exception();
-  }
-
-  Owners owners;
-  const std::lock_guard lock(mutex_);
-  waiting_ = false;
-  if (changed_) {
-    owners.waited = std::exchange(waited_, {});
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-}
-
-void ExecutorEntities::fill_wait_set(std::vector<HeldWaitable>& waitables) {
-  size_t timers = 0;
-  size_t subscriptions = 0;
-  size_t services = 0;
-  size_t clients = 0;
-  size_t events = 0;
-  size_t guard_conditions = 1;
-  for (WaitedGroup& group : waited_) {
-    group.in_wait_set = *group.can_be_taken_from;
-    if (!group.in_wait_set) {
-      continue;
-    }
-    timers += group.timers.size();
-    subscriptions += group.subscriptions.size();
-    services += group.services.size();
-    clients += group.clients.size();
-    events += group.events.size();
-    for (const Waitable::WeakPtr& weak : group.waitables) {
-      if (Waitable::SharedPtr waitable = weak.lock()) {
-        timers += waitable->get_number_of_ready_timers();
-        subscriptions += waitable->get_number_of_ready_subscriptions();
-        services += waitable->get_number_of_ready_services();
-        clients += waitable->get_number_of_ready_clients();
-        events += waitable->get_number_of_ready_events();
-        guard_conditions += waitable->get_number_of_ready_guard_conditions();
-        waitables.push_back({std::move(waitable), group.group});
-      }
-    }
-  }
-  require_ok(rcl_wait_set_resize(&wait_set_, subscriptions, guard_conditions, timers, clients, services, events),
-             "couldn't resize the wait set");
-  require_ok(rcl_wait_set_add_guard_condition(&wait_set_, &interrupt_.get_rcl_guard_condition(), nullptr),
-             "couldn't add guard condition to wait set");
-  for (const WaitedGroup& group : waited_) {
-    if (!group.in_wait_set) {
-      continue;
-    }
-    for (const auto& timer : group.timers) {
-      require_ok(rcl_wait_set_add_timer(&wait_set_, timer.handle.get(), nullptr), "couldn't add timer to wait set");
-    }
-    for (const auto& subscription : group.subscriptions) {
-      require_ok(rcl_wait_set_add_subscription(&wait_set_, subscription.handle.get(), nullptr),
-                 "couldn't add subscription to wait set");
-    }
-    for (const auto& service : group.services) {
-      require_ok(rcl_wait_set_add_service(&wait_set_, service.handle.get(), nullptr),
-                 "couldn't add service to wait set");
-    }
-    for (const auto& client : group.clients) {
-      require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
-    }
-    for (const auto& event : group.events) {
-      require_ok(rcl_wait_set_add_event(&wait_set_, event.handle.get(), nullptr), "couldn't add event to wait set");
-    }
-  }
-  // Last, so that the indices of the others are known without asking.
-  for (const HeldWaitable& held : waitables) {
-    held.waitable->add_to_wait_set(wait_set_);
-  }
-}
-
-void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
-                                    std::vector<detail::ReadyEntity>& ready) const {
-  // The entities of one kind, group after group, of which the wait has left the handle.
-  const auto append = [&](const auto* const* handles, auto WaitedGroup::*kind) {
-    for (const WaitedGroup& group : waited_) {
-      if (group.in_wait_set) {
-        for (const auto& waited : group.*kind) {
-          if (*handles++) {
-            ready.push_back({waited.entity, group.group});
-          }
-        }
-      }
-    }
-  };
-  append(wait_set_.timers, &WaitedGroup::timers);
-  append(wait_set_.subscriptions, &WaitedGroup::subscriptions);
-  append(wait_set_.services, &WaitedGroup::services);
-  append(wait_set_.clients, &WaitedGroup::clients);
-  append(wait_set_.events, &WaitedGroup::events);
-  for (const HeldWaitable& held : waitables) {
-    if (held.waitable->is_ready(wait_set_)) {
-      ready.push_back({Waitable::WeakPtr(held.waitable), held.group});
-    }
-  }
-}
-
 void ExecutorEntities::erase_unserved(std::vector<detail::ReadyEntity>& ready) {
   const std::lock_guard lock(mutex_);
   ready.erase(std::remove_if(ready.begin(), ready.end(),
@@ -348,6 +225,7 @@ void ExecutorEntities::find_groups(Owners& owners) {
 void ExecutorEntities::rebuild(Owners& owners) {
   find_groups(owners);
   owners.waited = std::exchange(waited_, {});
+  kept_sizes_ = {};
   for (const ServedGroup& served : groups_) {
     CallbackGroup::SharedPtr group = served.group.lock();
     if (!group) {

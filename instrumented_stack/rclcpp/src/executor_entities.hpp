@@ -87,6 +87,16 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
     std::vector<Waitable::WeakPtr> waitables;
     bool in_wait_set = false;
   };
+  // How many entities of each kind the wait set has room for.
+  struct Sizes {
+    size_t timers = 0;
+    size_t subscriptions = 0;
+    size_t services = 0;
+    size_t clients = 0;
+    size_t events = 0;
+    size_t guard_conditions = 0;
+    bool operator==(const Sizes&) const = default;
+  };
   struct HeldWaitable {
     Waitable::SharedPtr waitable;
     CallbackGroup::WeakPtr group;
@@ -110,6 +120,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
 
   // Of the waiting thread:
   void fill_wait_set(std::vector<HeldWaitable>& waitables);
+  void add_handles(const Sizes& sizes);
   void append_ready(const std::vector<HeldWaitable>& waitables, std::vector<detail::ReadyEntity>& ready) const;
 
   const std::shared_ptr<rcl_context_t> rcl_context_;
@@ -125,6 +136,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   bool waiting_ = false;
   // While waiting_, of the waiting thread alone.
   std::vector<WaitedGroup> waited_;
+  Sizes kept_sizes_;  // those with which the wait set keeps the handles of waited_; none: guard_conditions is 0
 };
 
 }  // namespace rclcpp

@@ -1,48 +1,41 @@
 #include "rclcpp/node_interfaces/node_graph.hpp"
 
 #include <rcl/graph.h>
+#include <rmw/wait_for_graph_change.h>
 
+#include <algorithm>
+
+#include "names_and_types.hpp"
 #include "rclcpp/exceptions.hpp"
 
 namespace rclcpp::node_interfaces {
 
-namespace {
+using detail::require_ok;
+using detail::to_map;
 
-void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, what);
+std::vector<std::string> NodeGraph::get_node_names() const {
+  std::vector<std::string> result;
+  for (const auto& [name, node_namespace] : get_node_names_and_namespaces()) {
+    result.push_back((node_namespace == "/" ? "" : node_namespace) + "/" + name);
   }
-}
-
-// Also frees them.
-std::map<std::string, std::vector<std::string>> to_map(rcl_names_and_types_t& names_and_types) {
-  std::map<std::string, std::vector<std::string>> result;
-  for (size_t i = 0; i < names_and_types.names.size; ++i) {
-    const rcutils_string_array_t& types = names_and_types.types[i];
-    result[names_and_types.names.data[i]] = std::vector<std::string>(types.data, types.data + types.size);
-  }
-  require_ok(rcl_names_and_types_fini(&names_and_types), "failed to free names and types");
   return result;
 }
 
-}  // namespace
-
-std::vector<std::string> NodeGraph::get_node_names() const {
+std::vector<std::pair<std::string, std::string>> NodeGraph::get_node_names_and_namespaces() const {
   rcutils_string_array_t names = rcutils_get_zero_initialized_string_array();
   rcutils_string_array_t namespaces = rcutils_get_zero_initialized_string_array();
   require_ok(rcl_get_node_names(node_base_->get_rcl_node_handle(), rcl_get_default_allocator(), &names, &namespaces),
              "failed to get node names");
-  std::vector<std::string> result;
+  std::vector<std::pair<std::string, std::string>> result;
   for (size_t i = 0; i < names.size; ++i) {
-    const std::string node_namespace = namespaces.data[i];
-    result.push_back((node_namespace == "/" ? "" : node_namespace) + "/" + names.data[i]);
+    result.emplace_back(names.data[i], namespaces.data[i]);
   }
   require_ok(rcutils_string_array_fini(&names), "failed to free node names");
   require_ok(rcutils_string_array_fini(&namespaces), "failed to free node namespaces");
   return result;
 }
 
-std::map<std::string, std::vector<std::string>> NodeGraph::get_topic_names_and_types(bool no_demangle) const {
+NodeGraph::NamesAndTypes NodeGraph::get_topic_names_and_types(bool no_demangle) const {
   rcl_names_and_types_t topics = rcl_get_zero_initialized_names_and_types();
   rcl_allocator_t allocator = rcl_get_default_allocator();
   require_ok(rcl_get_topic_names_and_types(node_base_->get_rcl_node_handle(), &allocator, no_demangle, &topics),
@@ -66,7 +59,7 @@ size_t NodeGraph::count_subscribers(const std::string& topic_name) const {
   return count;
 }
 
-std::map<std::string, std::vector<std::string>> NodeGraph::get_service_names_and_types() const {
+NodeGraph::NamesAndTypes NodeGraph::get_service_names_and_types() const {
   rcl_names_and_types_t services = rcl_get_zero_initialized_names_and_types();
   rcl_allocator_t allocator = rcl_get_default_allocator();
   require_ok(rcl_get_service_names_and_types(node_base_->get_rcl_node_handle(), &allocator, &services),
@@ -88,6 +81,35 @@ size_t NodeGraph::count_clients(const std::string& service_name) const {
   require_ok(rcl_count_clients(node_base_->get_rcl_node_handle(), full_name.c_str(), &count),
              "could not count clients");
   return count;
+}
+
+Event::SharedPtr NodeGraph::get_graph_event() const {
+  // Events may outlive the node interface, not the rcl node.
+  return std::make_shared<Event>([node = node_base_->get_shared_rcl_node_handle()] {
+    uint64_t number = 0;
+    (void)rmw_wait_for_graph_change(rcl_node_get_rmw_handle(node.get()), &number, 0);
+    rcl_reset_error();
+    return number;
+  });
+}
+
+void NodeGraph::wait_for_graph_change(const Event::SharedPtr& event, std::chrono::nanoseconds timeout) const {
+  if (!event) {
+    throw exceptions::InvalidEventError();
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const rmw_node_t* node = rcl_node_get_rmw_handle(node_base_->get_rcl_node_handle());
+  uint64_t number = 0;
+  (void)rmw_wait_for_graph_change(node, &number, 0);  // before check(): a change between the two ends the wait
+  std::chrono::nanoseconds left = timeout;
+  while (!event->check() && node_base_->get_context()->is_valid()) {
+    if (rmw_wait_for_graph_change(node, &number, left.count()) != RMW_RET_OK) {
+      return;
+    }
+    if (timeout >= std::chrono::nanoseconds::zero()) {
+      left = std::max(timeout - (std::chrono::steady_clock::now() - start), std::chrono::nanoseconds::zero());
+    }
+  }
 }
 
 }  // namespace rclcpp::node_interfaces

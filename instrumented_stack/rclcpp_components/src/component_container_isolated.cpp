@@ -20,6 +20,11 @@ void run() {
 
 int main(int argc, char** argv) {
   return rclcpp_components::container_main(
-      "component_container_isolated", argc, argv,
-      [](const std::vector<std::string>&) { run<rclcpp::executors::SingleThreadedExecutor>(); });
+      "component_container_isolated", argc, argv, [](const std::vector<std::string>& arguments) {
+        if (std::find(arguments.begin(), arguments.end(), "--use_multi_threaded_executor") != arguments.end()) {
+          run<rclcpp::executors::MultiThreadedExecutor>();
+        } else {
+          run<rclcpp::executors::SingleThreadedExecutor>();
+        }
+      });
 }

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "graph_cache.hpp"
+#include "graph_changes.hpp"
 #include "graph_channel.hpp"
 #include "identifier.hpp"
 #include "participant.hpp"
@@ -15,12 +16,16 @@
 struct rmw_context_impl_s {
   explicit rmw_context_impl_s(rmw_context_t* context)
       : graph_guard_condition{rmw_fastrtps::kIdentifier, static_cast<rmw_fastrtps::Waitable*>(&graph_changed), context},
-        graph([this] { graph_changed.trigger(); }) {}
+        graph([this] {
+          graph_changed.trigger();
+          graph_changes.add();
+        }) {}
 
   // Serializes creation and destruction of nodes and endpoints, with their announcements.
   std::mutex mutex;
   rmw_fastrtps::GuardCondition graph_changed;
   rmw_guard_condition_t graph_guard_condition;
+  rmw_fastrtps::GraphChanges graph_changes;
   rmw_fastrtps::GraphCache graph;
   // These exist while there are nodes.
   std::unique_ptr<rmw_fastrtps::Participant> participant;

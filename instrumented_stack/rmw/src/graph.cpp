@@ -1,31 +1,21 @@
 // Questions about the graph, answered from the cache.
-#include <algorithm>
-#include <cstring>
-#include <map>
 #include <new>
-#include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 
 #include "context_impl.hpp"
+#include "graph_names.hpp"
 #include "identifier.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
+#include "rmw/wait_for_graph_change.h"
 #include "topic_name.hpp"
 
+using rmw_fastrtps::duplicate;
 using rmw_fastrtps::GraphCache;
+using rmw_fastrtps::hand_out;
 
 namespace {
-
-char* duplicate(const std::string& text, const rcutils_allocator_t& allocator) {
-  char* copy = static_cast<char*>(allocator.allocate(text.size() + 1, allocator.state));
-  if (copy == nullptr) {
-    throw std::bad_alloc();
-  }
-  std::memcpy(copy, text.c_str(), text.size() + 1);
-  return copy;
-}
 
 rmw_ret_t count(const rmw_node_t* node, const char* name, std::string (*mangled)(std::string_view),
                 GraphCache::Kind kind, size_t* result) {
@@ -49,41 +39,6 @@ void fill(rcutils_string_array_t* array, const std::vector<GraphCache::Node>& no
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     array->data[i] = duplicate(nodes[i].*text, allocator);
   }
-}
-
-using NamesAndTypes = std::map<std::string, std::set<std::string>>;
-
-// The DDS topics that have a name in ROS, by that name.
-NamesAndTypes ros_names(const NamesAndTypes& dds_names, std::optional<std::string> (*demangled_name)(std::string_view),
-                        std::string (*demangled_type)(std::string_view)) {
-  NamesAndTypes result;
-  for (const auto& [dds_topic, dds_types] : dds_names) {
-    if (const auto name = demangled_name(dds_topic)) {
-      for (const std::string& type : dds_types) {
-        result[*name].insert(demangled_type(type));
-      }
-    }
-  }
-  return result;
-}
-
-rmw_ret_t hand_out(const NamesAndTypes& names, rcutils_allocator_t* allocator, rmw_names_and_types_t* result) {
-  if (rmw_names_and_types_init(result, names.size(), allocator) != RMW_RET_OK) {
-    return RMW_RET_ERROR;
-  }
-  std::size_t i = 0;
-  for (const auto& [name, types] : names) {
-    result->names.data[i] = duplicate(name, *allocator);
-    if (rcutils_string_array_init(&result->types[i], types.size(), allocator) != RCUTILS_RET_OK) {
-      return RMW_RET_BAD_ALLOC;
-    }
-    std::size_t k = 0;
-    for (const std::string& type : types) {
-      result->types[i].data[k++] = duplicate(type, *allocator);
-    }
-    ++i;
-  }
-  return RMW_RET_OK;
 }
 
 }  // namespace
@@ -123,8 +78,7 @@ rmw_ret_t rmw_get_topic_names_and_types(const rmw_node_t* node, rcutils_allocato
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_names_and_types, RMW_RET_INVALID_ARGUMENT);
   const auto topics = node->context->impl->graph.topics();
-  return hand_out(no_demangle ? topics : ros_names(topics, rmw_fastrtps::demangled_topic, rmw_fastrtps::demangled_type),
-                  allocator, topic_names_and_types);
+  return hand_out(no_demangle ? topics : rmw_fastrtps::ros_topics(topics), allocator, topic_names_and_types);
 } catch (const std::bad_alloc&) {
   RMW_SET_ERROR_MSG("out of memory for the names of topics");
   return RMW_RET_BAD_ALLOC;
@@ -134,9 +88,7 @@ rmw_ret_t rmw_get_service_names_and_types(const rmw_node_t* node, rcutils_alloca
                                           rmw_names_and_types_t* service_names_and_types) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_names_and_types, RMW_RET_INVALID_ARGUMENT);
-  return hand_out(ros_names(node->context->impl->graph.topics(), rmw_fastrtps::demangled_service,
-                            rmw_fastrtps::demangled_service_type),
-                  allocator, service_names_and_types);
+  return hand_out(rmw_fastrtps::ros_services(node->context->impl->graph.topics()), allocator, service_names_and_types);
 } catch (const std::bad_alloc&) {
   RMW_SET_ERROR_MSG("out of memory for the names of services");
   return RMW_RET_BAD_ALLOC;
@@ -149,4 +101,11 @@ rmw_ret_t rmw_count_services(const rmw_node_t* node, const char* service_name, s
 
 rmw_ret_t rmw_count_clients(const rmw_node_t* node, const char* service_name, size_t* result) {
   return count(node, service_name, rmw_fastrtps::mangled_request_topic, GraphCache::Kind::kWriter, result);
+}
+
+rmw_ret_t rmw_wait_for_graph_change(const rmw_node_t* node, uint64_t* number, rmw_duration_t timeout) {
+  RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(number, RMW_RET_INVALID_ARGUMENT);
+  const bool changed = node->context->impl->graph_changes.wait(*number, std::chrono::nanoseconds(timeout));
+  return changed ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }

@@ -19,6 +19,12 @@ auto find_node(Nodes& nodes, const std::string& namespace_, const std::string& n
                       [&](const auto& node) { return node.node_namespace == namespace_ && node.node_name == name; });
 }
 
+Gid gid_in(const rmw_dds_common::msg::Gid& message) {
+  Gid gid;
+  std::copy(message.data.begin(), message.data.end(), gid.begin());
+  return gid;
+}
+
 template <typename NodeInfo>
 auto& endpoints_of(NodeInfo& node, GraphCache::Kind kind) {
   return kind == GraphCache::Kind::kWriter ? node.writer_gid_seq : node.reader_gid_seq;
@@ -153,13 +159,67 @@ std::vector<GraphCache::Node> GraphCache::nodes() const {
   return result;
 }
 
-std::map<std::string, std::set<std::string>> GraphCache::topics() const {
+GraphCache::Topics GraphCache::topics() const {
   std::lock_guard lock(mutex_);
-  std::map<std::string, std::set<std::string>> result;
+  Topics result;
   for (const auto& [gid, endpoint] : endpoints_) {
     result[endpoint.topic].insert(endpoint.type);
   }
   return result;
+}
+
+std::vector<GraphCache::OwnedEndpoint> GraphCache::endpoints(Kind kind, std::string_view topic) const {
+  std::lock_guard lock(mutex_);
+  std::vector<OwnedEndpoint> result;
+  for (const auto& [gid, endpoint] : endpoints_) {
+    if (endpoint.kind == kind && endpoint.topic == topic) {
+      OwnedEndpoint& owned = result.emplace_back(OwnedEndpoint{gid, endpoint, "", ""});
+      if (const NodeInfo* node = owner_of(gid, kind)) {
+        owned.node_name = node->node_name;
+        owned.node_namespace = node->node_namespace;
+      }
+    }
+  }
+  return result;
+}
+
+std::optional<GraphCache::Topics> GraphCache::topics_of_node(const std::string& namespace_, const std::string& name,
+                                                             Kind kind) const {
+  std::lock_guard lock(mutex_);
+  std::optional<Topics> result;
+  for (const auto& [participant_gid, participant] : participants_) {
+    for (const NodeInfo& node : participant.nodes) {
+      if (node.node_namespace != namespace_ || node.node_name != name) {
+        continue;
+      }
+      if (!result) {
+        result.emplace();
+      }
+      for (const auto& message : endpoints_of(node, kind)) {
+        // An endpoint may be announced by its node before discovery has found it.
+        const auto endpoint = endpoints_.find(gid_in(message));
+        if (endpoint != endpoints_.end()) {
+          (*result)[endpoint->second.topic].insert(endpoint->second.type);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+const GraphCache::NodeInfo* GraphCache::owner_of(const Gid& endpoint, Kind kind) const {
+  for (const auto& [gid, participant] : participants_) {
+    if (!same_participant(gid, endpoint)) {
+      continue;
+    }
+    for (const NodeInfo& node : participant.nodes) {
+      const auto& gids = endpoints_of(node, kind);
+      if (std::any_of(gids.begin(), gids.end(), [&](const auto& message) { return gid_in(message) == endpoint; })) {
+        return &node;
+      }
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace rmw_fastrtps

@@ -9,12 +9,14 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gid.hpp"
+#include "rmw/types.h"
 #include "rmw_dds_common/msg/participant_entities_info.hpp"
 
 namespace rmw_fastrtps {
@@ -30,7 +32,19 @@ class GraphCache {
     Kind kind;
     std::string topic;
     std::string type;
+    rmw_qos_profile_t qos;
   };
+
+  // One with its node. Empty names if no node is known to have it.
+  struct OwnedEndpoint {
+    Gid gid;
+    Endpoint endpoint;
+    std::string node_name;
+    std::string node_namespace;
+  };
+
+  // DDS topic names with their DDS type names.
+  using Topics = std::map<std::string, std::set<std::string>>;
 
   struct Node {
     std::string name;
@@ -61,8 +75,10 @@ class GraphCache {
 
   std::size_t count(Kind kind, std::string_view topic) const;
   std::vector<Node> nodes() const;
-  // DDS topic names with their DDS type names.
-  std::map<std::string, std::set<std::string>> topics() const;
+  Topics topics() const;
+  std::vector<OwnedEndpoint> endpoints(Kind kind, std::string_view topic) const;
+  // The topics that a node writes or reads; of all nodes of that name. Nothing if there is no such node.
+  std::optional<Topics> topics_of_node(const std::string& namespace_, const std::string& name, Kind kind) const;
 
  private:
   using NodeInfo = rmw_dds_common::msg::NodeEntitiesInfo;
@@ -71,6 +87,9 @@ class GraphCache {
     std::string enclave;
     std::vector<NodeInfo> nodes;
   };
+
+  // Null if no node is known to have it. Under the lock.
+  const NodeInfo* owner_of(const Gid& endpoint, Kind kind) const;
 
   // Changes the nodes of an own participant under the lock, then tells of the change.
   template <typename Change>

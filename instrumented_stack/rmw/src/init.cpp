@@ -104,6 +104,7 @@ rmw_ret_t rmw_shutdown(rmw_context_t* context) {
   RMW_CHECK_HANDLE(context, RMW_RET_INVALID_ARGUMENT);
   std::lock_guard lock(context->impl->mutex);
   context->impl->shut_down = true;
+  context->impl->graph_changes.end();
   return RMW_RET_OK;
 }
 

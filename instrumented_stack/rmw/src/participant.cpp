@@ -23,6 +23,7 @@
 
 #include "dds_gid.hpp"
 #include "message_type.hpp"
+#include "qos.hpp"
 #include "rcutils/logging.h"
 
 namespace rmw_fastrtps {
@@ -170,7 +171,8 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
     if (removed) {
       graph_.remove_endpoint(to_gid(proxy.guid()));
     } else {
-      graph_.add_endpoint(to_gid(proxy.guid()), {kind, proxy.topicName().to_string(), proxy.typeName().to_string()});
+      graph_.add_endpoint(to_gid(proxy.guid()),
+                          {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos)});
     }
   }
 

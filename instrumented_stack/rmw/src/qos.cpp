@@ -105,26 +105,35 @@ void apply(const rmw_qos_profile_t& profile, Qos& qos) {
   }
 }
 
+// What endpoints announce, and know of themselves.
+rmw_qos_profile_t profile_from(const fdds::ReliabilityQosPolicy& reliability,
+                               const fdds::DurabilityQosPolicy& durability, const fdds::LivelinessQosPolicy& liveliness,
+                               const fdds::DeadlineQosPolicy& deadline) {
+  rmw_qos_profile_t profile{};
+  profile.history = RMW_QOS_POLICY_HISTORY_UNKNOWN;
+  profile.reliability = reliability.kind == fdds::RELIABLE_RELIABILITY_QOS ? RMW_QOS_POLICY_RELIABILITY_RELIABLE
+                                                                           : RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT;
+  profile.durability = durability.kind == fdds::VOLATILE_DURABILITY_QOS ? RMW_QOS_POLICY_DURABILITY_VOLATILE
+                       : durability.kind == fdds::TRANSIENT_LOCAL_DURABILITY_QOS
+                           ? RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL
+                           : RMW_QOS_POLICY_DURABILITY_UNKNOWN;
+  profile.liveliness = liveliness.kind == fdds::AUTOMATIC_LIVELINESS_QOS ? RMW_QOS_POLICY_LIVELINESS_AUTOMATIC
+                       : liveliness.kind == fdds::MANUAL_BY_TOPIC_LIVELINESS_QOS
+                           ? RMW_QOS_POLICY_LIVELINESS_MANUAL_BY_TOPIC
+                           : RMW_QOS_POLICY_LIVELINESS_UNKNOWN;
+  profile.deadline = from_dds(deadline.period);
+  profile.lifespan = kInfinite;
+  profile.liveliness_lease_duration = from_dds(liveliness.lease_duration);
+  return profile;
+}
+
 template <typename Qos>
 rmw_qos_profile_t profile_from(const Qos& qos) {
-  rmw_qos_profile_t profile{};
+  rmw_qos_profile_t profile = profile_from(qos.reliability(), qos.durability(), qos.liveliness(), qos.deadline());
   profile.history = qos.history().kind == fdds::KEEP_LAST_HISTORY_QOS ? RMW_QOS_POLICY_HISTORY_KEEP_LAST
                                                                       : RMW_QOS_POLICY_HISTORY_KEEP_ALL;
   profile.depth = static_cast<std::size_t>(qos.history().depth);
-  profile.reliability = qos.reliability().kind == fdds::RELIABLE_RELIABILITY_QOS
-                            ? RMW_QOS_POLICY_RELIABILITY_RELIABLE
-                            : RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT;
-  profile.durability = qos.durability().kind == fdds::VOLATILE_DURABILITY_QOS ? RMW_QOS_POLICY_DURABILITY_VOLATILE
-                       : qos.durability().kind == fdds::TRANSIENT_LOCAL_DURABILITY_QOS
-                           ? RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL
-                           : RMW_QOS_POLICY_DURABILITY_UNKNOWN;
-  profile.liveliness = qos.liveliness().kind == fdds::AUTOMATIC_LIVELINESS_QOS ? RMW_QOS_POLICY_LIVELINESS_AUTOMATIC
-                       : qos.liveliness().kind == fdds::MANUAL_BY_TOPIC_LIVELINESS_QOS
-                           ? RMW_QOS_POLICY_LIVELINESS_MANUAL_BY_TOPIC
-                           : RMW_QOS_POLICY_LIVELINESS_UNKNOWN;
-  profile.deadline = from_dds(qos.deadline().period);
   profile.lifespan = from_dds(qos.lifespan().duration);
-  profile.liveliness_lease_duration = from_dds(qos.liveliness().lease_duration);
   return profile;
 }
 
@@ -150,6 +159,14 @@ rmw_qos_profile_t profile_of(const fdds::DataWriterQos& qos) {
 }
 rmw_qos_profile_t profile_of(const fdds::DataReaderQos& qos) {
   return profile_from(qos);
+}
+rmw_qos_profile_t profile_of(const fdds::WriterQos& qos) {
+  rmw_qos_profile_t profile = profile_from(qos.m_reliability, qos.m_durability, qos.m_liveliness, qos.m_deadline);
+  profile.lifespan = from_dds(qos.m_lifespan.duration);
+  return profile;
+}
+rmw_qos_profile_t profile_of(const fdds::ReaderQos& qos) {
+  return profile_from(qos.m_reliability, qos.m_durability, qos.m_liveliness, qos.m_deadline);
 }
 
 }  // namespace rmw_fastrtps

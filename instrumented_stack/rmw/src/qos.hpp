@@ -6,6 +6,8 @@
 namespace eprosima::fastdds::dds {
 class DataReaderQos;
 class DataWriterQos;
+class ReaderQos;
+class WriterQos;
 }  // namespace eprosima::fastdds::dds
 
 namespace eprosima::fastrtps {
@@ -21,6 +23,10 @@ void apply_profile(const rmw_qos_profile_t& profile, eprosima::fastdds::dds::Dat
 
 rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::DataWriterQos& qos);
 rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::DataReaderQos& qos);
+
+// Of a discovered endpoint. Its history is not announced, nor is the lifespan of a reader: unknown and infinite.
+rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::WriterQos& qos);
+rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::ReaderQos& qos);
 
 // Infinite if Fast DDS cannot express it, beyond 68 years.
 eprosima::fastrtps::Time_t to_dds(const rmw_time_t& time);

@@ -66,7 +66,8 @@ void ServiceChannel::open_reader(const std::string& topic_name, const message_ty
   if (reader == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a reader on topic '" + topic_name + "'");
   }
-  reader_identity_ = {to_gid(reader->guid()), {GraphCache::Kind::kReader, topic_name, dds_type_name(type)}};
+  reader_identity_ = {to_gid(reader->guid()),
+                      {GraphCache::Kind::kReader, topic_name, dds_type_name(type), profile_of(reader->get_qos())}};
 }
 
 void ServiceChannel::open_writer(const std::string& topic_name, const message_type_support_callbacks_t& type,
@@ -79,7 +80,8 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
   if (writer == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a writer on topic '" + topic_name + "'");
   }
-  writer_identity_ = {to_gid(writer->guid()), {GraphCache::Kind::kWriter, topic_name, dds_type_name(type)}};
+  writer_identity_ = {to_gid(writer->guid()),
+                      {GraphCache::Kind::kWriter, topic_name, dds_type_name(type), profile_of(writer->get_qos())}};
 }
 
 void ServiceChannel::close() {

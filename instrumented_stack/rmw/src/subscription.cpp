@@ -95,8 +95,9 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
     participant.release_topic(*subscription->topic);
     throw std::runtime_error("Fast DDS cannot create a reader on topic '" + dds_topic + "'");
   }
-  subscription->identity = {to_gid(subscription->reader->guid()),
-                            {GraphCache::Kind::kReader, dds_topic, dds_type_name(callbacks)}};
+  subscription->identity = {
+      to_gid(subscription->reader->guid()),
+      {GraphCache::Kind::kReader, dds_topic, dds_type_name(callbacks), profile_of(subscription->reader->get_qos())}};
   subscription->topic_name = topic_name;
   subscription->handle = {
       kIdentifier, static_cast<Waitable*>(subscription.get()), subscription->topic_name.c_str(), options, false, false};

@@ -98,10 +98,15 @@ TEST_P(ComponentContainer, WrongArgumentsEndItWithAMessage) {
   EXPECT_EQ(result.err, GetParam().program + ": found unknown ROS arguments: '-x'\n");
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ComponentContainer,
-                         testing::Values(Container{"single", "component_container", {}, false},
-                                         Container{"isolated", "component_container_isolated", {}, true}),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, ComponentContainer,
+    testing::Values(Container{"single", "component_container", {}, false},
+                    Container{"several", "component_container_mt", {}, false},
+                    Container{"events", "component_container_event", {}, false},
+                    Container{"isolated", "component_container_isolated", {}, true},
+                    Container{
+                        "isolated_several", "component_container_isolated", {"--use_multi_threaded_executor"}, true}),
+    [](const auto& test) { return test.param.name; });
 
 TEST(ComponentProgram, RunsItsComponent) {
   const test_support::Sandbox sandbox;

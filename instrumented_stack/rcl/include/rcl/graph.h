@@ -6,14 +6,19 @@
 #include "rcl/types.h"
 #include "rcutils/types/string_array.h"
 #include "rmw/names_and_types.h"
+#include "rmw/topic_endpoint_info.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef rmw_names_and_types_t rcl_names_and_types_t;
+typedef rmw_topic_endpoint_info_t rcl_topic_endpoint_info_t;
+typedef rmw_topic_endpoint_info_array_t rcl_topic_endpoint_info_array_t;
 
 #define rcl_get_zero_initialized_names_and_types rmw_get_zero_initialized_names_and_types
+#define rcl_get_zero_initialized_topic_endpoint_info_array rmw_get_zero_initialized_topic_endpoint_info_array
+#define rcl_topic_endpoint_info_array_fini rmw_topic_endpoint_info_array_fini
 
 rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t* names_and_types);
 
@@ -32,6 +37,28 @@ rcl_ret_t rcl_count_services(const rcl_node_t* node, const char* service_name, s
 rcl_ret_t rcl_count_clients(const rcl_node_t* node, const char* service_name, size_t* count);
 rcl_ret_t rcl_get_service_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
                                           rcl_names_and_types_t* service_names_and_types);
+
+// What one node has. RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
+rcl_ret_t rcl_get_publisher_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                    bool no_demangle, const char* node_name, const char* node_namespace,
+                                                    rcl_names_and_types_t* topic_names_and_types);
+rcl_ret_t rcl_get_subscriber_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                     bool no_demangle, const char* node_name,
+                                                     const char* node_namespace,
+                                                     rcl_names_and_types_t* topic_names_and_types);
+rcl_ret_t rcl_get_service_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                  const char* node_name, const char* node_namespace,
+                                                  rcl_names_and_types_t* service_names_and_types);
+rcl_ret_t rcl_get_client_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                                 const char* node_name, const char* node_namespace,
+                                                 rcl_names_and_types_t* service_names_and_types);
+
+// Full topic name; with `no_mangle` as DDS has it. The array must be zero initialized.
+rcl_ret_t rcl_get_publishers_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator, const char* topic_name,
+                                           bool no_mangle, rcl_topic_endpoint_info_array_t* publishers_info);
+rcl_ret_t rcl_get_subscriptions_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator,
+                                              const char* topic_name, bool no_mangle,
+                                              rcl_topic_endpoint_info_array_t* subscriptions_info);
 
 // Whether a request of the client would be answered. Changes trigger the graph guard condition.
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available);

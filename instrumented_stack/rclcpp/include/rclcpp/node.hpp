@@ -195,13 +195,33 @@ class Node : public std::enable_shared_from_this<Node> {
   std::map<std::string, std::vector<std::string>> get_topic_names_and_types() const {
     return node_graph_->get_topic_names_and_types();
   }
+  std::vector<TopicEndpointInfo> get_publishers_info_by_topic(const std::string& topic_name,
+                                                              bool no_mangle = false) const {
+    return node_graph_->get_publishers_info_by_topic(topic_name, no_mangle);
+  }
+  std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string& topic_name,
+                                                                 bool no_mangle = false) const {
+    return node_graph_->get_subscriptions_info_by_topic(topic_name, no_mangle);
+  }
   size_t count_publishers(const std::string& topic_name) const { return node_graph_->count_publishers(topic_name); }
   size_t count_subscribers(const std::string& topic_name) const { return node_graph_->count_subscribers(topic_name); }
   std::map<std::string, std::vector<std::string>> get_service_names_and_types() const {
     return node_graph_->get_service_names_and_types();
   }
+  // Throws exceptions::RCLError if no such node is known.
+  std::map<std::string, std::vector<std::string>> get_service_names_and_types_by_node(
+      const std::string& node_name, const std::string& namespace_) const {
+    return node_graph_->get_service_names_and_types_by_node(node_name, namespace_);
+  }
   size_t count_services(const std::string& service_name) const { return node_graph_->count_services(service_name); }
   size_t count_clients(const std::string& service_name) const { return node_graph_->count_clients(service_name); }
+
+  // An event that is set by every change of the graph from now on, and waiting for it. Any number of threads may wait.
+  Event::SharedPtr get_graph_event() { return node_graph_->get_graph_event(); }
+  // Throws exceptions::InvalidEventError for null. A negative time is without end; shutdown ends every wait.
+  void wait_for_graph_change(Event::SharedPtr event, std::chrono::nanoseconds timeout) {
+    node_graph_->wait_for_graph_change(event, timeout);
+  }
 
   node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() { return node_base_; }
   node_interfaces::NodeGraphInterface::SharedPtr get_node_graph_interface() { return node_graph_; }

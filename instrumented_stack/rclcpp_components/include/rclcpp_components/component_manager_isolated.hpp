@@ -29,19 +29,20 @@ class ComponentManagerIsolated : public ComponentManager {
 
  protected:
   void add_node_to_executor(uint64_t node_id) override {
-    const auto node = node_wrappers_.at(node_id).get_node_base_interface();
+    auto node = node_wrappers_.at(node_id).get_node_base_interface();
     const auto executor = std::make_shared<ExecutorT>();
     executor->add_node(node);
     Dedicated dedicated;
     dedicated.executor = executor;
     std::promise<void> ended;
     dedicated.ended = ended.get_future();
-    dedicated.thread = std::thread([executor, ended = std::move(ended)]() mutable {
+    dedicated.thread = std::thread([executor, node, ended = std::move(ended)]() mutable {
+      // Shows in traces and debuggers, also of the threads that the executor starts. It has at most 15 characters.
+      pthread_setname_np(pthread_self(), std::string(node->get_name()).substr(0, 15).c_str());
+      node.reset();
       executor->spin();
       ended.set_value();
     });
-    // Shows in traces and debuggers. A thread's name has 15 characters.
-    pthread_setname_np(dedicated.thread.native_handle(), std::string(node->get_name()).substr(0, 15).c_str());
     dedicated_executors_.emplace(node_id, std::move(dedicated));
   }
 

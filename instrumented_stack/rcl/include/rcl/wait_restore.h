@@ -1,0 +1,19 @@
+// Waiting again for the same entities without adding each of them again: what an executor does all the time.
+#pragma once
+
+#include "rcl/wait.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Remembers what has been added since rcl_wait_set_clear() or rcl_wait_set_resize(), which forget it.
+rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set);
+
+// Instead of clearing and adding: the wait set is as it was when rcl_wait_set_keep() was called, and more can be added.
+// All that was kept must still live. RCL_RET_WAIT_SET_EMPTY if nothing was kept.
+rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,37 @@
+// What is known of one publisher or subscription of the system.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rcutils/allocator.h"
+#include "rmw/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// The strings are owned. An endpoint of no known node has name and namespace `_NODE_NAME_UNKNOWN_` and
+// `_NODE_NAMESPACE_UNKNOWN_`. History and depth of an endpoint of another process are unknown: discovery does not tell
+// them.
+typedef struct rmw_topic_endpoint_info_s {
+  const char* node_name;
+  const char* node_namespace;
+  const char* topic_type;
+  rmw_endpoint_type_t endpoint_type;
+  uint8_t endpoint_gid[RMW_GID_STORAGE_SIZE];
+  rmw_qos_profile_t qos_profile;
+} rmw_topic_endpoint_info_t;
+
+typedef struct rmw_topic_endpoint_info_array_s {
+  size_t size;
+  rmw_topic_endpoint_info_t* info_array;
+} rmw_topic_endpoint_info_array_t;
+
+rmw_topic_endpoint_info_array_t rmw_get_zero_initialized_topic_endpoint_info_array(void);
+// Also frees the strings. `allocator` is the one that the array was filled with.
+rmw_ret_t rmw_topic_endpoint_info_array_fini(rmw_topic_endpoint_info_array_t* array, rcutils_allocator_t* allocator);
+
+#ifdef __cplusplus
+}
+#endif
