@@ -47,7 +47,8 @@ namespace launch {
   ACTION(timer)                        \
   ACTION(trace)                        \
   ACTION(unset)                        \
-  ACTION(unset_env)
+  ACTION(unset_env)                    \
+  ACTION(wait_for)
 
 #define LAUNCH_DECLARE_ACTION(name) ActionType name##_action();
 LAUNCH_BUILTIN_ACTIONS(LAUNCH_DECLARE_ACTION)

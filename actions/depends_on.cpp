@@ -6,22 +6,6 @@ namespace launch {
 
 namespace {
 
-// The value of a literal attribute, which must be one of `names`, by its number there.
-std::size_t choice(const Fields& fields, const std::string& attribute, const std::vector<std::string>& names) {
-  const std::string given = fields.literal(attribute, names.front());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (given == names[i]) {
-      return i;
-    }
-  }
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  }
-  throw LaunchError(fmt::format("{} can be {}, got '{}'", attribute, list, given), fields.where(attribute),
-                    did_you_mean(given, names));
-}
-
 void require_state(const Fields& fields, const std::string& attribute, const std::string& state, bool is_state) {
   if (fields.has(attribute) && !is_state) {
     throw LaunchError(fmt::format("{} goes with condition=\"{}\" only", attribute, state), fields.where(attribute));
@@ -31,19 +15,26 @@ void require_state(const Fields& fields, const std::string& attribute, const std
 }  // namespace
 
 ItemSpec DependsOn::item() {
+  std::vector<AttributeSpec> attributes = {
+      {"process", AttributeType::kText, false, "", "name of another process or of its node; or one of:", true}};
+  for (AttributeSpec& attribute : RosCondition::attributes()) {
+    attributes.push_back(std::move(attribute));
+  }
+  const std::vector<AttributeSpec> rest = {
+      {"condition", AttributeType::kLiteral, false, "started; present",
+       "of a process: started, exited or output; of a topic: present or message; else present", true},
+      {"exit_code", AttributeType::kText, false, "0",
+       "with exited: any, nonzero, or codes and signals separated by commas", true},
+      {"pattern", AttributeType::kText, false, "any line", "with output: regular expression to be found in a line",
+       true},
+      {"stream", AttributeType::kText, false, "both", "with output: stdout, stderr or both", true},
+      {"timeout", AttributeType::kFloat, false, "none", "seconds after which the condition has failed", true},
+      {"on_failure", AttributeType::kLiteral, false, "shutdown",
+       "when it can't hold any more: shutdown of the system, start all the same, or skip the process", true}};
+  attributes.insert(attributes.end(), rest.begin(), rest.end());
   return {.tag = "depends_on",
           .help = "the process starts once this holds; several: once all hold",
-          .attributes =
-              {{"process", AttributeType::kText, true, "", "name of another process or of its node", true},
-               {"condition", AttributeType::kLiteral, false, "started", "started, exited or output", true},
-               {"exit_code", AttributeType::kText, false, "0",
-                "with exited: any, nonzero, or codes and signals separated by commas", true},
-               {"pattern", AttributeType::kText, false, "any line",
-                "with output: regular expression to be found in a line", true},
-               {"stream", AttributeType::kText, false, "both", "with output: stdout, stderr or both", true},
-               {"timeout", AttributeType::kFloat, false, "none", "seconds after which the condition has failed", true},
-               {"on_failure", AttributeType::kLiteral, false, "shutdown",
-                "when it can't hold any more: shutdown of the system, start all the same, or skip the process", true}},
+          .attributes = std::move(attributes),
           .has_condition = true,
           .extension = true};
 }
@@ -51,13 +42,21 @@ ItemSpec DependsOn::item() {
 DependsOn::DependsOn(const Fields& fields)
     : where_(fields.where()),
       condition_(fields.condition()),
-      process_(fields.text("process")),
-      state_(static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}))),
+      process_(fields.optional_text("process")),
       exit_code_(fields.optional_text("exit_code")),
       pattern_(fields.optional_text("pattern")),
       stream_(fields.optional_text("stream")),
       timeout_(fields.number("timeout")),
       on_failure_(static_cast<OnFailure>(choice(fields, "on_failure", {"shutdown", "start", "skip"}))) {
+  const std::string subject = RosCondition::subject_of(fields, {"process"});
+  if (subject == "process") {
+    state_ = static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}));
+    if (fields.has("state")) {
+      throw LaunchError("state goes with a node only", fields.where("state"));
+    }
+  } else {
+    ros_condition_.emplace(fields, subject);
+  }
   require_state(fields, "exit_code", "exited", state_ == State::kExited);
   require_state(fields, "pattern", "output", state_ == State::kOutput);
   require_state(fields, "stream", "output", state_ == State::kOutput);
@@ -73,7 +72,11 @@ void DependsOn::request(LaunchContext& context, std::size_t process) const {
   }
   Dependency dependency;
   dependency.process = process;
-  dependency.condition = process_condition(scope);
+  if (ros_condition_) {
+    dependency.condition = ros_condition_->perform(context);
+  } else {
+    dependency.condition = process_condition(scope);
+  }
   if (timeout_) {
     dependency.timeout = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeout_->perform(scope)));
   }
@@ -88,7 +91,7 @@ ProcessCondition DependsOn::process_condition(Scope& scope) const {
   };
   const auto place = [&](const std::optional<Template>& given) { return given ? given->where() : where_; };
   ProcessCondition condition;
-  condition.process = process_.perform(scope);
+  condition.process = process_->perform(scope);
   switch (state_) {
     case State::kStarted:
       condition.state = UntilStarted{};

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "actions/ros_condition.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 
@@ -27,7 +28,8 @@ class DependsOn {
 
   SourceRange where_;
   Condition condition_;
-  Template process_;
+  std::optional<RosCondition> ros_condition_;  // else it is about a process
+  std::optional<Template> process_;
   State state_ = State::kStarted;
   std::optional<Template> exit_code_;
   std::optional<Template> pattern_;

@@ -1,6 +1,7 @@
 // An event of a launch file: what it waits for and what is visited then.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "launcher/core/action.hpp"
 #include "launcher/core/exit_code_filter.hpp"
 #include "launcher/core/output_pattern.hpp"
+#include "launcher/core/readiness_condition.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/substitution/scope.hpp"
 
@@ -25,9 +27,13 @@ struct OnProcessIo {
 struct OnShutdown {
   Duration timeout{0};  // at most so long
 };
+// Something outside of the launch. Its handler is visited once.
+struct OnceReady {
+  std::shared_ptr<ReadinessCondition> condition;
+};
 
 struct EventHandler {
-  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown> event;
+  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown, OnceReady> event;
   std::string process;  // a name (process_table.hpp); empty: every process
   bool once = false;
   std::vector<ActionPtr> actions;

@@ -17,6 +17,7 @@ struct Description {
     return fmt::format("on_process_io{} with {}", of_process(), io.pattern.describe());
   }
   std::string operator()(const OnShutdown&) const { return "on_shutdown"; }
+  std::string operator()(const OnceReady& ready) const { return "once " + ready.condition->describe(); }
 
   std::string of_process() const { return process.empty() ? " of any process" : fmt::format(" of '{}'", process); }
   const std::string& process;

@@ -27,6 +27,8 @@ EventValues made_up_event(const EventHandler& handler) {
     values.emplace_back("stream", io->pattern.stream() == "stderr" ? "stderr" : "stdout");
   } else if (std::holds_alternative<OnShutdown>(handler.event)) {
     values = {{"reason", ""}};
+  } else if (std::holds_alternative<OnceReady>(handler.event)) {
+    values.clear();
   }
   return values;
 }

@@ -24,6 +24,13 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                     [this](const LaunchError& error) { fail(error); },
                     [this](LogLevel level, const std::string& process, const std::string& text) {
                       context_.message(level, process, text);
+                    },
+                    [this](const TrackedProcess& process) {
+                      for (const std::string& name : process.names) {
+                        if (ros_tasks_ && name.starts_with('/')) {
+                          ros_tasks_->on_skipped(name);
+                        }
+                      }
                     }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }
@@ -220,7 +227,11 @@ void LaunchService::start(Round round) {
     execute(command);
   }
   for (EventHandler& handler : requests.handlers) {
-    handlers_.add(std::move(handler));
+    if (std::holds_alternative<OnceReady>(handler.event)) {
+      wait_for(std::move(handler));
+    } else {
+      handlers_.add(std::move(handler));
+    }
   }
   for (TimerRequest& request : requests.timers) {
     start_timer(std::move(request));
@@ -286,6 +297,20 @@ void LaunchService::start_ros_tasks(Requests& requests) {
   for (TransitionRequest& request : requests.transitions) {
     ros_tasks_->change_state(std::move(request));
   }
+}
+
+void LaunchService::wait_for(EventHandler handler) {
+  const auto place = waits_.insert(waits_.end(), std::make_shared<const EventHandler>(std::move(handler)));
+  std::get<OnceReady>((*place)->event)
+      .condition->watch(loop_, [this, place](const std::optional<std::string>& failure) {
+        const std::shared_ptr<const EventHandler> ready = *place;
+        waits_.erase(place);
+        if (failure) {
+          fail(LaunchError(*failure, ready->where));
+        } else {
+          invoke({{ready, {}}});
+        }
+      });
 }
 
 void LaunchService::execute(const ProcessCommand& command) {

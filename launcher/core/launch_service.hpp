@@ -85,6 +85,8 @@ class LaunchService {
   void start_process(ProcessSpec spec, TrackedProcess& process);
   void start_timer(TimerRequest request);
   void start_ros_tasks(Requests& requests);
+  // Visits a handler once its condition holds.
+  void wait_for(EventHandler handler);
   void execute(const ProcessCommand& command);
   void fail(const LaunchError& error);
   void shutdown(const std::string& reason);
@@ -108,6 +110,7 @@ class LaunchService {
 
   ProcessTable table_;
   EventHandlers handlers_;
+  std::list<std::shared_ptr<const EventHandler>> waits_;  // those for conditions
   StartOrder start_order_;
   std::deque<Invocation> invocations_;  // each has a post of its own
   bool output_observed_ = false;

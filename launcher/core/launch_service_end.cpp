@@ -23,6 +23,7 @@ void LaunchService::shutdown(const std::string& reason) {
     }
     timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
     start_order_.clear();
+    waits_.clear();
     if (ros_tasks_) {
       ros_tasks_->shutdown();
     }

@@ -186,7 +186,7 @@ void RosTasks::drop(const std::string& node, bool restarts) {
       std::visit(
           [&](const auto& request) {
             RosAnswer ended;
-            ended.error = "its process has ended";
+            ended.error = "its process does not run";
             for (std::size_t step = dropped->step; step < steps_of(request) && report(request, step, ended); ++step) {
             }
           },

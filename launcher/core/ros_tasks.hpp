@@ -36,6 +36,8 @@ class RosTasks {
   // Tells which node a process is, by its fully qualified name.
   void name_process(ProcessId process, std::string node) { nodes_[process] = std::move(node); }
   void on_process_event(const ProcessEvent& event);
+  // The process of that node will never start.
+  void on_skipped(const std::string& node) { drop(node, false); }
 
   // Gives up what is under way.
   void shutdown();

@@ -191,6 +191,7 @@ void StartOrder::deal_with_failures(const WaitingPtr& waiting) {
         waiting->process->is_over = true;
         end(*waiting);
         on_process_event(*waiting->process);  // others may wait for it
+        callbacks_.skipped(*waiting->process);
         return;
       case OnFailure::kShutdown: {
         const LaunchError error(fmt::format("'{}' can't start: {}", name, *watch.failure), watch.dependency.where,
@@ -213,6 +214,7 @@ bool StartOrder::drop(const TrackedProcess& process) {
   end(*waiting);
   waiting->process->is_over = true;
   on_process_event(*waiting->process);
+  callbacks_.skipped(*waiting->process);
   return true;
 }
 

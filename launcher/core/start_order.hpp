@@ -31,6 +31,8 @@ class StartOrder {
     // A process won't start, and the launch shall end.
     std::function<void(const LaunchError&)> fail;
     std::function<void(LogLevel level, const std::string& process, const std::string& text)> tell;
+    // A process won't start, and the launch goes on without it.
+    std::function<void(const TrackedProcess& process)> skipped;
   };
 
   // The loop must outlive this object.

@@ -29,7 +29,13 @@ class OpaqueType {
     for (std::size_t i = 0; separator != std::string::npos && i < separator; ++i) {
       name_space_ += type[i] == '/' ? std::string("::") : std::string(1, type[i]);
     }
-    callbacks_ = {name_space_.c_str(), name_.c_str(), write, read, size, max_size};
+    callbacks_.message_namespace_ = name_space_.c_str();
+    callbacks_.message_name_ = name_.c_str();
+    callbacks_.type_hash_ = "";  // its definition is not known
+    callbacks_.cdr_serialize = write;
+    callbacks_.cdr_deserialize = read;
+    callbacks_.get_serialized_size = size;
+    callbacks_.max_serialized_size = max_size;
     handle_ = {rosidl_typesupport_fastrtps_cpp::typesupport_identifier, &callbacks_, itself};
   }
   OpaqueType(const OpaqueType&) = delete;

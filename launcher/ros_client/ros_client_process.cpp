@@ -29,7 +29,9 @@ constexpr std::chrono::milliseconds kWriteRetry{10};
 
 // Chooses a graph, or how Fast DDS reaches it.
 bool chooses_graph(const std::string& variable) {
-  for (const char* const prefix : {"ROS_", "RMW_", "FASTRTPS_", "FASTDDS_"}) {
+  for (const char* const prefix :
+       {"ROS_DOMAIN_ID", "ROS_LOCALHOST_ONLY", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS",
+        "ROS_DISCOVERY_SERVER", "ROS_SECURITY_", "ROS_SUPER_CLIENT", "RMW_", "FASTRTPS_", "FASTDDS_"}) {
     if (variable.starts_with(prefix)) {
       return true;
     }

@@ -1,7 +1,9 @@
 // Components in real containers: loaded, traced, loaded again, refused, waited for.
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/wait.h>
 
+#include <cerrno>
 #include <regex>
 
 #include "tests/e2e/recorded_trace.hpp"
@@ -115,6 +117,17 @@ TEST_F(Composition, AContainerOfSomebodyElseIsGivenNodes) {
   EXPECT_TRUE(owner.wait_for_output("[talker]: Publishing: 'Hello World: 1'"));
   owner.send_signal(SIGINT);
   EXPECT_EQ(owner.wait().exit_code, 0);
+}
+
+TEST_F(Composition, AKilledLauncherLeavesNobodyBehind) {
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, write(container("", kTalker))}});
+  ASSERT_TRUE(run.wait_for_output("Loaded node '/talker'")) << run.out() << run.err();
+  run.send_signal(SIGKILL);
+  EXPECT_EQ(run.wait().signal, SIGKILL);
+  // Container, guardian and ROS client become ours and go by themselves.
+  while (::waitpid(-1, nullptr, 0) > 0) {
+  }
+  EXPECT_EQ(errno, ECHILD);
 }
 
 TEST_F(Composition, ACtrlCEndsTheWaitForAContainerThatNeverComes) {

@@ -71,7 +71,12 @@ INSTANTIATE_TEST_SUITE_P(
                                 {"cancel_after:=2"},
                                 {"[fibonacci_action_server]: Received goal request with order 8",
                                  "[fibonacci_action_client]: Feedback: 0 1 1",
-                                 "[fibonacci_action_client]: Goal was canceled: 0 1 1 2", "trace written to: "}}),
+                                 "[fibonacci_action_client]: Goal was canceled: 0 1 1 2", "trace written to: "}},
+                        Example{"11_lifecycle",
+                                {},
+                                {"waits until '/lc_talker' is active", "[lc_talker]: on_activate() is called.",
+                                 "[lc_listener]: data_callback: Lifecycle HelloWorld #",
+                                 "Transition from state shuttingdown to finalized", "trace is complete"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

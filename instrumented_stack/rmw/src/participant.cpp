@@ -88,13 +88,17 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
   }
 }
 
-// The value of `enclave=…;` in the user data that participants announce.
-// What ROS 2 tells of an endpoint's type to others, so that they can see whether they mean the same definition.
+// What ROS 2 tells of an endpoint's type to others, so that they can see whether they mean the same definition. Nothing
+// for a type of which only the name is known.
 std::vector<rtps::octet> type_hash_user_data(const message_type_support_callbacks_t& type) {
+  if (*type.type_hash_ == '\0') {
+    return {};
+  }
   const std::string text = std::string("typehash=") + type.type_hash_ + ";";
   return {text.begin(), text.end()};
 }
 
+// The value of `enclave=…;` in the user data that participants announce.
 std::string enclave_in(const std::vector<rtps::octet>& user_data) {
   const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
   constexpr std::string_view kKey = "enclave=";

@@ -124,9 +124,23 @@ TEST_F(RosTasksTest, WhatWaitsForAContainerThatHasEndedIsGivenUp) {
   EXPECT_THAT(client_.asked, ElementsAre("load /left/c a"));
   EXPECT_THAT(messages_,
               ElementsAre("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type 'p::A' in "
-                          "container '/left/c': its process has ended (/test/system.launch.xml:3:2)",
+                          "container '/left/c': its process does not run (/test/system.launch.xml:3:2)",
                           "ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'b' of type 'p::B' in "
-                          "container '/left/c': its process has ended (/test/system.launch.xml:4:2)"));
+                          "container '/left/c': its process does not run (/test/system.launch.xml:4:2)"));
+}
+
+TEST_F(RosTasksTest, WhatWaitsForAContainerThatIsSkippedIsGivenUp) {
+  runner_.default_script({.exits_after = 3s, .exit_code = 1});
+  EXPECT_EQ(run(R"xml(<executable cmd="calibrate"/>
+<node_container exec="container" name="c" namespace="">
+<composable_node pkg="p" plugin="p::A" name="a"/>
+<depends_on process="calibrate" condition="exited" on_failure="skip"/>
+</node_container>)xml"),
+            0);
+  EXPECT_EQ(loop_.now(), 3s);
+  EXPECT_EQ(messages_.back(),
+            "ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type 'p::A' in container "
+            "'/c': its process does not run (/test/system.launch.xml:4:2)");
 }
 
 TEST_F(RosTasksTest, ALongWaitIsToldAndAShutdownEndsIt) {
@@ -174,6 +188,47 @@ TEST_F(RosTasksTest, AComponentWithAutostartIsActivatedWhileTheNextIsLoaded) {
 <composable_lifecycle_node pkg="p" plugin="B" name="b"/></node_container>)xml"),
             0);
   EXPECT_THAT(client_.asked, ElementsAre("load /c a", "change /ns/a configure", "load /c b", "change /ns/a activate"));
+}
+
+TEST_F(RosTasksTest, AProcessMayWaitForWhatTheGraphShows) {
+  runner_.default_script({.exits_after = 1s});
+  const auto first = loop_.after(2s, [this] { EXPECT_TRUE(client_.answer_pending("the '/s' service", done())); });
+  const auto second = loop_.after(3s, [this] { EXPECT_TRUE(client_.answer_pending("'/n' to be active", done())); });
+  EXPECT_EQ(run(R"xml(<executable cmd="planner"><depends_on service="s"/>
+<depends_on node="n" state="active"/></executable>)xml"),
+            0);
+  ASSERT_EQ(runner_.spawned().size(), 1U);
+  EXPECT_EQ(runner_.spawned().at(0).at, 3s);
+}
+
+TEST_F(RosTasksTest, ActionsMayWaitForWhatTheGraphShows) {
+  runner_.default_script({.exits_after = 5s});
+  client_.script("change /n activate", done());
+  const auto ready = loop_.after(2s, [this] {
+    EXPECT_THAT(client_.asked, ElementsAre("'/n' to be inactive"));
+    EXPECT_TRUE(client_.answer_pending("'/n' to be inactive", done()));
+  });
+  EXPECT_EQ(run(R"xml(<executable cmd="driver"/>
+<wait_for node="n" state="inactive"><lifecycle_transition node="n" transitions="activate"/>
+  <log message="now"/></wait_for>)xml"),
+            0);
+  EXPECT_THAT(client_.asked, ElementsAre("'/n' to be inactive", "change /n activate"));
+  EXPECT_THAT(messages_, ElementsAre("INFO [launch.user] now"));
+}
+
+TEST_F(RosTasksTest, AWaitKeepsNothingAlive) {
+  EXPECT_EQ(run(R"xml(<wait_for topic="t"><executable cmd="late"/></wait_for>)xml"), 0);
+  EXPECT_EQ(loop_.now(), 0s);
+  EXPECT_EQ(runner_.spawned().size(), 0U);
+}
+
+TEST_F(RosTasksTest, AWaitForTheGraphHasItsTimeOut) {
+  EXPECT_EQ(
+      run(R"xml(<executable cmd="planner"><depends_on topic="t" condition="message" timeout="2"/></executable>)xml"),
+      1);
+  EXPECT_EQ(loop_.now(), 2s);
+  EXPECT_THAT(errors_, ElementsAre(HasSubstr("a message has come on '/t'")));
+  EXPECT_EQ(runner_.spawned().size(), 0U);
 }
 
 TEST_F(RosTasksTest, WithoutAClientTheLaunchFails) {

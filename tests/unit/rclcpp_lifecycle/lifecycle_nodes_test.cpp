@@ -3,6 +3,8 @@
 #include <signal.h>
 
 #include <composition_interfaces/srv/load_node.hpp>
+#include <lifecycle_msgs/msg/transition.hpp>
+#include <lifecycle_msgs/srv/change_state.hpp>
 
 #include "tests/support/command.hpp"
 #include "tests/unit/rclcpp/ros_test.hpp"
@@ -10,6 +12,8 @@
 namespace {
 
 using composition_interfaces::srv::LoadNode;
+using lifecycle_msgs::msg::Transition;
+using lifecycle_msgs::srv::ChangeState;
 using test_support::Command;
 using test_support::CommandResult;
 using test_support::RunningCommand;
@@ -21,28 +25,52 @@ Command program(const std::string& name, std::vector<std::string> arguments = {}
   return command;
 }
 
-TEST(LifecycleNodes, TalkerIsLedByTheClientAndHeardByTheListener) {
-  const test_support::Sandbox sandbox;
+class LedTalker : public RosTest {
+ protected:
+  LedTalker() { executor_.add_node(node_); }
+
+  void change_state(uint8_t transition) {
+    ASSERT_TRUE(client_->wait_for_service(kPatience));
+    auto request = std::make_shared<ChangeState::Request>();
+    request->transition.id = transition;
+    auto future = client_->async_send_request(request);
+    ASSERT_EQ(executor_.spin_until_future_complete(future, kPatience), rclcpp::FutureReturnCode::SUCCESS);
+    EXPECT_TRUE(future.get()->success) << unsigned{transition};
+  }
+
+  rclcpp::executors::SingleThreadedExecutor executor_;
+  const rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("leader");
+  const rclcpp::Client<ChangeState>::SharedPtr client_ = node_->create_client<ChangeState>("/lc_talker/change_state");
+};
+
+TEST_F(LedTalker, IsHeardByTheListenerWhileItIsActive) {
   RunningCommand talker(program("lifecycle_talker", {"-p", "period_ms:=10"}));
   RunningCommand listener(program("lifecycle_listener"));
-  RunningCommand client(program("lifecycle_service_client", {"-p", "period_ms:=300"}));
-  EXPECT_TRUE(listener.wait_for_output("data_callback: Lifecycle HelloWorld #")) << listener.err();
+  change_state(Transition::TRANSITION_CONFIGURE);
+  EXPECT_TRUE(talker.wait_for_output("[lc_talker]: Lifecycle publisher is currently inactive.")) << talker.err();
+  change_state(Transition::TRANSITION_ACTIVATE);
   EXPECT_TRUE(
-      listener.wait_for_output("[lc_listener]: notify callback: Transition from state shuttingdown to "
-                               "finalized\n"))
+      talker.wait_for_output("[lc_talker]: Lifecycle publisher is active. Publishing: [Lifecycle HelloWorld #"));
+  EXPECT_TRUE(listener.wait_for_output("[lc_listener]: data_callback: Lifecycle HelloWorld #")) << listener.err();
+  change_state(Transition::TRANSITION_ACTIVE_SHUTDOWN);
+  EXPECT_TRUE(
+      listener.wait_for_output("[lc_listener]: notify callback: Transition from state shuttingdown to finalized\n"))
       << listener.err();
-  const CommandResult result = client.wait();
+  talker.send_signal(SIGINT);
+  const CommandResult talked = talker.wait();
+  EXPECT_EQ(talked.exit_code, 0) << talked.err;
+  EXPECT_THAT(talked.err, HasSubstr("[lc_talker]: on shutdown is called from state active.\n"));
+}
+
+TEST(LifecycleNodes, ClientLeadsTheTalkerThroughItsLife) {
+  const test_support::Sandbox sandbox;
+  RunningCommand talker(program("lifecycle_talker"));
+  const CommandResult result = test_support::run_command(program("lifecycle_service_client", {"-p", "period_ms:=0"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* state : {"unconfigured", "inactive", "active", "finalized"}) {
     EXPECT_THAT(result.err,
                 HasSubstr("[lc_client]: Node /lc_talker/get_state has current state " + std::string(state) + ".\n"));
   }
-  talker.send_signal(SIGINT);
-  const CommandResult talked = talker.wait();
-  EXPECT_EQ(talked.exit_code, 0) << talked.err;
-  EXPECT_THAT(talked.err, HasSubstr("[lc_talker]: Lifecycle publisher is currently inactive."));
-  EXPECT_THAT(talked.err, HasSubstr("[lc_talker]: Lifecycle publisher is active. Publishing: [Lifecycle HelloWorld #"));
-  EXPECT_THAT(talked.err, HasSubstr("[lc_talker]: on shutdown is called from state unconfigured.\n"));
 }
 
 TEST(LifecycleNodes, ClientTellsWhatFailed) {

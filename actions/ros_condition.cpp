@@ -1,0 +1,112 @@
+#include "actions/ros_condition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "actions/ros_names.hpp"
+#include "launcher/core/ros_readiness.hpp"
+
+namespace launch {
+
+namespace {
+
+const std::vector<std::string> kSubjects = {"node", "topic", "service"};
+const std::vector<std::string> kStates = {"unconfigured", "inactive", "active", "finalized"};
+
+void require_state(const std::string& name, const SourceRange& where) {
+  if (std::find(kStates.begin(), kStates.end(), name) == kStates.end()) {
+    throw LaunchError(fmt::format("state can be unconfigured, inactive, active or finalized, got '{}'", name), where,
+                      did_you_mean(name, kStates));
+  }
+}
+
+}  // namespace
+
+std::size_t choice(const Fields& fields, const std::string& attribute, const std::vector<std::string>& names) {
+  const std::string given = fields.literal(attribute, names.front());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (given == names[i]) {
+      return i;
+    }
+  }
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  }
+  throw LaunchError(fmt::format("{} can be {}, got '{}'", attribute, list, given), fields.where(attribute),
+                    did_you_mean(given, names));
+}
+
+std::vector<AttributeSpec> RosCondition::attributes() {
+  return {{"node", AttributeType::kText, false, "", "a node of the ROS graph, whoever runs it", true},
+          {"topic", AttributeType::kText, false, "", "or a topic", true},
+          {"service", AttributeType::kText, false, "", "or a service", true},
+          {"state", AttributeType::kText, false, "any",
+           "of a node with a managed life cycle: unconfigured, inactive, active or finalized", true}};
+}
+
+std::string RosCondition::subject_of(const Fields& fields, const std::vector<std::string>& others) {
+  std::vector<std::string> names = others;
+  names.insert(names.end(), kSubjects.begin(), kSubjects.end());
+  std::vector<std::string> given;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(given),
+               [&](const std::string& name) { return fields.has(name); });
+  if (given.empty()) {
+    throw LaunchError("it is not said what is waited for", fields.where(),
+                      fmt::format("give {}node, topic or service", others.empty() ? "" : others.front() + ", "));
+  }
+  if (given.size() > 1) {
+    throw LaunchError(fmt::format("either a {} or a {} is waited for", given[0], given[1]), fields.where(given[1]),
+                      "write one for each");
+  }
+  return given.front();
+}
+
+RosCondition::Kind RosCondition::kind_of(const Fields& fields, const std::string& subject) {
+  if (subject == "topic") {
+    return choice(fields, "condition", {"present", "message"}) == 0 ? Kind::kTopic : Kind::kMessage;
+  }
+  choice(fields, "condition", {"present"});
+  if (subject == "service") {
+    return Kind::kService;
+  }
+  return fields.has("state") ? Kind::kState : Kind::kNode;
+}
+
+RosCondition::RosCondition(const Fields& fields, const std::string& subject)
+    : kind_(kind_of(fields, subject)), name_(fields.text(subject)), state_(fields.optional_text("state")) {
+  if (state_ && kind_ != Kind::kState) {
+    throw LaunchError("state goes with a node only", fields.where("state"));
+  }
+  if (state_ && state_->is_literal()) {
+    Scope nothing;
+    require_state(state_->perform(nothing), state_->where());
+  }
+}
+
+std::shared_ptr<ReadinessCondition> RosCondition::perform(LaunchContext& context) const {
+  Scope& scope = context.scope();
+  return std::make_shared<RosReadiness>(context.ros_client(), request(scope), scope.environment);
+}
+
+RosRequest RosCondition::request(Scope& scope) const {
+  const std::string name = resolve_name(name_, scope);
+  switch (kind_) {
+    case Kind::kNode:
+      return NodePresent{name};
+    case Kind::kTopic:
+      return TopicPresent{name};
+    case Kind::kMessage:
+      return MessagePublished{name};
+    case Kind::kService:
+      return ServicePresent{name};
+    case Kind::kState:
+      break;
+  }
+  const std::string state = state_->perform(scope);
+  require_state(state, state_->where());
+  return StateReached{name, state};
+}
+
+}  // namespace launch

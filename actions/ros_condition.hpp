@@ -1,0 +1,44 @@
+// A condition of the ROS graph, as <depends_on> and <wait_for> write it: a node, a topic or a service, and what of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+#include "launcher/core/readiness_condition.hpp"
+
+namespace launch {
+
+// The value of a literal attribute, which must be one of `names` (the first when it isn't given), by its number there.
+// Throws LaunchError.
+std::size_t choice(const Fields& fields, const std::string& attribute, const std::vector<std::string>& names);
+
+class RosCondition {
+ public:
+  // node, topic, service and state. `condition` is left to the tag.
+  static std::vector<AttributeSpec> attributes();
+
+  // Which attribute names the subject: one of these, or one of `others`. Throws LaunchError at `fields` when none is
+  // given, at the second when there are two.
+  static std::string subject_of(const Fields& fields, const std::vector<std::string>& others);
+
+  // For a subject of the graph. Throws LaunchError when attributes don't go together.
+  RosCondition(const Fields& fields, const std::string& subject);
+
+  std::shared_ptr<ReadinessCondition> perform(LaunchContext& context) const;
+
+ private:
+  enum class Kind { kNode, kState, kTopic, kMessage, kService };
+
+  static Kind kind_of(const Fields& fields, const std::string& subject);
+  RosRequest request(Scope& scope) const;
+
+  Kind kind_;
+  Template name_;
+  std::optional<Template> state_;
+};
+
+}  // namespace launch
