@@ -51,6 +51,7 @@ class IncludeLaunchDescription : public Action {
       note_missing_python(path, context);
       return;
     }
+    const std::int64_t begin = monotonic_time();
     const auto included =
         load_launch_description(path, context.registry(), context.scope(), declaration_.file.where());
 
@@ -69,6 +70,11 @@ class IncludeLaunchDescription : public Action {
     if (namespace_) {
       restore_namespace(outer_namespace, context.scope());
     }
+    context.requests().records.push_back({.kind = LaunchRecord::Kind::kInclude,
+                                          .name = path,
+                                          .where = where(),
+                                          .time = begin,
+                                          .duration = monotonic_time() - begin});
   }
 
  private:

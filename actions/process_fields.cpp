@@ -74,6 +74,11 @@ std::vector<AttributeSpec> ProcessFields::attributes() {
       {"on_exit", AttributeType::kLiteral, false, "", "shutdown: the whole system ends when the process does"},
       {"shell", AttributeType::kBoolean, false, "false", "run the words, joined by spaces, through /bin/sh -c"},
       {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
+      {.name = "trace",
+       .type = AttributeType::kBoolean,
+       .default_value = "true",
+       .help = "false: no trace records this process",
+       .extension = true},
       {"sigterm_timeout", AttributeType::kFloat, false, "5", "seconds from SIGINT to SIGTERM at shutdown"},
       {"sigkill_timeout", AttributeType::kFloat, false, "5", "seconds from SIGTERM to SIGKILL at shutdown"},
       {"clean_env", AttributeType::kBoolean, false, "false", "true: its environment is what its env items say", true},
@@ -108,6 +113,7 @@ ProcessFields::ProcessFields(const Fields& fields)
       required_where_(fields.where("required")),
       shell_(fields.boolean("shell", false)),
       emulate_tty_(fields.boolean("emulate_tty", false)),
+      traced_(fields.boolean("trace", true)),
       sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
       sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))),
       clean_environment_(fields.boolean("clean_env", false)),
@@ -144,6 +150,7 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
     spec.working_directory = working_directory_->perform(scope);
   }
   spec.output = output(context);
+  spec.traced = traced_.perform(scope);
   spec.respawn = respawn(scope);
   spec.required = required_.perform(scope);
   if (spec.required && spec.respawn.enabled) {

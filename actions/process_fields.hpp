@@ -50,6 +50,7 @@ class ProcessFields {
   bool shutdown_on_exit_ = false;
   BooleanField shell_;
   BooleanField emulate_tty_;
+  BooleanField traced_;
   std::optional<NumberField> sigterm_timeout_;
   std::optional<NumberField> sigkill_timeout_;
   std::vector<std::pair<Template, Template>> environment_;

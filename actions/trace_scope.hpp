@@ -3,28 +3,47 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "launcher/core/run_scope.hpp"
+#include "tracing/session/event_watch.hpp"
+#include "tracing/session/flight_recorder.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {
+
+// What a <trace> asks of the launcher rather than of the tracer.
+struct TraceChoices {
+  // The patterns of the nodes and processes that alone are recorded; all when not given.
+  std::optional<std::vector<std::string>> nodes = {};
+  // When to take a snapshot: a process dies unasked, the launcher gets this signal (0: none), an event matches.
+  bool auto_buffers = false;  // userspace buffers sized from the number of processes and processors
+  bool snapshot_on_crash = false;
+  int snapshot_on_signal = 0;
+  std::vector<std::string> snapshot_on_events = {};
+
+  bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !snapshot_on_events.empty(); }
+};
 
 class TraceScope : public RunScope {
  public:
   // Below `prefix` stand bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report, which
   // describes a finished trace in one line.
   TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
-             SourceRange origin);
+             SourceRange origin, TraceChoices choices = {});
   ~TraceScope() override;
 
+  void expect(const std::vector<ProcessSpec>& processes) override;
   void begin(EventLoop& loop, Tell tell, Completion done) override;
   void end(EventLoop& loop, Tell tell, Completion done) override;
   void hurry() override { hurry_ = true; }
   std::vector<std::string> clean_up_command() const override;
   void prepare(ProcessSpec& spec) const override;
+  bool wants_records() const override { return config_.launch_events; }
+  void record(const LaunchRecord& record) override;
   std::string kind() const override { return "trace"; }
   std::vector<ScopeSetting> describe() const override;
   std::vector<TimedStep> timing() const override;
@@ -34,16 +53,24 @@ class TraceScope : public RunScope {
   // Runs `work` on a thread of its own, then `finished` on the loop's. The tracer's calls block.
   void in_background(EventLoop& loop, std::function<void()> work, std::function<void(std::exception_ptr)> finished);
   void tell_result(const Tell& tell) const;
+  bool traces(const ProcessSpec& spec) const;
+  void flush_metadata_later(EventLoop& loop);
+  void start_flight_recorder(EventLoop& loop, const Tell& tell);
 
   tracing::TraceConfig config_;
   std::unique_ptr<tracing::Tracer> tracer_;
   std::string prefix_;
   SourceRange origin_;
+  TraceChoices choices_;
   std::vector<std::string> preload_;
   tracing::SetupReport setup_;
   tracing::LossAccount losses_;
   std::string summary_;
   std::atomic<bool> hurry_ = false;
+  EventLoop::SourcePtr signals_;
+  EventLoop::SourcePtr metadata_flush_;
+  std::unique_ptr<tracing::FlightRecorder> flight_recorder_;
+  std::unique_ptr<tracing::EventWatch> event_watch_;
   std::thread worker_;
 };
 

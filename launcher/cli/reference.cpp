@@ -21,6 +21,7 @@ std::string_view type_text(AttributeType type) {
     case AttributeType::kInteger:
       return "integer";
     case AttributeType::kCommandLine:
+    case AttributeType::kWords:
       return "words";
     case AttributeType::kParameter:
       return "any";

@@ -10,6 +10,7 @@
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/launch_tracepoints.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
@@ -60,7 +61,7 @@ void print_timing(const std::vector<TimedStep>& steps) {
 
 // Everything that a run needs, in the order in which it must be destroyed backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
-        const std::shared_ptr<const LaunchDescription>& description, TimedStep load) {
+        const std::shared_ptr<const LaunchDescription>& description, TimedStep load, LaunchRecord load_record) {
   // A signal that was ignored when we started, as by a shell that runs us in the background, would never arrive.
   for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM}) {
     ::signal(signal, SIG_DFL);
@@ -95,9 +96,12 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context.scope());
 
+  LaunchTracepoints tracepoints(own_install_prefix());
   LaunchService service(context, *loop, supervisor, print_error);
   service.use_ros_client(ros_client);
   service.guard_scopes(guardian);
+  service.record_to(tracepoints);
+  service.record(load_record);
   const int exit_code = service.run(*description);
   if (command.timing) {
     std::vector<TimedStep> steps = {std::move(load)};
@@ -137,7 +141,7 @@ int run_command(const CommandLine& command, Environment environment) {
                           });
     set_arguments(command, context.scope());
 
-    const auto before = std::chrono::steady_clock::now();
+    const std::int64_t begin = monotonic_time();
     auto description =
         load_launch_description(find_launch_file(command.target, context.scope()), registry, context.scope());
     if (!command.arguments.empty()) {
@@ -146,7 +150,8 @@ int run_command(const CommandLine& command, Environment environment) {
     if (command.trace) {
       description = with_trace(*description, registry);
     }
-    const TimedStep load = {"load", std::chrono::steady_clock::now() - before};
+    const std::int64_t loading = monotonic_time() - begin;
+    const TimedStep load = {"load", std::chrono::nanoseconds(loading)};
     switch (command.mode) {
       case CommandMode::kShowArguments:
         fmt::print("{}", show_arguments(find_arguments(*description, registry, context.scope())));
@@ -155,7 +160,12 @@ int run_command(const CommandLine& command, Environment environment) {
       case CommandMode::kDryRunJson:
         return dry_run(command, context, *description, environment);
       case CommandMode::kRun:
-        return run(command, registry, environment, description, load);
+        return run(command, registry, environment, description, load,
+                   {.kind = LaunchRecord::Kind::kLoad,
+                    .name = description->file->path(),
+                    .where = {description->file, 0, 0},
+                    .time = begin,
+                    .duration = loading});
     }
   } catch (const LaunchError& error) {
     print_error(error);

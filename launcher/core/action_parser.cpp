@@ -36,10 +36,14 @@ std::vector<std::string> tags_of(const std::vector<ItemSpec>& items) {
   return tags;
 }
 
-bool accepts(AttributeType type, const Scalar& scalar) {
+bool accepts(const AttributeSpec& spec, const Scalar& scalar) {
   using Type = Scalar::Type;
+  const AttributeType type = spec.type;
   if (scalar.type == Type::kUntyped || scalar.type == Type::kString) {
     return true;
+  }
+  if (spec.extension && type == AttributeType::kText) {
+    return scalar.type == Type::kInt || scalar.type == Type::kFloat;  // `exit_code: 0` needs no quotes
   }
   return (type == AttributeType::kBoolean && scalar.type == Type::kBool) ||
          (type == AttributeType::kFloat && scalar.type == Type::kFloat) ||
@@ -73,6 +77,20 @@ std::string help_for_type(AttributeType type, const Value& value) {
     return "write true or false";
   }
   return fmt::format("put it in quotes: \"{}\"", scalar->text.text());
+}
+
+std::vector<Template> words_of_list(const Entity& entity, const Attribute& attribute) {
+  std::vector<Template> words;
+  for (const Value& item : *attribute.value.list()) {
+    const Scalar* const scalar = item.scalar();
+    if (scalar == nullptr || scalar->type != Scalar::Type::kString) {
+      throw LaunchError(fmt::format("the list '{}' of '{}' is expected to hold texts, got {}", attribute.name,
+                                    entity.type_name, kind_of(item)),
+                        item.where, scalar != nullptr ? help_for_type(AttributeType::kText, item) : std::string());
+    }
+    words.push_back(parse_template(scalar->text));
+  }
+  return words;
 }
 
 }  // namespace
@@ -208,15 +226,19 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
   if (spec.type == AttributeType::kParameter) {
     return attribute.value;
   }
-  const Scalar* const scalar = attribute.value.scalar();
-  if (scalar == nullptr && spec.type == AttributeType::kCommandLine && is_made(*attribute.value.list())) {
+  const bool takes_words = spec.type == AttributeType::kWords || spec.type == AttributeType::kCommandLine;
+  if (takes_words && attribute.value.list() != nullptr && is_made(*attribute.value.list())) {
     std::vector<Template> words;
     for (const Value& word : *attribute.value.list()) {
       words.push_back(*word.scalar()->made);
     }
     return words;
   }
-  if (scalar == nullptr || !accepts(spec.type, *scalar)) {
+  if (spec.type == AttributeType::kWords && attribute.value.list() != nullptr) {
+    return words_of_list(entity, attribute);
+  }
+  const Scalar* const scalar = attribute.value.scalar();
+  if (scalar == nullptr || !accepts(spec, *scalar)) {
     throw LaunchError(fmt::format("attribute '{}' of '{}' is expected to be of type {}, got {}", attribute.name,
                                   entity.type_name, expected_kind(spec.type), kind_of(attribute.value)),
                       attribute.value.where, help_for_type(spec.type, attribute.value));
@@ -233,6 +255,7 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
     case AttributeType::kInteger:
       return NumberField(std::move(parsed), true);
     case AttributeType::kCommandLine:
+    case AttributeType::kWords:
       return split_command_line(parsed);
     default:
       return parsed;

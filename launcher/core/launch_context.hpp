@@ -18,6 +18,7 @@
 #include "launcher/core/dependency.hpp"
 #include "launcher/core/event_handler.hpp"
 #include "launcher/core/launch_description.hpp"
+#include "launcher/core/launch_record.hpp"
 #include "launcher/core/process_command.hpp"
 #include "launcher/core/registry.hpp"
 #include "launcher/core/ros_client.hpp"
@@ -63,6 +64,7 @@ struct Requests {
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
   int includes = 0;                          // other launch files that were included
+  std::vector<LaunchRecord> records;         // what the visit did
 };
 
 class LaunchContext {

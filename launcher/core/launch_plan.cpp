@@ -63,6 +63,7 @@ class Planner {
   void collect(LaunchPlan& plan, std::multimap<Duration, TimerRequest>& timers, Duration now) {
     Requests requests = context_.take_requests();
     for (const auto& scope : requests.scopes) {
+      scope->expect(requests.processes);
       scopes_.push_back(scope.get());
     }
     append(plan.scopes, requests.scopes);

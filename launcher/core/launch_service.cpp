@@ -52,6 +52,7 @@ int LaunchService::run(const LaunchDescription& description) {
       loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
   loop_.post([this, &description] {
     const Duration before = loop_.now();
+    const std::int64_t begin = monotonic_time();
     try {
       context_.visit(description);
     } catch (const LaunchError& error) {
@@ -60,7 +61,9 @@ int LaunchService::run(const LaunchDescription& description) {
       return;
     }
     timing_.push_back({"visit", loop_.now() - before});
-    carry_out(context_.take_requests());
+    Requests requests = context_.take_requests();
+    record_visit(begin, {description.file, 0, 0}, requests);
+    carry_out(std::move(requests));
   });
   loop_.run();
   return exit_code_;
@@ -83,6 +86,7 @@ void LaunchService::on_signal(int signal) {
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
+  record(event);
   if (TrackedProcess* const process = table_.note(event)) {
     start_order_.on_process_event(*process);
   }
@@ -130,6 +134,7 @@ void LaunchService::on_timer(std::list<Timer>::iterator timer) {
 }
 
 void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
+  const std::int64_t begin = monotonic_time();
   try {
     context_.visit_in(std::move(scope), actions);
   } catch (const LaunchError& error) {
@@ -137,7 +142,9 @@ void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
     fail(error);
     return;
   }
-  carry_out(context_.take_requests());
+  Requests requests = context_.take_requests();
+  record_visit(begin, actions.empty() ? SourceRange() : actions.front()->where(), requests);
+  carry_out(std::move(requests));
 }
 
 // In a later turn: handlers start and stop processes, which observers of their events should not.
@@ -182,6 +189,7 @@ void LaunchService::begin_next() {
     if (next_scope_ < scopes.size()) {
       scope_is_beginning_ = true;
       guard(*scopes[next_scope_]);
+      scopes[next_scope_]->expect(waiting_.front().requests.processes);
       scopes[next_scope_]->begin(loop_, teller(), [this](std::exception_ptr error) { on_begun(std::move(error)); });
       return;
     }
@@ -222,6 +230,7 @@ void LaunchService::on_begun(std::exception_ptr error) {
 
 void LaunchService::start(Round round) {
   const Duration before = loop_.now();
+  begin_recording();
   Requests& requests = round.requests;
   for (const ProcessCommand& command : requests.commands) {
     execute(command);
@@ -276,6 +285,7 @@ void LaunchService::start_process(ProcessSpec spec, TrackedProcess& process) {
       ros_tasks_->name_process(id, name);
     }
   }
+  record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
   supervisor_.start(std::move(spec));
 }
 

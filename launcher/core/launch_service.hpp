@@ -42,6 +42,11 @@ class LaunchService {
   // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
   void guard_scopes(Guardian& guardian) { guardian_ = &guardian; }
 
+  // Has a trace tell what the launcher does. The recorder must outlive the service.
+  void record_to(LaunchRecorder& recorder) { recorder_ = &recorder; }
+  // Tells the recorder and the scopes that want to know.
+  void record(const LaunchRecord& record);
+
   // Who loads components and changes states. Without a client a launch that asks for either fails. It must outlive the
   // service.
   void use_ros_client(RosClient& client);
@@ -99,12 +104,17 @@ class LaunchService {
   void guard(const RunScope& scope);
   void unguard(const RunScope& scope);
   RunScope::Tell teller();
+  void record(const ProcessEvent& event);
+  void record_visit(std::int64_t begin, const SourceRange& where, Requests& requests);
+  void begin_recording();
 
   LaunchContext& context_;
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
   Guardian* guardian_ = nullptr;
+  LaunchRecorder* recorder_ = nullptr;
+  bool recording_ = false;
   std::unique_ptr<RosTasks> ros_tasks_;                // null without a client
   std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
 

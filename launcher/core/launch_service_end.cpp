@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "launcher/core/farewell.hpp"
 #include "launcher/core/launch_service.hpp"
@@ -122,6 +123,9 @@ void LaunchService::check_finished() {
 }
 
 void LaunchService::end_next_scope() {
+  if (std::exchange(recording_, false)) {
+    recorder_->end();
+  }
   if (active_scopes_.empty()) {
     loop_.quit();
     return;

@@ -22,6 +22,7 @@ enum class AttributeType {
   kFloat,        // a number, or substitutions that give one
   kInteger,      // a whole number, or substitutions that give one
   kCommandLine,  // split into words as a POSIX shell does, then performed
+  kWords,        // the same; in YAML also a list of texts, each of them a word
   kParameter,    // any scalar or list: the value of a parameter
 };
 

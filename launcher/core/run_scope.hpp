@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "launcher/base/source.hpp"
+#include "launcher/core/launch_record.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_spec.hpp"
 
@@ -37,6 +38,9 @@ class RunScope {
 
   virtual ~RunScope() = default;
 
+  // The processes that will start once the scope has begun. Called before begin(), once.
+  virtual void expect(const std::vector<ProcessSpec>&) {}
+
   // Neither blocks the loop. end() is called once, only after begin() succeeded, and must succeed in releasing what
   // begin() took even when it then reports an error.
   virtual void begin(EventLoop& loop, Tell tell, Completion done) = 0;
@@ -50,6 +54,11 @@ class RunScope {
 
   // Changes what every process that starts while the scope is active is given, such as LD_PRELOAD.
   virtual void prepare(ProcessSpec& spec) const = 0;
+
+  // What the launcher does from begin() to end(), on the loop's thread. The first returns true when the recorder of the
+  // launch shall have it, too: the scope's trace then holds it.
+  virtual bool wants_records() const { return false; }
+  virtual void record(const LaunchRecord&) {}
 
   // "trace", and what it was evaluated to.
   virtual std::string kind() const = 0;

@@ -74,6 +74,7 @@ struct ProcessSpec {
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
+  bool traced = true;  // for RunScopes: may be recorded
   SourceRange origin;  // the launch-file line that asked for it
 };
 

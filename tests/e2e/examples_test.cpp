@@ -76,7 +76,15 @@ INSTANTIATE_TEST_SUITE_P(
                                 {},
                                 {"waits until '/lc_talker' is active", "[lc_talker]: on_activate() is called.",
                                  "[lc_listener]: data_callback: Lifecycle HelloWorld #",
-                                 "Transition from state shuttingdown to finalized", "trace is complete"}}),
+                                 "Transition from state shuttingdown to finalized", "trace is complete"}},
+                        Example{"12_reference_system",
+                                {"messages:=2"},
+                                {"[VehicleDBWSystem]: ", " messages from FrontLidarDriver: min ",
+                                 "[IntersectionOutput]: ", "trace written to: "}},
+                        Example{"20_flight_recorder", {}, {"snapshot written to: ", "(unlucky-3 died of SIGSEGV)"}},
+                        Example{"21_trace_channels", {}, {"trace is complete: no events lost"}},
+                        Example{"22_lost_events", {}, {"trace is incomplete: ", "lost in ust channel ros2"}},
+                        Example{"23_dual_session", {}, {"/dual/snapshot"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -56,7 +56,7 @@ class PythonLaunch : public testing::Test {
 
 TEST_F(PythonLaunch, IncludesXmlWhichIncludesYamlAndEachRecordsATrace) {
   const CommandResult result =
-      launch({EXAMPLES_DIRECTORY "/12_python.launch.py", "pairs:=2", "count:=5", "-a"}, {{"OTHER", "x"}});
+      launch({EXAMPLES_DIRECTORY "/13_python.launch.py", "pairs:=2", "count:=5", "-a"}, {{"OTHER", "x"}});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("pairs: 2"));
@@ -202,10 +202,10 @@ def generate_launch_description():
 }
 
 TEST_F(PythonLaunch, ArgumentsAreShownAndChecked) {
-  const CommandResult shown = launch({"--show-args", EXAMPLES_DIRECTORY "/12_python.launch.py"});
+  const CommandResult shown = launch({"--show-args", EXAMPLES_DIRECTORY "/13_python.launch.py"});
   EXPECT_THAT(shown.out, HasSubstr("    'pairs':\n        how many pairs of ping and pong\n        (default: '1')\n"));
   const CommandResult wrong =
-      launch({"--dry-run", "--strict-args", EXAMPLES_DIRECTORY "/12_python.launch.py", "pair:=2"});
+      launch({"--dry-run", "--strict-args", EXAMPLES_DIRECTORY "/13_python.launch.py", "pair:=2"});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'pairs'?"));
 }

@@ -153,7 +153,7 @@ TEST_F(Supervision, LostEventsFailTheRunWhereTheFileSaysSo) {
   const CommandResult tolerant = run_command({LAUNCH_PROGRAM, file, "name:=a", "fail:=false"});
   EXPECT_EQ(tolerant.exit_code, 0) << tolerant.err;
   EXPECT_THAT(tolerant.out, HasSubstr("[WARNING] [launch.trace]: trace is incomplete: "));
-  EXPECT_THAT(tolerant.out, HasSubstr(" events lost in ust channel ros2 with 2 sub-buffers of 4096 bytes"));
+  EXPECT_THAT(tolerant.out, HasSubstr(" events lost in ust channel ros2 with 4 sub-buffers of 4096 bytes"));
   const CommandResult strict = run_command({LAUNCH_PROGRAM, file, "name:=b", "fail:=true"});
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_THAT(strict.err, HasSubstr("error: the trace of session 'b' is incomplete"));

@@ -45,6 +45,8 @@ std::size_t OverviewCounter::process_of(const Event& event) {
 }
 
 void OverviewCounter::on_event(const Event& event) {
+  // What the launcher did is no part of the traced system.
+  if (event.event_class->name.starts_with("launch:")) return;
   ++events_;
   if (!begin_ns_) begin_ns_ = event.timestamp_ns;
   end_ns_ = event.timestamp_ns;

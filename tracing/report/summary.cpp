@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "tracing/report/report.hpp"
 #include "tracing/report/text_table.hpp"
 
@@ -16,10 +18,31 @@ std::string loss_phrase(const TraceOverview& overview) {
   return fmt::format("{}{} lost", overview.lost_uncounted() ? "at least " : "", counted);
 }
 
+namespace {
+
+constexpr std::size_t kMostNamed = 5;
+
+// "; doubtful: talker [12], listener [13]", the processes that may have lost events; "" when none has.
+std::string doubtful_phrase(const TraceOverview& overview) {
+  std::set<std::size_t> doubtful;
+  for (const LossResult& loss : overview.losses) doubtful.insert(loss.processes.begin(), loss.processes.end());
+  std::string text;
+  std::size_t named = 0;
+  for (const std::size_t process : doubtful) {
+    if (named++ == kMostNamed) break;
+    text += fmt::format("{}{}", text.empty() ? "; doubtful: " : ", ", process_label(overview.processes.at(process)));
+  }
+  if (doubtful.size() > kMostNamed) text += fmt::format(" and {} more", doubtful.size() - kMostNamed);
+  return text;
+}
+
+}  // namespace
+
 std::string summary_line(const TraceOverview& overview) {
   if (overview.events == 0 && overview.losses.empty()) return "no events";
-  return fmt::format("{}, {}, {}", format_count(overview.events, "event"),
-                     format_count(overview.processes.size(), "process"), loss_phrase(overview));
+  return fmt::format("{}, {}, {}{}", format_count(overview.events, "event"),
+                     format_count(overview.processes.size(), "process"), loss_phrase(overview),
+                     doubtful_phrase(overview));
 }
 
 std::string process_label(const ProcessResult& process) {

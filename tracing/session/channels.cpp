@@ -1,12 +1,11 @@
 #include "tracing/session/channels.hpp"
 
 #include <fmt/core.h>
+#include <lttng/event.h>
 #include <lttng/lttng.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <bit>
-#include <set>
+#include <vector>
 
 #include "tracing/session/context_fields.hpp"
 #include "tracing/session/lttng_error.hpp"
@@ -14,91 +13,50 @@
 namespace tracing {
 namespace {
 
-constexpr const char* kUserspaceChannel = "ros2";
-constexpr const char* kInitialisationChannel = "ros2_init";
-constexpr const char* kAllRosEvents = "ros2:*";
-constexpr const char* kKernelChannel = "kchan";
-constexpr unsigned int kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
-constexpr std::uint64_t kFewestSubbuffers = 2;
-constexpr std::uint64_t kMostSubbuffers = std::uint64_t{1} << 20;
-constexpr std::uint64_t kLargestSubbuffer = std::uint64_t{1} << 40;
-
-lttng_domain make_domain(lttng_domain_type type) {
+lttng_domain make_domain(lttng_domain_type type, BufferOwner owner) {
   lttng_domain domain{};
   domain.type = type;
-  domain.buf_type = type == LTTNG_DOMAIN_KERNEL ? LTTNG_BUFFER_GLOBAL : LTTNG_BUFFER_PER_UID;
+  domain.buf_type = owner == BufferOwner::kProcess ? LTTNG_BUFFER_PER_PID : LTTNG_BUFFER_PER_UID;
+  if (type == LTTNG_DOMAIN_KERNEL) domain.buf_type = LTTNG_BUFFER_GLOBAL;
   return domain;
 }
 
-std::vector<std::string> without_repetitions(const std::vector<std::string>& names) {
-  std::vector<std::string> unique;
-  std::set<std::string> seen;
-  for (const std::string& name : names) {
-    if (seen.insert(name).second) unique.push_back(name);
-  }
-  return unique;
+DomainHandle domain_of(const std::string& lttng_session_name, const ChannelPlan& plan) {
+  return domain_handle(lttng_session_name, make_domain(plan.domain, plan.buffers));
 }
 
-// LTTng refuses sizes that are no power of two or less than a page.
-std::uint64_t usable_subbuffer_size(std::uint64_t given, lttng_domain_type domain, std::vector<std::string>& warnings) {
-  if (given > kLargestSubbuffer) {
-    throw TraceError(
-        fmt::format("sub-buffer size of {} bytes for the {} domain is too large", given, domain_name(domain)));
-  }
-  const std::uint64_t usable = std::bit_ceil(std::max<std::uint64_t>(given, static_cast<std::uint64_t>(getpagesize())));
-  if (usable != given) {
-    warnings.push_back(
-        fmt::format("sub-buffer size of {} bytes for the {} domain is rounded up to {}: LTTng needs a "
-                    "power of two, at least a page",
-                    given, domain_name(domain), usable));
-  }
-  return usable;
+struct EventDeleter {
+  void operator()(lttng_event* event) const { lttng_event_destroy(event); }
+};
+using EventPtr = std::unique_ptr<lttng_event, EventDeleter>;
+
+EventPtr make_event(const std::string& name, lttng_event_type type) {
+  EventPtr event(lttng_event_create());
+  if (!event) throw lttng_error(LTTNG_ERR_NOMEM, "describe an event");
+  name.copy(event->name, sizeof event->name - 1);
+  event->type = type;
+  event->loglevel_type = LTTNG_EVENT_LOGLEVEL_ALL;
+  return event;
 }
 
-// A power of two, and two at least: one is written to while the other is read.
-std::uint64_t usable_subbuffer_count(const TraceConfig& config, std::vector<std::string>& warnings) {
-  const std::uint64_t given = config.subbuffer_count_ust;
-  if (given == 0) return config.default_subbuffer_count();
-  if (given > kMostSubbuffers)
-    throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
-  const std::uint64_t usable = std::bit_ceil(std::max(given, kFewestSubbuffers));
-  if (usable != given) {
-    warnings.push_back(fmt::format(
-        "number of sub-buffers {} is rounded up to {}: LTTng needs a power of two, at least 2", given, usable));
+void enable_event(lttng_handle* handle, const EventRule& rule, const std::string& channel) {
+  const EventPtr event = make_event(rule.pattern, LTTNG_EVENT_TRACEPOINT);
+  if (rule.log_level) {
+    event->loglevel_type = rule.exactly_that_level ? LTTNG_EVENT_LOGLEVEL_SINGLE : LTTNG_EVENT_LOGLEVEL_RANGE;
+    event->loglevel = *rule.log_level;
   }
-  return usable;
+  const int result = lttng_enable_event_with_filter(handle, event.get(), channel.c_str(),
+                                                    rule.filter.empty() ? nullptr : rule.filter.c_str());
+  if (result == -LTTNG_ERR_FILTER_INVAL) {
+    throw TraceError(fmt::format("LTTng does not understand the filter of event '{}': {}", rule.pattern, rule.filter),
+                     "lttng-enable-event(1) describes filter expressions");
+  }
+  check_lttng(result, fmt::format("enable event '{}'", rule.pattern));
 }
 
-// Moves the initialisation events of the userspace channel, which is the first plan, to a channel of their own. A
-// pattern other than "ros2:*" stays where it is: an event that two rules match would be recorded twice.
-void split_initialisation_events(std::vector<DomainPlan>& plans) {
-  const std::vector<std::string>& all = initialisation_ros_events();
-  const std::set<std::string> initialisation(all.begin(), all.end());
-  DomainPlan first = plans.front();
-  first.channel = kInitialisationChannel;
-  first.events.clear();
-  std::vector<std::string> rest;
-  for (const std::string& name : plans.front().events) {
-    const std::vector<std::string> names = name == kAllRosEvents ? default_ros_events() : std::vector{name};
-    for (const std::string& event : names) (initialisation.contains(event) ? first.events : rest).push_back(event);
-  }
-  first.events = without_repetitions(first.events);
-  plans.front().events = without_repetitions(rest);
-  if (rest.empty()) plans.erase(plans.begin());
-  if (!first.events.empty()) plans.insert(plans.begin(), std::move(first));
-}
-
-void enable_event(lttng_handle* handle, const std::string& name, lttng_event_type type, const std::string& channel) {
-  lttng_event event{};
-  if (name.empty() || name.size() >= sizeof event.name) {
-    throw TraceError(fmt::format("event name '{}' has {} characters: 1 to {} are possible", name, name.size(),
-                                 sizeof event.name - 1));
-  }
-  name.copy(event.name, name.size());
-  event.type = type;
-  event.loglevel_type = LTTNG_EVENT_LOGLEVEL_ALL;
-  const char* kind = type == LTTNG_EVENT_SYSCALL ? "system call" : "event";
-  check_lttng(lttng_enable_event(handle, &event, channel.c_str()), fmt::format("enable {} '{}'", kind, name));
+void enable_syscall(lttng_handle* handle, const std::string& name, const std::string& channel) {
+  const EventPtr event = make_event(name, LTTNG_EVENT_SYSCALL);
+  check_lttng(lttng_enable_event(handle, event.get(), channel.c_str()), fmt::format("enable system call '{}'", name));
 }
 
 }  // namespace
@@ -108,7 +66,7 @@ void HandleDeleter::operator()(lttng_handle* handle) const {
 }
 
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_type type) {
-  return domain_handle(lttng_session_name, make_domain(type));
+  return domain_handle(lttng_session_name, make_domain(type, BufferOwner::kUser));
 }
 
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain domain) {
@@ -117,45 +75,8 @@ DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain d
   return handle;
 }
 
-std::string domain_name(lttng_domain_type domain) {
-  return domain == LTTNG_DOMAIN_KERNEL ? "kernel" : "ust";
-}
-
-std::vector<DomainPlan> plan_domains(const TraceConfig& config, std::vector<std::string>& warnings) {
-  std::vector<DomainPlan> plans;
-  if (!config.events_ust.empty()) {
-    plans.push_back({.domain = LTTNG_DOMAIN_UST,
-                     .channel = kUserspaceChannel,
-                     .events = without_repetitions(config.events_ust),
-                     .syscalls = {},
-                     .context_fields = without_repetitions(config.context_fields_ust),
-                     .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_ust, LTTNG_DOMAIN_UST, warnings),
-                     .subbuffer_count = usable_subbuffer_count(config, warnings),
-                     .read_timer = config.read_timer_ust,
-                     .switch_timer = config.switch_timer_ust,
-                     .overwrite = config.records_snapshots()});
-  }
-  if (!config.events_kernel.empty() || !config.syscalls.empty()) {
-    plans.push_back(
-        {.domain = LTTNG_DOMAIN_KERNEL,
-         .channel = kKernelChannel,
-         .events = without_repetitions(config.events_kernel),
-         .syscalls = without_repetitions(config.syscalls),
-         .context_fields = without_repetitions(config.context_fields_kernel),
-         .subbuffer_size = usable_subbuffer_size(config.subbuffer_size_kernel, LTTNG_DOMAIN_KERNEL, warnings),
-         .subbuffer_count = config.default_subbuffer_count(),
-         .read_timer = kKernelReadTimer,
-         .overwrite = config.records_snapshots()});
-  }
-  if (config.init_channel && !config.events_ust.empty()) split_initialisation_events(plans);
-  for (const DomainPlan& plan : plans) {
-    for (const std::string& name : plan.context_fields) ContextField{name, plan.domain};
-  }
-  return plans;
-}
-
-void enable_channel(const std::string& lttng_session_name, const DomainPlan& plan) {
-  lttng_domain domain = make_domain(plan.domain);
+void enable_channel(const std::string& lttng_session_name, const ChannelPlan& plan) {
+  lttng_domain domain = make_domain(plan.domain, plan.buffers);
   const std::unique_ptr<lttng_channel, decltype(&lttng_channel_destroy)> channel(lttng_channel_create(&domain),
                                                                                  &lttng_channel_destroy);
   if (!channel) throw lttng_error(LTTNG_ERR_NOMEM, "create a channel");
@@ -166,19 +87,24 @@ void enable_channel(const std::string& lttng_session_name, const DomainPlan& pla
   channel->attr.switch_timer_interval = plan.switch_timer;
   channel->attr.read_timer_interval = plan.read_timer;
   channel->attr.output = LTTNG_EVENT_MMAP;
-  const DomainHandle handle = domain_handle(lttng_session_name, plan.domain);
-  check_lttng(lttng_enable_channel(handle.get(), channel.get()),
-              fmt::format("create {} channel '{}'", domain_name(plan.domain), plan.channel));
+  channel->attr.tracefile_size = plan.tracefile_size;
+  channel->attr.tracefile_count = plan.tracefile_count;
+  const std::string doing = fmt::format("create {} channel '{}'", domain_name(plan.domain), plan.channel);
+  if (plan.blocking_timeout != 0) {
+    check_lttng(lttng_channel_set_blocking_timeout(channel.get(), plan.blocking_timeout), doing);
+  }
+  const DomainHandle handle = domain_of(lttng_session_name, plan);
+  check_lttng(lttng_enable_channel(handle.get(), channel.get()), doing);
 }
 
-void enable_events(const std::string& lttng_session_name, const DomainPlan& plan) {
-  const DomainHandle handle = domain_handle(lttng_session_name, plan.domain);
-  for (const std::string& name : plan.events) enable_event(handle.get(), name, LTTNG_EVENT_TRACEPOINT, plan.channel);
-  for (const std::string& name : plan.syscalls) enable_event(handle.get(), name, LTTNG_EVENT_SYSCALL, plan.channel);
+void enable_events(const std::string& lttng_session_name, const ChannelPlan& plan) {
+  const DomainHandle handle = domain_of(lttng_session_name, plan);
+  for (const EventRule& rule : plan.events) enable_event(handle.get(), rule, plan.channel);
+  for (const std::string& name : plan.syscalls) enable_syscall(handle.get(), name, plan.channel);
 }
 
-void add_contexts(const std::string& lttng_session_name, const DomainPlan& plan) {
-  const DomainHandle handle = domain_handle(lttng_session_name, plan.domain);
+void add_contexts(const std::string& lttng_session_name, const ChannelPlan& plan) {
+  const DomainHandle handle = domain_of(lttng_session_name, plan);
   for (const std::string& name : plan.context_fields) {
     ContextField field(name, plan.domain);
     check_lttng(lttng_add_context(handle.get(), field.get(), nullptr, plan.channel.c_str()),

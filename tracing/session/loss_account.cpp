@@ -78,6 +78,7 @@ std::string describe_losses(const LossAccount& losses) {
     add(loss.discarded_events, "event", loss);
     add(loss.lost_packets, "packet", loss);
   }
+  if (!losses.damage.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", losses.damage);
   if (losses.cut_short) text += fmt::format("{}the last events were not waited for", text.empty() ? "" : "\n");
   return text.empty() ? "no events lost" : text;
 }

@@ -21,6 +21,9 @@ std::string remedy_for(int code) {
       return "`launch trace list` shows the sessions that exist";
     case LTTNG_ERR_EPERM:
       return "run as the user who owns the session, or as a member of the group `tracing` to use root's session daemon";
+    case LTTNG_ERR_RELAYD_CONNECT_FAIL:
+    case LTTNG_ERR_RELAYD_VERSION_FAIL:
+      return "start a relay daemon there: lttng-relayd --daemonize";
     case LTTNG_ERR_NOT_SNAPSHOT_SESSION:
       return "create the session in snapshot mode";
     case LTTNG_ERR_UST_CONSUMER64_FAIL:

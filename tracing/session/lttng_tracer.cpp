@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 #include <lttng/lttng.h>
+#include <sys/sysinfo.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,10 +11,16 @@
 #include <utility>
 
 #include "tracing/session/channels.hpp"
+#include "tracing/session/consumer_priority.hpp"
+#include "tracing/session/context_check.hpp"
+#include "tracing/session/event_watch.hpp"
+#include "tracing/session/installed_program.hpp"
+#include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_listing.hpp"
+#include "tracing/session/session_store.hpp"
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/tracer.hpp"
@@ -77,9 +85,7 @@ std::string recording_directory(const TraceConfig& config) {
 class NewSession {
  public:
   explicit NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
-    const int result = config.records_snapshots()
-                           ? lttng_create_session_snapshot(name_.c_str(), nullptr)
-                           : lttng_create_session(name_.c_str(), recording_directory(config).c_str());
+    const int result = create(config);
     if (result == -LTTNG_ERR_EXIST_SESS) {
       throw TraceError(fmt::format("trace session '{}' exists already", name_),
                        fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
@@ -95,6 +101,15 @@ class NewSession {
   void keep() { kept_ = true; }
 
  private:
+  int create(const TraceConfig& config) const {
+    if (config.records_snapshots()) return lttng_create_session_snapshot(name_.c_str(), nullptr);
+    if (config.live_timer != 0) {
+      return lttng_create_session_live(name_.c_str(), config.destination().c_str(), config.live_timer);
+    }
+    const std::string destination = config.over_network() ? config.destination() : recording_directory(config);
+    return lttng_create_session(name_.c_str(), destination.c_str());
+  }
+
   std::string name_;
   bool kept_ = false;
 };
@@ -128,6 +143,7 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
 void judge(LossAccount& losses, const std::string& name, const std::string& directory) {
   explain_losses(losses, directory);
+  losses.damage = find_damage(directory);
   try {
     write_verdict(losses, name, directory);
   } catch (const TraceError& error) {
@@ -145,21 +161,67 @@ class LttngTracer : public Tracer {
   std::vector<SessionSummary> sessions() override { return list_sessions(); }
   SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
   TraceableEvents traceable_events() override { return list_traceable_events(); }
+  void save(const std::string& lttng_session_name, const std::string& directory) override {
+    save_session(lttng_session_name, directory);
+  }
+  void load(const std::string& lttng_session_name, const std::string& directory) override {
+    ensure_session_daemon();
+    load_session(lttng_session_name, directory);
+  }
 };
 
+bool has_domain(const std::vector<ChannelPlan>& channels, lttng_domain_type domain) {
+  return std::any_of(channels.begin(), channels.end(),
+                     [domain](const ChannelPlan& channel) { return channel.domain == domain; });
+}
+
+// Where LTTng's kernel modules are not there but the kernel's own tracer can take their place: the kernel channels,
+// which are taken out of `channels`. Throws TraceError when neither can be used.
+std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig& config,
+                                                              std::vector<ChannelPlan>& channels,
+                                                              std::vector<std::string>& warnings) {
+  std::string why;
+  try {
+    check_kernel_tracer();
+    return {};
+  } catch (const TraceError& error) {
+    // Snapshots and relay daemons are LTTng's own.
+    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.records_snapshots() || config.over_network())
+      throw;
+    why = error.what();
+  }
+  std::vector<ChannelPlan> kernel;
+  for (const ChannelPlan& channel : channels) {
+    if (channel.domain == LTTNG_DOMAIN_KERNEL) kernel.push_back(channel);
+  }
+  std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
+  if (channels.empty()) {
+    throw TraceError("kernel events are recorded through tracefs, and only beside userspace events",
+                     "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
+  }
+  warnings.push_back(
+      fmt::format("{}; they are recorded through tracefs instead, with the thread as only context", why));
+  return kernel;
+}
+
 SetupReport LttngTracer::start(const TraceConfig& config) {
-  SetupReport report{.trace_directory = config.trace_directory(), .steps = {}, .warnings = {}};
+  SetupReport report{.trace_directory = config.destination(), .steps = {}, .warnings = {}};
   StepTimer timer(report.steps);
 
   check_config(config);
-  const std::vector<DomainPlan> domains = plan_domains(config, report.warnings);
-  for (std::string& warning : perf_warnings(config.context_fields_ust)) report.warnings.push_back(std::move(warning));
+  std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
+  if (has_domain(channels, LTTNG_DOMAIN_UST)) {
+    fit_into_shared_memory(channels, free_shared_memory(), static_cast<std::uint64_t>(get_nprocs_conf()),
+                           report.warnings);
+  }
   timer.finished("checks");
 
   report.started_daemon = ensure_session_daemon();
   timer.finished("session daemon");
-  if (!config.events_kernel.empty() || !config.syscalls.empty()) {
-    check_kernel_tracer();
+  for (std::string& warning : context_warnings(channels)) report.warnings.push_back(std::move(warning));
+  std::vector<ChannelPlan> through_tracefs;
+  if (has_domain(channels, LTTNG_DOMAIN_KERNEL)) {
+    through_tracefs = take_kernel_channels_without_modules(config, channels, report.warnings);
     timer.finished("kernel tracer");
   }
 
@@ -169,29 +231,51 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
     add_snapshot_output(config);
   }
   timer.finished("create session");
-  for (const DomainPlan& domain : domains) {
-    enable_channel(session_name, domain);
-    timer.finished("channel " + domain.channel);
-    enable_events(session_name, domain);
-    timer.finished("events " + domain.channel);
-    add_contexts(session_name, domain);
-    timer.finished("context fields " + domain.channel);
+  for (const ChannelPlan& channel : channels) {
+    enable_channel(session_name, channel);
+    timer.finished("channel " + channel.channel);
+    enable_events(session_name, channel);
+    timer.finished("events " + channel.channel);
+    add_contexts(session_name, channel);
+    timer.finished("context fields " + channel.channel);
   }
   check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
   timer.finished("start");
+  if (!through_tracefs.empty()) {
+    const std::optional<SessionSummary> created = find_session(session_name);
+    start_kernel_recorder(*installed_program(kKernelRecorder), session_name, created ? created->path : "",
+                          through_tracefs);
+    timer.finished("kernel recorder");
+  }
+  prefer_consumers(session_daemon_pid());
+  timer.finished("consumer priority");
   session.keep();
   return report;
 }
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
+  check_daemon_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
   LossAccount losses = stop_and_account(name, give_up);
+  std::optional<ChannelLoss> kernel;
+  std::string kernel_failure;
+  if (session) {
+    try {
+      kernel = finish_kernel_recorder(session->path);
+    } catch (const TraceError& error) {
+      kernel_failure = error.what();
+    }
+  }
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
     if (give_up && give_up()) break;
   }
-  if (session && !session->snapshot && !session->path.empty()) judge(losses, name, session->path);
+  EventWatch::clean_up(name);                                    // of a launcher that was killed
+  const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
+  if (kernel) losses.channels.push_back(*kernel);
+  if (local && !session->snapshot) judge(losses, name, session->path);
+  if (!kernel_failure.empty()) throw TraceError(kernel_failure);
   return losses;
 }
 

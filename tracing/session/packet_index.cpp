@@ -20,6 +20,8 @@ constexpr std::size_t kLongestEntry = 4096;  // bytes; later versions may append
 // The 32-bit words at the beginning of a file, and the 64-bit words at the beginning of each entry.
 enum HeaderWord { kMagicWord, kMajorWord, kMinorWord, kEntryLengthWord, kHeaderWords };
 enum EntryWord { kOffset, kPacketBits, kContentBits, kBegin, kEnd, kDiscarded, kEntryWords };
+// Since version 1.1 of the format: after the stream's id and its instance id.
+constexpr std::size_t kSequenceNumberWord = 8;
 
 std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -38,8 +40,57 @@ std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
                        .end = be64toh(words[kEnd]),
                        .bytes = be64toh(words[kContentBits]) / 8,
                        .discarded_events = be64toh(words[kDiscarded])});
+    if (length < (kSequenceNumberWord + 1) * sizeof(std::uint64_t)) continue;
+    std::uint64_t number = 0;
+    std::memcpy(&number, entry.data() + kSequenceNumberWord * sizeof number, sizeof number);
+    packets.back().sequence_number = be64toh(number);
   }
   return packets;
+}
+
+// The header and the context that begin each packet of a stream, as LTTng 2.13 lays them out.
+struct [[gnu::packed]] PacketStart {
+  std::uint32_t magic;
+  std::array<std::uint8_t, 16> uuid;
+  std::uint32_t stream_id;
+  std::uint64_t stream_instance_id;
+  std::uint64_t begin;
+  std::uint64_t end;
+  std::uint64_t content_bits;
+  std::uint64_t packet_bits;
+  std::uint64_t sequence_number;
+  std::uint64_t discarded;
+};
+
+// From the stream itself, for snapshots have no index.
+std::vector<Packet> read_stream_file(const fs::path& path) {
+  constexpr std::uint32_t kPacketMagic = 0xC1FC1FC1;
+  std::vector<Packet> packets;
+  std::ifstream file(path, std::ios::binary);
+  PacketStart start{};
+  for (std::uint64_t at = 0;
+       file.seekg(static_cast<std::streamoff>(at)) && file.read(reinterpret_cast<char*>(&start), sizeof start) &&
+       start.magic == kPacketMagic && start.packet_bits / 8 >= sizeof start;
+       at += start.packet_bits / 8) {
+    packets.push_back({.begin = start.begin,
+                       .end = start.end,
+                       .bytes = start.content_bits / 8,
+                       .discarded_events = start.discarded,
+                       .sequence_number = std::uint64_t{start.sequence_number}});
+  }
+  return packets;
+}
+
+// The packets of a stream file CHANNEL_CPU; nothing for another file.
+std::optional<std::vector<Packet>> read_stream(const fs::path& path) {
+  if (path.filename() == "metadata" || path.has_extension() || path.parent_path().filename() == "index") {
+    return std::nullopt;
+  }
+  if (auto packets = read_index_file(path.parent_path() / "index" / (path.filename().string() + ".idx"))) {
+    return packets;
+  }
+  auto packets = read_stream_file(path);
+  return packets.empty() ? std::nullopt : std::optional(std::move(packets));
 }
 
 }  // namespace
@@ -49,13 +100,12 @@ std::vector<Stream> read_packet_index(const fs::path& directory) {
   for (const char* domain : {"ust", "kernel"}) {
     std::error_code none;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory / domain, none)) {
-      // …/index/CHANNEL_CPU.idx
-      const fs::path& path = entry.path();
-      if (path.extension() != ".idx" || path.parent_path().filename() != "index") continue;
-      const std::string name = path.stem().string();
+      if (!entry.is_regular_file(none)) continue;
+      const std::string name = entry.path().filename().string();
       const std::size_t separator = name.rfind('_');
-      auto packets = read_index_file(path);
-      if (separator == std::string::npos || !packets) continue;
+      if (separator == std::string::npos) continue;
+      auto packets = read_stream(entry.path());
+      if (!packets) continue;
       streams.push_back({.domain = domain,
                          .channel = name.substr(0, separator),
                          .cpu = name.substr(separator + 1),

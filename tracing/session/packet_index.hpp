@@ -1,8 +1,10 @@
-// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams.
+// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams, or the
+// streams.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +14,9 @@ namespace tracing {
 struct Packet {
   std::uint64_t begin = 0;  // trace clock, ns
   std::uint64_t end = 0;
-  std::uint64_t bytes = 0;             // of events and header, without padding
-  std::uint64_t discarded_events = 0;  // of the stream since its beginning
+  std::uint64_t bytes = 0;                            // of events and header, without padding
+  std::uint64_t discarded_events = 0;                 // of the stream since its beginning
+  std::optional<std::uint64_t> sequence_number = {};  // of the packets of its stream
 };
 
 // What one processor recorded into one channel.
@@ -24,8 +27,8 @@ struct Stream {
   std::vector<Packet> packets;
 };
 
-// The streams of the recording in `directory` (the path of its session). A file that can't be read as an index gives no
-// stream. Format: struct ctf_packet_index of lttng-tools, big-endian.
+// The streams of the recording in `directory` (the path of its session, or of a snapshot). A file that is no stream
+// gives none. Format of an index: struct ctf_packet_index of lttng-tools, big-endian.
 std::vector<Stream> read_packet_index(const std::filesystem::path& directory);
 
 }  // namespace tracing

@@ -7,6 +7,7 @@
 #include <array>
 #include <sstream>
 
+#include "tracing/session/event_rule.hpp"
 #include "tracing/session/library_search.hpp"
 
 namespace tracing {
@@ -53,8 +54,9 @@ PreloadPlan plan_preload(const std::vector<std::string>& events_ust) {
 PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string (*find_library)(const std::string&)) {
   PreloadPlan plan;
   std::vector<std::string> wanted;
+  const std::vector<std::string> patterns = event_patterns(events_ust);
   for (const PreloadRule& rule : preload_rules()) {
-    if (std::any_of(events_ust.begin(), events_ust.end(), [&](const auto& event) { return matches(rule, event); })) {
+    if (std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(rule, pattern); })) {
       wanted.emplace_back(rule.library);
     }
   }

@@ -12,15 +12,21 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <thread>
 
 namespace tracing {
 namespace {
 
 constexpr const char* kDaemon = "lttng-sessiond";
+// For a daemon that another process is starting: LTTng has nothing to wait on.
+constexpr std::chrono::seconds kLongestStart{10};
+constexpr std::chrono::milliseconds kBetweenLooks{5};
 constexpr const char* kInstallRemedy = "install LTTng: sudo apt-get install lttng-tools liblttng-ust-dev";
 
 bool daemon_answers() {
@@ -119,12 +125,29 @@ pid_t spawn_daemon(const DaemonOutput& output) {
   return pid;
 }
 
+// Whoever starts a daemon first holds this lock; the others' daemons give up before the first one answers.
+bool another_daemon_starts() {
+  const std::string lock_file = std::filesystem::path(pid_file_of_daemon()).replace_extension(".lck");
+  const int fd = open(lock_file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  const bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  close(fd);
+  return held;
+}
+
 // With --daemonize the started process ends when the daemon it left behind accepts commands.
 void start_daemon() {
   const DaemonOutput output;
   const pid_t pid = spawn_daemon(output);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  const auto give_up = std::chrono::steady_clock::now() + kLongestStart;
+  while (!daemon_answers() && another_daemon_starts() && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(kBetweenLooks);
   }
   if (daemon_answers()) return;  // also when another process was faster than we
 
@@ -137,13 +160,24 @@ void start_daemon() {
           kDaemon));
 }
 
+// 0 when there is none.
+pid_t read_pid(const std::string& pid_file) {
+  std::ifstream file(pid_file);
+  pid_t pid = 0;
+  return file >> pid && pid > 0 ? pid : 0;
+}
+
+void check_not_stopped(pid_t pid, const ProcessStat& process) {
+  if (process.name != kDaemon || process.state != 'T') return;
+  throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and answers nobody", pid),
+                   fmt::format("continue it with `kill -CONT {}`", pid));
+}
+
 }  // namespace
 
 void check_daemon_is_here(const std::string& pid_file) {
-  std::ifstream file(pid_file);
-  pid_t pid = 0;
-  if (!(file >> pid) || pid <= 0) return;
-
+  const pid_t pid = read_pid(pid_file);
+  if (pid == 0) return;
   const ProcessStat process = read_process_stat(pid);
   const bool hidden = process.name.empty() && kill(pid, 0) != 0 && errno == EPERM;  // /proc with hidepid
   if (hidden) return;
@@ -153,10 +187,15 @@ void check_daemon_is_here(const std::string& pid_file) {
                     pid_file, pid, kDaemon),
         "another container shares this home directory: give each container its own LTTNG_HOME (LTTng bug 1371)");
   }
-  if (process.state == 'T') {
-    throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and answers nobody", pid),
-                     fmt::format("continue it with `kill -CONT {}`", pid));
-  }
+  check_not_stopped(pid, process);
+}
+
+pid_t session_daemon_pid() {
+  return read_pid(pid_file_of_daemon());
+}
+
+void check_daemon_not_stopped() {
+  if (const pid_t pid = session_daemon_pid(); pid != 0) check_not_stopped(pid, read_process_stat(pid));
 }
 
 bool ensure_session_daemon() {

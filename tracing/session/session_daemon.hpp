@@ -1,6 +1,8 @@
 // The LTTng session daemon: found, started when none runs, and known to be usable.
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 
 #include "tracing/session/tracer.hpp"
@@ -22,5 +24,11 @@ bool ensure_session_daemon();
 // reached from another container, whose daemon would then record nothing of ours, silently (LTTng bug 1371). No such
 // file is no objection.
 void check_daemon_is_here(const std::string& pid_file);
+
+// The process of the daemon that serves this user; 0 when its pid file can't be read.
+pid_t session_daemon_pid();
+
+// Throws when the daemon is stopped: it would block every call for ever.
+void check_daemon_not_stopped();
 
 }  // namespace tracing

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <lttng/lttng.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +17,21 @@
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
+namespace {
+
+void check_relay_daemon(const TraceConfig& config) {
+  if (!config.url.empty() && !config.url.starts_with("net://") && !config.url.starts_with("net6://")) {
+    throw TraceError(fmt::format("'{}' is no address of a relay daemon", config.url),
+                     "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path");
+  }
+  if (config.live_timer != 0 && config.records_snapshots()) {
+    throw TraceError(fmt::format("trace session '{}' is both live and a snapshot session", config.session_name),
+                     "leave live-timer or snapshot-mode out");
+  }
+}
+
+}  // namespace
+
 void check_config(const TraceConfig& config) {
   if (config.session_name.empty()) throw TraceError("the trace session's name is empty", "give it a session-name");
   const std::string session = config.lttng_session_name();
@@ -26,9 +42,13 @@ void check_config(const TraceConfig& config) {
   if (session.size() >= LTTNG_NAME_MAX) {
     throw TraceError(fmt::format("trace session name '{}' is longer than {} characters", session, LTTNG_NAME_MAX - 1));
   }
-  if (config.events_ust.empty() && config.events_kernel.empty() && config.syscalls.empty()) {
+  if (config.events_ust.empty() && config.events_kernel.empty() && config.syscalls.empty() && config.channels.empty()) {
     throw TraceError(fmt::format("no events enabled for trace session '{}'", session),
                      "name some in events-ust, events-kernel or syscalls");
+  }
+  if (config.over_network()) {
+    check_relay_daemon(config);
+    return;
   }
   std::error_code ignored;
   if (const std::string directory = config.trace_directory();
@@ -54,6 +74,21 @@ void check_writable(const std::string& base_path) {
   }
   throw TraceError(fmt::format("cannot write traces to {}: {}", base_path, reason),
                    "choose another base-path, or set ROS_TRACE_DIR");
+}
+
+std::uint64_t free_shared_memory() {
+  constexpr const char* kFolder = "/dev/shm";
+  struct statvfs usage {};
+  const int result = statvfs(kFolder, &usage);
+  int error = result != 0 ? errno : 0;
+  if (error == 0 && (usage.f_flag & ST_RDONLY) != 0) error = EROFS;
+  if (error == 0 && faccessat(AT_FDCWD, kFolder, W_OK | X_OK, AT_EACCESS) != 0) error = errno;
+  if (error != 0) {
+    throw TraceError(
+        fmt::format("userspace events need shared memory, but {} cannot be written: {}", kFolder, std::strerror(error)),
+        "mount a tmpfs there that all users can write to; containers have one unless it was taken away");
+  }
+  return std::uint64_t{usage.f_bavail} * usage.f_frsize;
 }
 
 void check_kernel_tracer() {

@@ -1,6 +1,7 @@
 // What can be known to fail before a session is created. All throw TraceError.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ void check_config(const TraceConfig& config);
 
 // The base directory, or what exists of the path to it, is a directory where this user may write.
 void check_writable(const std::string& base_path);
+
+// Bytes that the buffers of userspace channels can take: the free space of /dev/shm. Throws when it can't be written.
+std::uint64_t free_shared_memory();
 
 // Events of the kernel can be recorded: its modules are there and this user may use them. Needs a session daemon.
 void check_kernel_tracer();

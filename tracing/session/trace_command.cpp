@@ -57,7 +57,7 @@ void print_session(const TraceOptions& options) {
     print_line("writing snapshot tracing session to: " + snapshot_half(config).trace_directory());
     print_line("writing runtime tracing session to: " + config.trace_directory());
   } else {
-    print_line("writing tracing session to: " + config.trace_directory());
+    print_line("writing tracing session to: " + config.destination());
   }
 }
 
@@ -143,6 +143,10 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
     case TraceVerb::kEvents:
       fmt::print("{}", events_as_text(tracer.traceable_events()));
       return;
+    case TraceVerb::kSave:
+      return tracer.save(session_name, options.directory);
+    case TraceVerb::kLoad:
+      return tracer.load(session_name, options.directory);
     case TraceVerb::kRecordSnapshot:
       print_line("recording snapshot of tracing session");
       return tracer.record_snapshot(session_name);

@@ -116,6 +116,11 @@ std::string TraceConfig::trace_directory() const {
   return directory.string();
 }
 
+std::string TraceConfig::destination() const {
+  if (!over_network()) return trace_directory();
+  return url.empty() ? kLocalRelayDaemon : url;
+}
+
 std::string TraceConfig::lttng_session_name() const {
   if (dual_runtime) return session_name + "-runtime";
   if (dual_session) return session_name + "-snapshot";

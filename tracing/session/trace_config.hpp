@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,28 @@ const std::vector<std::string>& initialisation_ros_events();
 // procname vpid vtid
 const std::vector<std::string>& default_context_fields();
 
+// What a live session is delivered to where no url is given.
+inline constexpr const char* kLocalRelayDaemon = "net://127.0.0.1";
+
+// A channel beside those that each domain has by itself, for events that need buffers of their own.
+struct ChannelConfig {
+  std::string name;
+  std::vector<std::string> events_ust;  // of one domain only
+  std::vector<std::string> events_kernel;
+  std::vector<std::string> syscalls;
+  std::optional<std::vector<std::string>> context_fields = {};  // those of its domain unless given
+  std::optional<std::uint64_t> subbuffer_size = {};             // this and the next four: as the domain's own channel
+  std::optional<std::uint64_t> subbuffer_count = {};
+  std::optional<std::uint32_t> read_timer = {};    // µs
+  std::optional<std::uint32_t> switch_timer = {};  // µs
+  std::optional<bool> overwrite = {};
+  std::int64_t blocking_timeout = 0;  // as TraceConfig::blocking_timeout_ust
+};
+
+// Whose the userspace buffers are.
+enum class BufferOwner { kUser, kProcess };
+
+// Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
 struct TraceConfig {
   std::string session_name;  // final: any time stamp already appended
   std::string base_path;     // absolute directory that will hold the trace directory
@@ -24,22 +47,42 @@ struct TraceConfig {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields_ust = default_context_fields();
   std::vector<std::string> context_fields_kernel = default_context_fields();
-  std::uint64_t subbuffer_size_ust = 8 * 4096;  // bytes, rounded up to a power of two
+  // Buffers that hold 200,000 events/s of 100 nodes on two busy processors (docs/trace_control.md), where the
+  // 2 x 32 KiB and 200 µs of ros2_tracing lose events and keep the reader polling.
+  std::uint64_t subbuffer_size_ust = 1 << 20;  // bytes, rounded up to a power of two
   std::uint64_t subbuffer_size_kernel = 32 * 4096;
   bool init_channel = false;              // initialisation events in a channel of their own, `ros2_init`
-  std::uint64_t subbuffer_count_ust = 0;  // for each processor, a power of two; 0: 2, and 4 in a snapshot session
-  std::uint32_t read_timer_ust = 200;  // µs between two looks of the consumer into the buffers; 0: it is woken instead
+  std::uint64_t subbuffer_count_ust = 4;  // for each processor, a power of two
+  std::uint32_t read_timer_ust =
+      50'000;                          // µs between two looks of the consumer into the buffers; 0: it is woken instead
   std::uint32_t switch_timer_ust = 0;  // µs after which a sub-buffer is written though it is not full; 0: never
+  std::optional<bool> overwrite_ust = {};  // lose the oldest events, not the newest; unset: in a snapshot session only
+  // µs that a traced thread waits for room in its buffers before an event is lost; 0: it never waits, -1: for ever.
+  std::int64_t blocking_timeout_ust = 0;
+  BufferOwner buffers_ust = BufferOwner::kUser;
+  std::uint64_t tracefile_size = 0;   // bytes after which a stream goes on in a further file; 0: one file
+  std::uint64_t tracefile_count = 0;  // files of a stream that are kept, the oldest is overwritten; 0: all
+  std::vector<ChannelConfig> channels;
+  bool launch_events = false;    // those of provider `launch`, beside other userspace events
+  std::string url;               // of a relay daemon, net://HOST[:CONTROL[:DATA]]; empty: recorded below base_path
+  std::uint32_t live_timer = 0;  // µs between two deliveries to the viewers of a live session; 0: not a live session
   bool snapshot_mode = false;
-  bool dual_session = false;  // the snapshot half of a dual session: always a snapshot session
-  bool dual_runtime = false;  // the runtime half of a dual session: never a snapshot session
+  std::uint64_t snapshot_size = 0;    // largest size of a snapshot in bytes; 0: 10 userspace sub-buffers
+  std::uint64_t snapshot_limit = 10;  // snapshots of a flight recorder that are kept
+  bool dual_session = false;          // the snapshot half of a dual session: always a snapshot session
+  bool dual_runtime = false;          // the runtime half of a dual session: never a snapshot session
 
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
-  // Sub-buffers for each processor, where none are asked for.
-  std::uint64_t default_subbuffer_count() const { return records_snapshots() ? 4 : 2; }
+  // The trace goes to a relay daemon: there is no directory of ours to look into.
+  bool over_network() const { return !url.empty() || live_timer != 0; }
+  // Of the kernel's channel, for each processor.
+  std::uint64_t subbuffer_count_kernel() const { return records_snapshots() ? 4 : 2; }
 
   // base_path/session_name; for the halves of a dual session …/snapshot and …/runtime below it.
   std::string trace_directory() const;
+  // Where the trace goes, for people: trace_directory(), or the relay daemon's address.
+  std::string destination() const;
+
   // session_name; for the halves of a dual session session_name-snapshot and session_name-runtime.
   std::string lttng_session_name() const;
 };

@@ -45,6 +45,32 @@ void add_names(CLI::App& command, const std::string& option, std::vector<std::st
       ->option_text(fmt::format("[{}…]", kind));
 }
 
+void add_buffer_options(CLI::App& command, TraceConfig& config) {
+  const auto number = [&command](const std::string& option, auto& value, const std::string& unit,
+                                 const std::string& help) {
+    command.add_option(option, value, help)->option_text(unit);
+  };
+  number("--subbuffer-size-ust", config.subbuffer_size_ust, "BYTES", "sub-buffers of the userspace channel");
+  command.add_flag("--init-channel", config.init_channel, "initialisation events in a channel of their own, ros2_init");
+  number("--subbuffer-count-ust", config.subbuffer_count_ust, "NUMBER",
+         fmt::format("how many for each processor (default: {})", config.subbuffer_count_ust));
+  number("--read-timer-ust", config.read_timer_ust, "MICROSECONDS",
+         fmt::format("time between two reads of the buffers (default: {})", config.read_timer_ust));
+  number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS", "time until a part-full sub-buffer is written");
+  number("--subbuffer-size-kernel", config.subbuffer_size_kernel, "BYTES", "sub-buffers of the kernel channel");
+  command.add_option("--overwrite-ust", config.overwrite_ust,
+                     "when buffers are full lose the oldest events, not the newest (default: in snapshot mode only)");
+  number("--blocking-timeout-ust", config.blocking_timeout_ust, "MICROSECONDS",
+         "time that a traced thread waits for room before it loses an event; -1: for ever; its process needs "
+         "LTTNG_UST_ALLOW_BLOCKING=1 (default: 0)");
+  command.add_option("--buffers-ust", config.buffers_ust, "whose the userspace buffers are: uid (default) or pid")
+      ->transform(CLI::Transformer(
+          std::map<std::string, BufferOwner>{{"uid", BufferOwner::kUser}, {"pid", BufferOwner::kProcess}}))
+      ->option_text("OWNER");
+  number("--tracefile-size", config.tracefile_size, "BYTES", "size at which a stream goes on in a further file");
+  number("--tracefile-count", config.tracefile_count, "NUMBER", "files of a stream that are kept (default: all)");
+}
+
 void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOptions& options) {
   TraceConfig& config = options.config;
   command
@@ -60,17 +86,13 @@ void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOp
   command.add_flag("-l,--list", options.list_names, "print the names of the enabled events and context fields");
   command.add_flag("-a,--append-trace", config.append_trace, "add to a trace directory that exists already");
   command.add_flag("--snapshot-mode", config.snapshot_mode, "keep the newest events in memory until record_snapshot");
-  command.add_option("--subbuffer-size-ust", config.subbuffer_size_ust, "sub-buffers of the userspace channel")
-      ->option_text("BYTES");
-  command.add_flag("--init-channel", config.init_channel, "initialisation events in a channel of their own, ros2_init");
-  command.add_option("--subbuffer-count-ust", config.subbuffer_count_ust, "how many for each processor (default: 2)")
-      ->option_text("NUMBER");
-  command.add_option("--read-timer-ust", config.read_timer_ust, "time between two reads of the buffers (default: 200)")
+  add_buffer_options(command, config);
+  command.add_option("--url", config.url, "relay daemon that gets the trace: net://HOST[:CONTROL[:DATA]]")
+      ->option_text("URL");
+  command
+      .add_option("--live-timer", config.live_timer,
+                  "be a live session: viewers of the relay daemon get new events this often")
       ->option_text("MICROSECONDS");
-  command.add_option("--switch-timer-ust", config.switch_timer_ust, "time until a part-full sub-buffer is written")
-      ->option_text("MICROSECONDS");
-  command.add_option("--subbuffer-size-kernel", config.subbuffer_size_kernel, "sub-buffers of the kernel channel")
-      ->option_text("BYTES");
 }
 
 void add_fail_on_loss(CLI::App& command, TraceOptions& options) {
@@ -85,6 +107,15 @@ CLI::App* add_verb(CLI::App& command, const std::string& name, const std::string
   CLI::App* verb = command.add_subcommand(name, help);
   verb->add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
   add_dual_session(*verb, arguments);
+  return verb;
+}
+
+CLI::App* add_stored(CLI::App& command, const std::string& name, const std::string& help, SessionArguments& arguments,
+                     TraceOptions& options) {
+  CLI::App* verb = command.add_subcommand(name, help);
+  verb->add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
+  verb->add_option("-p,--path", options.directory, "directory of the file NAME.lttng (default: LTTng's own)")
+      ->option_text("DIR");
   return verb;
 }
 
@@ -133,6 +164,10 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       {stop, TraceVerb::kStop},
       {add_verb(command, "record_snapshot", "write what a snapshot session holds", session),
        TraceVerb::kRecordSnapshot},
+      {add_stored(command, "save", "write the configuration of a session to a file", session, options),
+       TraceVerb::kSave},
+      {add_stored(command, "load", "create a session from its saved configuration", session, options),
+       TraceVerb::kLoad},
       {command.add_subcommand("list", "print the sessions that exist"), TraceVerb::kList},
       {add_status(command, session), TraceVerb::kStatus},
       {command.add_subcommand("events",

@@ -9,13 +9,26 @@
 
 namespace tracing {
 
-enum class TraceVerb { kInteractive, kStart, kPause, kResume, kStop, kRecordSnapshot, kList, kStatus, kEvents };
+enum class TraceVerb {
+  kInteractive,
+  kStart,
+  kPause,
+  kResume,
+  kStop,
+  kRecordSnapshot,
+  kSave,
+  kLoad,
+  kList,
+  kStatus,
+  kEvents
+};
 
 struct TraceOptions {
   TraceVerb verb = TraceVerb::kInteractive;
   TraceConfig config;         // of the verbs without session options only the name is filled in; status: empty for all
   bool list_names = false;    // -l
   bool dual_session = false;  // -d
+  std::string directory;      // of the file that save writes and load reads; empty: LTTng's own
 };
 
 // What the parser wants printed in place of running something: help on stdout (exit code 0), or an error on stderr (2).

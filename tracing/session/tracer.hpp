@@ -50,10 +50,11 @@ struct ChannelLoss {
 struct LossAccount {
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
-  bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short; }
+  bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short && damage.empty(); }
 
   std::vector<ChannelLoss> channels;
   bool cut_short = false;              // the wait for the last data was given up
+  std::string damage = {};             // what keeps the trace from being complete and nobody has counted, a sentence
   std::string unwritten_verdict = {};  // why verdict.json could not be written
 };
 
@@ -64,7 +65,7 @@ struct SetupStep {
 };
 
 struct SetupReport {
-  std::string trace_directory;
+  std::string trace_directory;  // or the address of the relay daemon
   bool started_daemon = false;
   std::vector<SetupStep> steps;
   std::vector<std::string> warnings;
@@ -131,6 +132,10 @@ class Tracer {
   virtual std::vector<SessionSummary> sessions() = 0;
   virtual SessionDetails status(const std::string& lttng_session_name) = 0;
   virtual TraceableEvents traceable_events() = 0;
+  // Writes the session's configuration, not what it recorded, as SESSION.lttng into the directory; and creates the
+  // session again from there, recording if it was. An empty directory is LTTng's own for the user.
+  virtual void save(const std::string& lttng_session_name, const std::string& directory) = 0;
+  virtual void load(const std::string& lttng_session_name, const std::string& directory) = 0;
 };
 
 // The real one, on liblttng-ctl.

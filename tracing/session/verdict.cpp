@@ -1,6 +1,7 @@
 #include "tracing/session/verdict.hpp"
 
 #include <fmt/core.h>
+#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +16,8 @@
 
 namespace tracing {
 namespace {
+
+constexpr std::uint64_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 
 std::uint64_t first_time(const std::vector<Stream>& streams) {
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
@@ -64,6 +67,15 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   return json;
 }
 
+void write_file(const std::filesystem::path& directory, const std::string& text) {
+  const std::filesystem::path path = directory / kVerdictFile;
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) {
+    throw TraceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+}
+
 }  // namespace
 
 void explain_losses(LossAccount& account, const std::filesystem::path& directory) {
@@ -76,7 +88,7 @@ void explain_losses(LossAccount& account, const std::filesystem::path& directory
       for (const Packet& packet : stream.packets) channel.bytes += packet.bytes;
       longest = std::max(longest, add_ranges(stream, origin, channel.ranges));
     }
-    if (channel.discarded_events == 0) continue;
+    if (channel.discarded_events == 0 || channel.subbuffer_count == 0) continue;
     // What was lost after the last packet is known as a sum only.
     const std::uint64_t missing = std::max(longest, std::uint64_t{1}) * kBytesPerLostEvent;
     const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + missing);
@@ -84,10 +96,18 @@ void explain_losses(LossAccount& account, const std::filesystem::path& directory
   }
 }
 
+std::string find_damage(const std::filesystem::path& directory) {
+  struct statvfs usage {};
+  if (statvfs(directory.c_str(), &usage) != 0) return {};
+  if (std::uint64_t{usage.f_bavail} * usage.f_frsize >= kRoomLeftByAWorkingConsumer) return {};
+  return fmt::format("the file system of {} is full: events are missing, nobody knows how many", directory.string());
+}
+
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name) {
   nlohmann::ordered_json json = {{"session", session_name},
                                  {"complete", account.complete()},
                                  {"cut_short", account.cut_short},
+                                 {"damage", account.damage},
                                  {"discarded_events", account.discarded_events()},
                                  {"lost_packets", account.lost_packets()},
                                  {"channels", nlohmann::ordered_json::array()}};
@@ -97,12 +117,36 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
 
 void write_verdict(const LossAccount& account, const std::string& session_name,
                    const std::filesystem::path& directory) {
-  const std::filesystem::path path = directory / kVerdictFile;
-  std::ofstream file(path);
-  file << verdict_as_json(account, session_name) << std::flush;
-  if (!file) {
-    throw TraceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  write_file(directory, verdict_as_json(account, session_name));
+}
+
+void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                            const std::vector<std::string>& reasons) {
+  std::uint64_t discarded = 0;
+  std::uint64_t lost = 0;
+  std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t end = 0;
+  for (const Stream& stream : read_packet_index(directory)) {
+    for (std::size_t i = 0; i < stream.packets.size(); ++i) {
+      const Packet& packet = stream.packets[i];
+      begin = std::min(begin, packet.begin);
+      end = std::max(end, packet.end);
+      if (i == 0) continue;
+      const Packet& before = stream.packets[i - 1];
+      discarded += packet.discarded_events - before.discarded_events;
+      if (packet.sequence_number && before.sequence_number) {
+        lost += *packet.sequence_number - *before.sequence_number - 1;
+      }
+    }
   }
+  const nlohmann::ordered_json json = {{"session", session_name},
+                                       {"reasons", reasons},
+                                       {"complete", discarded == 0 && lost == 0},
+                                       {"discarded_events", discarded},
+                                       {"lost_packets", lost},
+                                       {"begin_ns", std::min(begin, end)},
+                                       {"end_ns", end}};
+  write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace tracing

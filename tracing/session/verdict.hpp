@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tracing/session/tracer.hpp"
 
@@ -24,10 +25,19 @@ inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 wi
 inline constexpr std::uint64_t kAdvisedSubbuffers = 4;
 inline constexpr std::uint64_t kLargestAdvice = std::uint64_t{256} << 20;  // bytes for each processor and channel
 
+// What LTTng does not count: a sentence when the file system of `directory` is full, for its consumer then drops what
+// it can't write without a word. "" otherwise.
+std::string find_damage(const std::filesystem::path& directory);
+
 // For programs: session, complete, cut_short, discarded_events, lost_packets, channels with their ranges and advice.
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name);
 
 // Writes kVerdictFile. Throws TraceError.
 void write_verdict(const LossAccount& account, const std::string& session_name, const std::filesystem::path& directory);
+
+// The same for a snapshot: session, reasons, complete, discarded_events, lost_packets, begin_ns and end_ns of the trace
+// clock. Complete is a snapshot in which nothing is missing between its first event and its last. Throws TraceError.
+void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                            const std::vector<std::string>& reasons);
 
 }  // namespace tracing

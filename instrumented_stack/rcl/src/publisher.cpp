@@ -94,6 +94,30 @@ rcl_ret_t rcl_publish_serialized_message(const rcl_publisher_t* publisher,
   return rmw_publish_serialized_message(publisher->impl->rmw_handle, serialized_message, allocation);
 }
 
+rcl_ret_t rcl_borrow_loaned_message(const rcl_publisher_t* publisher, const rosidl_message_type_support_t* type_support,
+                                    void** ros_message) {
+  return rcl_publisher_is_valid(publisher)
+             ? rmw_borrow_loaned_message(publisher->impl->rmw_handle, type_support, ros_message)
+             : RCL_RET_PUBLISHER_INVALID;
+}
+
+rcl_ret_t rcl_return_loaned_message_from_publisher(const rcl_publisher_t* publisher, void* loaned_message) {
+  // Also after shutdown: what was borrowed must go back.
+  return rcl_publisher_is_valid_except_context(publisher)
+             ? rmw_return_loaned_message_from_publisher(publisher->impl->rmw_handle, loaned_message)
+             : RCL_RET_PUBLISHER_INVALID;
+}
+
+rcl_ret_t rcl_publish_loaned_message(const rcl_publisher_t* publisher, void* ros_message,
+                                     rmw_publisher_allocation_t* allocation) {
+  if (!rcl_publisher_is_valid(publisher)) {
+    return RCL_RET_PUBLISHER_INVALID;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RCL_RET_INVALID_ARGUMENT);
+  TRACETOOLS_TRACEPOINT(rcl_publish, static_cast<const void*>(publisher), static_cast<const void*>(ros_message));
+  return rmw_publish_loaned_message(publisher->impl->rmw_handle, ros_message, allocation);
+}
+
 rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t* publisher) {
   return rcl_publisher_is_valid(publisher) ? rmw_publisher_assert_liveliness(publisher->impl->rmw_handle)
                                            : RCL_RET_PUBLISHER_INVALID;

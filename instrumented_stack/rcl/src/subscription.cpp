@@ -1,5 +1,8 @@
 #include "rcl/subscription.h"
 
+#include <cstdlib>
+#include <cstring>
+
 #include "rcl/error_handling.h"
 #include "rmw/rmw.h"
 #include "tracetools/tracetools.h"
@@ -15,7 +18,9 @@ rcl_subscription_t rcl_get_zero_initialized_subscription(void) {
 }
 
 rcl_subscription_options_t rcl_subscription_get_default_options(void) {
-  return {rmw_qos_profile_default, rcl_get_default_allocator(), rmw_get_default_subscription_options()};
+  const char* disable = std::getenv("ROS_DISABLE_LOANED_MESSAGES");
+  return {rmw_qos_profile_default, rcl_get_default_allocator(), rmw_get_default_subscription_options(),
+          disable == nullptr || std::strcmp(disable, "0") != 0};
 }
 
 rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node_t* node,
@@ -109,6 +114,31 @@ rcl_ret_t rcl_take_serialized_message(const rcl_subscription_t* subscription,
   return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
 }
 
+rcl_ret_t rcl_take_loaned_message(const rcl_subscription_t* subscription, void** loaned_message,
+                                  rmw_message_info_t* message_info, rmw_subscription_allocation_t* allocation) {
+  if (!rcl_subscription_is_valid(subscription)) {
+    return RCL_RET_SUBSCRIPTION_INVALID;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RCL_RET_INVALID_ARGUMENT);
+  rmw_message_info_t local_info;
+  rmw_message_info_t* info = message_info == nullptr ? &local_info : message_info;
+  *info = rmw_get_zero_initialized_message_info();
+  bool taken = false;
+  const rmw_ret_t result =
+      rmw_take_loaned_message_with_info(subscription->impl->rmw_handle, loaned_message, &taken, info, allocation);
+  if (result != RMW_RET_OK) {
+    return result;
+  }
+  TRACETOOLS_TRACEPOINT(rcl_take, static_cast<const void*>(*loaned_message));
+  return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
+}
+
+rcl_ret_t rcl_return_loaned_message_from_subscription(const rcl_subscription_t* subscription, void* loaned_message) {
+  return rcl_subscription_is_valid(subscription)
+             ? rmw_return_loaned_message_from_subscription(subscription->impl->rmw_handle, loaned_message)
+             : RCL_RET_SUBSCRIPTION_INVALID;
+}
+
 const char* rcl_subscription_get_topic_name(const rcl_subscription_t* subscription) {
   return rcl_subscription_is_valid(subscription) ? subscription->impl->rmw_handle->topic_name : nullptr;
 }
@@ -137,8 +167,13 @@ bool rcl_subscription_is_valid(const rcl_subscription_t* subscription) {
   return true;
 }
 
+bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription) {
+  return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->is_cft_enabled;
+}
+
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription) {
-  return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->can_loan_messages;
+  return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->can_loan_messages &&
+         !subscription->impl->options.disable_loaned_message;
 }
 
 rcl_ret_t rcl_subscription_set_on_new_message_callback(const rcl_subscription_t* subscription,

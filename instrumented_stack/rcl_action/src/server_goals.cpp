@@ -1,6 +1,7 @@
 // The goals of a server: from being accepted to expiring.
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "action_server_impl.hpp"
 #include "rcl/error_handling.h"
@@ -31,10 +32,14 @@ rcl_action_goal_handle_t* find(const rcl_action_server_impl_t& impl, const rcl_a
   return found == impl.goals.end() ? nullptr : *found;
 }
 
-// Nanoseconds until the result of a goal expires; only for goals at their end.
-int64_t until_expiry(const rcl_action_server_impl_t& impl, const rcl_action_goal_handle_t* goal, int64_t now) {
-  int64_t ended = 0;
+// Nanoseconds until the result of a goal expires; nothing for goals whose end is not told yet.
+std::optional<int64_t> until_expiry(const rcl_action_server_impl_t& impl, const rcl_action_goal_handle_t* goal,
+                                    int64_t now) {
+  int64_t ended = -1;
   (void)rcl_action_goal_handle_get_goal_terminal_timestamp(goal, &ended);
+  if (ended < 0) {
+    return std::nullopt;
+  }
   return ended + impl.options.result_timeout - now;
 }
 
@@ -48,17 +53,10 @@ rcl_ret_t set_timer(rcl_action_server_impl_t& impl) {
     return result;
   }
   int64_t next = -1;
-  for (rcl_action_goal_handle_t* goal : impl.goals) {
-    if (rcl_action_goal_handle_is_active(goal)) {
-      continue;
+  for (const rcl_action_goal_handle_t* goal : impl.goals) {
+    if (const std::optional<int64_t> left = until_expiry(impl, goal, now)) {
+      next = next < 0 ? std::max<int64_t>(*left, 0) : std::min(next, std::max<int64_t>(*left, 0));
     }
-    int64_t ended = 0;
-    (void)rcl_action_goal_handle_get_goal_terminal_timestamp(goal, &ended);
-    if (ended < 0) {
-      (void)rcl_action_goal_handle_set_goal_terminal_timestamp(goal, now);
-    }
-    const int64_t left = std::max<int64_t>(until_expiry(impl, goal, now), 0);
-    next = next < 0 ? left : std::min(next, left);
   }
   if (next < 0) {
     return rcl_timer_cancel(&impl.expire_timer);
@@ -119,7 +117,7 @@ rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_
   }
   *num_expired = 0;
   const auto is_expired = [&](const rcl_action_goal_handle_t* goal) {
-    if (*num_expired == capacity || rcl_action_goal_handle_is_active(goal) || until_expiry(impl, goal, now) > 0) {
+    if (*num_expired == capacity || until_expiry(impl, goal, now).value_or(1) > 0) {
       return false;
     }
     expired_goals[(*num_expired)++] = info_of(goal);

@@ -4,9 +4,11 @@
 
 namespace rclcpp {
 
-void AnySubscriptionCallbackBase::dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
-  TRACETOOLS_TRACEPOINT(callback_start, static_cast<const void*>(this), false);
-  deliver_(message, message_info);
+void AnySubscriptionCallbackBase::trace_start(bool is_intra_process) const {
+  TRACETOOLS_TRACEPOINT(callback_start, static_cast<const void*>(this), is_intra_process);
+}
+
+void AnySubscriptionCallbackBase::trace_end() const {
   TRACETOOLS_TRACEPOINT(callback_end, static_cast<const void*>(this));
 }
 

@@ -72,7 +72,7 @@ QoS ClientBase::get_response_subscription_actual_qos() const {
 bool ClientBase::service_is_ready() const {
   bool is_ready = false;
   const rcl_ret_t ret = rcl_service_server_is_available(node_handle_.get(), client_handle_.get(), &is_ready);
-  if (ret == RCL_RET_NODE_INVALID && !context_->is_valid()) {
+  if (ret == RCL_RET_NODE_INVALID && !rcl_context_is_valid(node_handle_->context)) {
     rcl_reset_error();
     return false;
   }

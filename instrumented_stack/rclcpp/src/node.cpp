@@ -1,5 +1,8 @@
 #include "rclcpp/node.hpp"
 
+#include <rmw/validate_namespace.h>
+
+#include "rclcpp/exceptions.hpp"
 #include "time_source.hpp"
 
 namespace rclcpp {
@@ -15,7 +18,7 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
            const rcl_node_options_t& rcl_options)
     : options_(options),
       node_base_(std::make_shared<node_interfaces::NodeBaseInterface>(node_name, node_namespace, options.context(),
-                                                                      rcl_options)),
+                                                                      rcl_options, options.use_intra_process_comms())),
       logger_(rclcpp::get_logger(rcl_node_get_logger_name(node_base_->get_rcl_node_handle()))),
       node_graph_(std::make_shared<node_interfaces::NodeGraphInterface>(node_base_)),
       node_timers_(std::make_shared<node_interfaces::NodeTimersInterface>(node_base_)),
@@ -27,9 +30,60 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
                                                                                   options_, rcl_options)),
       node_type_descriptions_(std::make_shared<node_interfaces::NodeTypeDescriptionsInterface>(
           node_base_, node_parameters_, node_services_)),
-      time_source_(std::make_unique<node_interfaces::TimeSource>(*this)) {}
+      time_source_(std::make_unique<node_interfaces::TimeSource>(*this)),
+      effective_namespace_(node_base_->get_namespace()) {}
+
+Node::Node(Node& other, const std::string& sub_namespace)
+    : parent_(other.shared_from_this()),
+      options_(other.options_),
+      node_base_(other.node_base_),
+      logger_(other.logger_),
+      node_graph_(other.node_graph_),
+      node_timers_(other.node_timers_),
+      node_topics_(other.node_topics_),
+      node_services_(other.node_services_),
+      node_waitables_(other.node_waitables_),
+      clock_(other.clock_),
+      node_parameters_(other.node_parameters_),
+      node_type_descriptions_(other.node_type_descriptions_) {
+  if (sub_namespace.empty()) {
+    throw exceptions::NameValidationError("sub_namespace", "",
+                                          "sub-nodes should not extend nodes by an empty sub-namespace", 0);
+  }
+  if (sub_namespace.front() == '/') {
+    throw exceptions::NameValidationError("sub_namespace", sub_namespace.c_str(),
+                                          "a sub-namespace should not have a leading /", 0);
+  }
+  sub_namespace_ = other.sub_namespace_.empty() ? sub_namespace : other.sub_namespace_ + "/" + sub_namespace;
+  if (sub_namespace_.back() == '/') {
+    sub_namespace_.pop_back();
+  }
+  const std::string node_namespace = node_base_->get_namespace();
+  effective_namespace_ = (node_namespace.back() == '/' ? node_namespace : node_namespace + "/") + sub_namespace_;
+  int result = RMW_NAMESPACE_VALID;
+  size_t index = 0;
+  if (rmw_validate_namespace(effective_namespace_.c_str(), &result, &index) != RMW_RET_OK) {
+    exceptions::throw_from_rcl_error(RCL_RET_ERROR, "failed to validate a namespace");
+  }
+  if (result != RMW_NAMESPACE_VALID) {
+    throw exceptions::InvalidNamespaceError(effective_namespace_.c_str(),
+                                            rmw_namespace_validation_result_string(result), index);
+  }
+}
 
 Node::~Node() = default;
+
+std::shared_ptr<Node> Node::create_sub_node(const std::string& sub_namespace) {
+  // std::make_shared cannot call the protected constructor.
+  return std::shared_ptr<Node>(new Node(*this, sub_namespace));
+}
+
+std::string Node::extend_name(const std::string& name) const {
+  if (sub_namespace_.empty() || name.empty() || name.front() == '/' || name.front() == '~') {
+    return name;
+  }
+  return sub_namespace_ + "/" + name;
+}
 
 CallbackGroup::SharedPtr Node::create_callback_group(CallbackGroupType group_type,
                                                      bool automatically_add_to_executor_with_node) {

@@ -26,6 +26,16 @@ NodeOptions& NodeOptions::parameter_overrides(const std::vector<Parameter>& para
   return *this;
 }
 
+NodeOptions& NodeOptions::use_intra_process_comms(bool use_intra_process_comms) {
+  use_intra_process_comms_ = use_intra_process_comms;
+  return *this;
+}
+
+NodeOptions& NodeOptions::enable_topic_statistics(bool enable_topic_statistics) {
+  enable_topic_statistics_ = enable_topic_statistics;
+  return *this;
+}
+
 NodeOptions& NodeOptions::enable_rosout(bool enable_rosout) {
   enable_rosout_ = enable_rosout;
   return *this;
@@ -48,11 +58,6 @@ NodeOptions& NodeOptions::start_parameter_event_publisher(bool start_parameter_e
 
 NodeOptions& NodeOptions::parameter_event_qos(const QoS& parameter_event_qos) {
   parameter_event_qos_ = parameter_event_qos;
-  return *this;
-}
-
-NodeOptions& NodeOptions::use_intra_process_comms(bool use_intra_process_comms) {
-  use_intra_process_comms_ = use_intra_process_comms;
   return *this;
 }
 

@@ -25,6 +25,9 @@ void NodeTopics::add_subscription(const SubscriptionBase::SharedPtr& subscriptio
   for (const auto& [type, handler] : subscription->get_event_handlers()) {
     serving->add_waitable(handler);
   }
+  if (const Waitable::SharedPtr intra_process = subscription->get_intra_process_waitable()) {
+    serving->add_waitable(intra_process);
+  }
 }
 
 }  // namespace rclcpp::node_interfaces

@@ -3,10 +3,14 @@
 #include <rmw/rmw.h>
 #include <tracetools/tracetools.h>
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
+#include "rclcpp/detail/resolve_use_intra_process.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/experimental/intra_process_manager.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
@@ -17,6 +21,8 @@ PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, cons
   const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
   rcl_publisher_options_t rcl_options = rcl_publisher_get_default_options();
   rcl_options.qos = qos.get_rmw_qos_profile();
+  rcl_options.rmw_publisher_options.require_unique_network_flow_endpoints =
+      options.require_unique_network_flow_endpoints;
 
   auto publisher = std::make_unique<rcl_publisher_t>(rcl_get_zero_initialized_publisher());
   rcl_ret_t ret = rcl_publisher_init(publisher.get(), node_handle.get(), &type_support, topic.c_str(), &rcl_options);
@@ -43,6 +49,9 @@ PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, cons
 }
 
 PublisherBase::~PublisherBase() {
+  if (intra_process_manager_) {
+    intra_process_manager_->remove_publisher(intra_process_publisher_id_);
+  }
   event_handlers_.clear();  // an executor that looks again must not find them
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
@@ -82,6 +91,26 @@ size_t PublisherBase::get_subscription_count() const {
   return count;
 }
 
+size_t PublisherBase::get_intra_process_subscription_count() const {
+  return intra_process_manager_ ? intra_process_manager_->get_subscription_count(intra_process_publisher_id_) : 0;
+}
+
+size_t PublisherBase::lowest_available_ipm_capacity() const {
+  return intra_process_manager_ ? intra_process_manager_->lowest_available_capacity(intra_process_publisher_id_) : 0;
+}
+
+std::vector<NetworkFlowEndpoint> PublisherBase::get_network_flow_endpoints() const {
+  return detail::network_flow_endpoints(
+      [this](rcutils_allocator_t* allocator, rmw_network_flow_endpoint_array_t* array) {
+        return rmw_publisher_get_network_flow_endpoints(rcl_publisher_get_rmw_handle(publisher_handle_.get()),
+                                                        allocator, array);
+      });
+}
+
+bool PublisherBase::operator==(const rmw_gid_t& gid) const {
+  return std::equal(std::begin(gid.data), std::end(gid.data), std::begin(gid_.data));
+}
+
 bool PublisherBase::assert_liveliness() const {
   if (rcl_publisher_assert_liveliness(publisher_handle_.get()) != RCL_RET_OK) {
     rcl_reset_error();
@@ -108,8 +137,39 @@ void PublisherBase::publish_message(const void* message) {
 }
 
 void PublisherBase::publish_serialized(const rcl_serialized_message_t& serialized_message) {
+  if (intra_process_is_enabled()) {
+    throw std::runtime_error("storing serialized messages in intra process is not supported yet");
+  }
   check_published(rcl_publish_serialized_message(publisher_handle_.get(), &serialized_message, nullptr),
                   "failed to publish serialized message");
+}
+
+void PublisherBase::publish_loaned(void* message) {
+  TRACETOOLS_TRACEPOINT(rclcpp_publish, nullptr, static_cast<const void*>(message));
+  const rcl_ret_t ret = rcl_publish_loaned_message(publisher_handle_.get(), message, nullptr);
+  if (ret != RCL_RET_OK && rcl_return_loaned_message_from_publisher(publisher_handle_.get(), message) != RCL_RET_OK) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "failed to return a loaned message: %s", rcl_get_error_string().str);
+  }
+  check_published(ret, "failed to publish loaned message");
+}
+
+bool PublisherBase::uses_intra_process(const PublisherOptionsBase& options,
+                                       const node_interfaces::NodeBaseInterface& node_base) const {
+  if (!detail::resolve_use_intra_process(options, node_base)) {
+    return false;
+  }
+  detail::require_intra_process_qos(get_actual_qos(), get_topic_name());
+  return true;
+}
+
+void PublisherBase::join_intra_process(std::shared_ptr<experimental::IntraProcessManager> manager,
+                                       std::function<void(experimental::SubscriptionIntraProcessBase&)> replay) {
+  intra_process_publisher_id_ = manager->add_publisher(*this, std::move(replay));
+  intra_process_manager_ = std::move(manager);
+}
+
+void PublisherBase::trace_intra_publish([[maybe_unused]] const void* message) const {
+  TRACETOOLS_TRACEPOINT(rclcpp_intra_publish, static_cast<const void*>(publisher_handle_.get()), message);
 }
 
 void PublisherBase::check_published(rcl_ret_t ret, const char* what) const {

@@ -1,23 +1,28 @@
 #include "rclcpp/subscription_base.hpp"
 
+#include <rmw/rmw.h>
 #include <tracetools/tracetools.h>
 
 #include <utility>
 
+#include "rclcpp/detail/resolve_use_intra_process.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/experimental/intra_process_manager.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
 SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base,
                                    const rosidl_message_type_support_t& type_support, const std::string& topic,
-                                   const QoS& qos, const SubscriptionOptions& options)
+                                   const QoS& qos, const SubscriptionOptionsBase& options)
     : type_support_(type_support) {
   const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
   rcl_subscription_options_t rcl_options = rcl_subscription_get_default_options();
   rcl_options.qos = qos.get_rmw_qos_profile();
   rcl_options.rmw_subscription_options.ignore_local_publications = options.ignore_local_publications;
+  rcl_options.rmw_subscription_options.require_unique_network_flow_endpoints =
+      options.require_unique_network_flow_endpoints;
 
   auto subscription = std::make_unique<rcl_subscription_t>(rcl_get_zero_initialized_subscription());
   const rcl_ret_t ret =
@@ -40,6 +45,10 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
 }
 
 SubscriptionBase::~SubscriptionBase() {
+  if (intra_process_) {
+    intra_process_manager_->remove_subscription(intra_process_subscription_id_);
+    intra_process_.reset();
+  }
   clear_on_new_message_callback();
   event_handlers_.clear();  // an executor that looks again must not find them
   if (traced_callback_) {
@@ -98,8 +107,47 @@ bool SubscriptionBase::check_taken(rcl_ret_t ret) const {
   return true;
 }
 
+std::vector<NetworkFlowEndpoint> SubscriptionBase::get_network_flow_endpoints() const {
+  return detail::network_flow_endpoints(
+      [this](rcutils_allocator_t* allocator, rmw_network_flow_endpoint_array_t* array) {
+        return rmw_subscription_get_network_flow_endpoints(rcl_subscription_get_rmw_handle(subscription_handle_.get()),
+                                                           allocator, array);
+      });
+}
+
+void SubscriptionBase::execute_loaned() {
+  void* loan = nullptr;
+  MessageInfo message_info;
+  const rcl_ret_t ret =
+      rcl_take_loaned_message(subscription_handle_.get(), &loan, &message_info.get_rmw_message_info(), nullptr);
+  TRACETOOLS_TRACEPOINT(rclcpp_take, static_cast<const void*>(loan));
+  if (ret == RCL_RET_SUBSCRIPTION_TAKE_FAILED) {
+    rcl_reset_error();
+    return;
+  }
+  if (ret != RCL_RET_OK) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a loaned message from topic '%s': %s", get_topic_name(),
+                 rcl_get_error_string().str);
+    rcl_reset_error();
+    return;
+  }
+  const std::shared_ptr<void> message(loan, [handle = subscription_handle_](void* borrowed) {
+    if (rcl_return_loaned_message_from_subscription(handle.get(), borrowed) != RCL_RET_OK) {
+      RCLCPP_ERROR(get_logger("rclcpp"), "failed to return a loaned message: %s", rcl_get_error_string().str);
+      rcl_reset_error();
+    }
+  });
+  if (!is_delivered_twice(message_info)) {
+    callback().dispatch(message, message_info);
+  }
+}
+
 void SubscriptionBase::execute() {
   AnySubscriptionCallbackBase& any_callback = callback();
+  if (any_callback.takes_reference() && !any_callback.is_serialized_message_callback() && can_loan_messages()) {
+    execute_loaned();
+    return;
+  }
   MessageInfo message_info;
   std::shared_ptr<void> message = borrow_message();
   bool taken = false;
@@ -113,7 +161,7 @@ void SubscriptionBase::execute() {
                  error.what());
     return;
   }
-  if (taken) {
+  if (taken && !is_delivered_twice(message_info)) {
     any_callback.dispatch(message, message_info);
   }
   return_message(std::move(message));
@@ -140,9 +188,42 @@ void SubscriptionBase::trace_creation(const AnySubscriptionCallbackBase& callbac
   traced_callback_ = &callback;
   TRACETOOLS_TRACEPOINT(rclcpp_subscription_init, static_cast<const void*>(subscription_handle_.get()),
                         static_cast<const void*>(this));
-  TRACETOOLS_TRACEPOINT(rclcpp_subscription_callback_added, static_cast<const void*>(this),
-                        static_cast<const void*>(&callback));
+  trace_callback(this, callback);
+}
+
+void SubscriptionBase::trace_callback([[maybe_unused]] const void* subscription,
+                                      const AnySubscriptionCallbackBase& callback) const {
+  TRACETOOLS_TRACEPOINT(rclcpp_subscription_callback_added, subscription, static_cast<const void*>(&callback));
   callback.trace_registration();
+}
+
+bool SubscriptionBase::uses_intra_process(const SubscriptionOptionsBase& options,
+                                          const node_interfaces::NodeBaseInterface& node_base) const {
+  if (!detail::resolve_use_intra_process(options, node_base)) {
+    return false;
+  }
+  detail::require_intra_process_qos(get_actual_qos(), get_topic_name());
+  return true;
+}
+
+void SubscriptionBase::join_intra_process(const node_interfaces::NodeBaseInterface& node_base,
+                                          std::shared_ptr<experimental::SubscriptionIntraProcessBase> intra_process,
+                                          const AnySubscriptionCallbackBase& callback) {
+  trace_callback(intra_process.get(), callback);
+  TRACETOOLS_TRACEPOINT(rclcpp_subscription_init, static_cast<const void*>(subscription_handle_.get()),
+                        static_cast<const void*>(intra_process.get()));
+  intra_process_manager_ = node_base.get_context()->get_sub_context<experimental::IntraProcessManager>();
+  intra_process_subscription_id_ = intra_process_manager_->add_subscription(intra_process);
+  intra_process_ = std::move(intra_process);
+}
+
+std::shared_ptr<Waitable> SubscriptionBase::get_intra_process_waitable() const {
+  return intra_process_;
+}
+
+bool SubscriptionBase::is_delivered_twice(const MessageInfo& message_info) const {
+  return intra_process_ &&
+         intra_process_manager_->matches_any_publishers(message_info.get_rmw_message_info().publisher_gid);
 }
 
 void SubscriptionBase::set_on_new_message_callback(std::function<void(size_t)> callback) {

@@ -282,7 +282,8 @@ void ServerBase::answer_result_request(rmw_request_id_t header, const std::share
 
 void ServerBase::publish_result(const GoalUUID& uuid, std::shared_ptr<void> result_response) {
   const std::lock_guard lock(mutex_);
-  if (goals_.count(uuid) == 0) {
+  const auto goal = goals_.find(uuid);
+  if (goal == goals_.end()) {
     throw std::runtime_error("Asked to publish result for goal that does not exist");
   }
   for (rmw_request_id_t& header : waiting_for_result_[uuid]) {
@@ -291,6 +292,10 @@ void ServerBase::publish_result(const GoalUUID& uuid, std::shared_ptr<void> resu
   waiting_for_result_.erase(uuid);
   results_[uuid] = std::move(result_response);
   const std::lock_guard clock_lock(clock_->get_clock_mutex());
+  rcl_time_point_value_t now = 0;
+  require_ok(rcl_clock_get_now(clock_->get_clock_handle(), &now), "could not tell when a goal came to its end");
+  require_ok(rcl_action_goal_handle_set_goal_terminal_timestamp(goal->second.get(), now),
+             "could not note when a goal came to its end");
   require_ok(rcl_action_notify_goal_done(&server_), "could not note the end of a goal");
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <fastdds/dds/core/LoanableCollection.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
@@ -49,18 +50,28 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   // may hold a sample all the same, one behind another that is missing, which arrives once more when its writer has
   // resent or given up the other.
   bool take_next(void* data, eprosima::fastdds::dds::SampleInfo& info) {
+    return take([&] { return reader->take_next_sample(data, &info); });
+  }
+  // The same for a sample that stays where the reader has it.
+  bool take_next_loan(eprosima::fastdds::dds::LoanableCollection& samples,
+                      eprosima::fastdds::dds::SampleInfoSeq& infos) {
+    return take([&] { return reader->take(samples, infos, 1); });
+  }
+
+  eprosima::fastdds::dds::DataReader* reader = nullptr;
+
+ private:
+  template <typename TakeT>
+  bool take(TakeT take_from_reader) {
     on_new_data_.about_to_take();
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
-    const ReturnCode_t result = reader->take_next_sample(data, &info);
+    const ReturnCode_t result = take_from_reader();
     if (result == ReturnCode_t::RETCODE_NO_DATA) {
       settled_.store(arrivals, std::memory_order_release);
     }
     return result == ReturnCode_t::RETCODE_OK;
   }
 
-  eprosima::fastdds::dds::DataReader* reader = nullptr;
-
- private:
   std::atomic<std::uint64_t> arrivals_{0};
   std::atomic<std::uint64_t> settled_{0};  // arrivals that are known to have left nothing to take
   ReadyCallback on_new_data_;

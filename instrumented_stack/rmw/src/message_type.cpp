@@ -61,8 +61,11 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks) : ca
   char bounds = 0;
   const std::size_t size = callbacks.max_serialized_size(bounds);
   is_bounded_ = bounds != ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
-  // Submessages of RTPS are aligned to four bytes.
-  m_typeSize = (kEncapsulationSize + static_cast<std::uint32_t>(size) + 3) & ~3u;
+  is_plain_ = bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
+  // Submessages of RTPS are aligned to four bytes; a plain message in memory may end with padding.
+  const std::uint32_t alignment = is_plain_ ? 8 : 4;
+  const std::uint32_t rounded = (static_cast<std::uint32_t>(size) + alignment - 1) / alignment * alignment;
+  m_typeSize = kEncapsulationSize + rounded;
 }
 
 bool MessageType::serialize(void* data, SerializedPayload_t* payload) {
@@ -97,6 +100,12 @@ std::function<uint32_t()> MessageType::getSerializedSizeProvider(void* data) {
     }
     return is_bounded_ ? m_typeSize : kEncapsulationSize + callbacks_.get_serialized_size(outgoing->message);
   };
+}
+
+bool is_plain(const message_type_support_callbacks_t& callbacks) {
+  char bounds = 0;
+  (void)callbacks.max_serialized_size(bounds);
+  return bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
 }
 
 std::string dds_type_name(const message_type_support_callbacks_t& callbacks) {

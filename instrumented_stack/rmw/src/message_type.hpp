@@ -30,6 +30,8 @@ class MessageType final : public eprosima::fastdds::dds::TopicDataType {
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override;
   std::function<uint32_t()> getSerializedSizeProvider(void* data) override;
   bool is_bounded() const override { return is_bounded_; }
+  // Whether messages can be made where they are sent from: a write may then be given such a message as `data`.
+  bool is_plain() const override { return is_plain_; }
 
   // Samples are never made by Fast DDS: takes always bring their own memory.
   void* createData() override { return nullptr; }
@@ -41,7 +43,11 @@ class MessageType final : public eprosima::fastdds::dds::TopicDataType {
  private:
   const message_type_support_callbacks_t& callbacks_;
   bool is_bounded_ = false;
+  bool is_plain_ = false;
 };
+
+// Whether a message has the same layout in memory and on the wire.
+bool is_plain(const message_type_support_callbacks_t& callbacks);
 
 // `std_msgs::msg::dds_::String_`
 std::string dds_type_name(const message_type_support_callbacks_t& callbacks);

@@ -10,6 +10,7 @@
 #include "endpoint.hpp"
 #include "identifier.hpp"
 #include "message_type.hpp"
+#include "network_flow.hpp"
 #include "participant.hpp"
 #include "qos.hpp"
 #include "rmw/error_handling.h"
@@ -43,13 +44,14 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   return *static_cast<Publisher*>(handle.data);
 }
 
-rmw_ret_t write(const rmw_publisher_t* publisher, OutgoingMessage outgoing, const void* traced_message) {
+// `data` is what the writer gets: an OutgoingMessage, or a loan.
+rmw_ret_t write(const rmw_publisher_t* publisher, void* data, const void* traced_message) {
   rmw_time_point_value_t now = 0;
   (void)rcutils_system_time_now(&now);
   rtps::WriteParams params;
   params.source_timestamp().from_ns(now);
   TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message, now);
-  if (!publisher_of(*publisher).writer->write(&outgoing, params)) {
+  if (!publisher_of(*publisher).writer->write(data, params)) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a message on topic '%s' cannot be written", publisher->topic_name);
     return RMW_RET_ERROR;
   }
@@ -81,7 +83,7 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
       to_gid(publisher->writer->guid()),
       {GraphCache::Kind::kWriter, dds_topic, dds_type_name(callbacks), profile_of(publisher->writer->get_qos())}};
   publisher->topic_name = topic_name;
-  publisher->handle = {kIdentifier, publisher.get(), publisher->topic_name.c_str(), options, false};
+  publisher->handle = {kIdentifier, publisher.get(), publisher->topic_name.c_str(), options, is_plain(callbacks)};
   TRACETOOLS_TRACEPOINT(rmw_publisher_init, static_cast<const void*>(&publisher->handle),
                         publisher->identity.gid.data());
   return &publisher.release()->handle;
@@ -104,7 +106,8 @@ const EndpointIdentity& identity_of(const rmw_publisher_t& publisher) {
 rmw_ret_t rmw_publish(const rmw_publisher_t* publisher, const void* ros_message, rmw_publisher_allocation_t*) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
-  return write(publisher, {ros_message, nullptr}, ros_message);
+  OutgoingMessage outgoing{ros_message, nullptr};
+  return write(publisher, &outgoing, ros_message);
 }
 
 rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
@@ -112,7 +115,51 @@ rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
                                          rmw_publisher_allocation_t*) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RMW_RET_INVALID_ARGUMENT);
-  return write(publisher, {nullptr, serialized_message}, serialized_message);
+  OutgoingMessage outgoing{nullptr, serialized_message};
+  return write(publisher, &outgoing, serialized_message);
+}
+
+rmw_ret_t rmw_borrow_loaned_message(const rmw_publisher_t* publisher, const rosidl_message_type_support_t* type_support,
+                                    void** ros_message) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
+  if (*ros_message != nullptr) {
+    RMW_SET_ERROR_MSG("a message is borrowed into a pointer that is not null");
+    return RMW_RET_INVALID_ARGUMENT;
+  }
+  if (!publisher->can_loan_messages) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("messages on topic '%s' cannot be loaned: their type is not plain",
+                                         publisher->topic_name);
+    return RMW_RET_UNSUPPORTED;
+  }
+  if (publisher_of(*publisher).writer->loan_sample(*ros_message) != ReturnCode_t::RETCODE_OK) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("no message on topic '%s' can be borrowed now", publisher->topic_name);
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_return_loaned_message_from_publisher(const rmw_publisher_t* publisher, void* loaned_message) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RMW_RET_INVALID_ARGUMENT);
+  if (publisher_of(*publisher).writer->discard_loan(loaned_message) != ReturnCode_t::RETCODE_OK) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the message was not borrowed from the publisher on topic '%s'",
+                                         publisher->topic_name);
+    return RMW_RET_INVALID_ARGUMENT;
+  }
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_publish_loaned_message(const rmw_publisher_t* publisher, void* ros_message, rmw_publisher_allocation_t*) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
+  if (!publisher->can_loan_messages) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("messages on topic '%s' cannot be loaned: their type is not plain",
+                                         publisher->topic_name);
+    return RMW_RET_UNSUPPORTED;
+  }
+  return write(publisher, ros_message, ros_message);
 }
 
 rmw_ret_t rmw_publisher_count_matched_subscriptions(const rmw_publisher_t* publisher, size_t* subscription_count) {
@@ -149,6 +196,20 @@ rmw_ret_t rmw_publisher_wait_for_all_acked(const rmw_publisher_t* publisher, rmw
   }
   RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("acknowledgments on topic '%s' cannot be waited for", publisher->topic_name);
   return RMW_RET_ERROR;
+}
+
+rmw_ret_t rmw_publisher_get_network_flow_endpoints(const rmw_publisher_t* publisher, rcutils_allocator_t* allocator,
+                                                   rmw_network_flow_endpoint_array_t* network_flow_endpoint_array) {
+  RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(network_flow_endpoint_array, RMW_RET_INVALID_ARGUMENT);
+  eprosima::fastdds::rtps::LocatorList locators;
+  if (publisher_of(*publisher).writer->get_sending_locators(locators) != ReturnCode_t::RETCODE_OK) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the locators of the writer on topic '%s' cannot be told",
+                                         publisher->topic_name);
+    return RMW_RET_ERROR;
+  }
+  return rmw_fastrtps::to_endpoints(locators, allocator, *network_flow_endpoint_array);
 }
 
 rmw_ret_t rmw_get_gid_for_publisher(const rmw_publisher_t* publisher, rmw_gid_t* gid) {

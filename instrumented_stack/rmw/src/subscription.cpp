@@ -1,16 +1,20 @@
 // Subscriptions: a DDS DataReader each.
+#include <fastdds/dds/core/LoanableSequence.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 
 #include "dds_gid.hpp"
 #include "endpoint.hpp"
 #include "identifier.hpp"
 #include "message_type.hpp"
+#include "network_flow.hpp"
 #include "participant.hpp"
 #include "qos.hpp"
 #include "reader_events.hpp"
@@ -30,12 +34,21 @@ using rmw_fastrtps::Waitable;
 
 namespace {
 
+// A sample that stays in the reader until it is returned.
+struct Loan {
+  fdds::LoanableSequence<unsigned char> samples;  // whatever the type: it gets pointers, never elements
+  fdds::SampleInfoSeq infos;
+};
+
 struct Subscription final : ReaderEvents {
   rmw_subscription_t handle{};
   std::string topic_name;  // of the handle
   Participant* participant = nullptr;
   fdds::Topic* topic = nullptr;
   EndpointIdentity identity{};
+
+  std::mutex loans_mutex;
+  std::map<const void*, std::unique_ptr<Loan>> loans;
 };
 
 // rmw_wait() takes `data` as a Waitable.
@@ -54,17 +67,21 @@ void fill(rmw_message_info_t& message_info, const fdds::SampleInfo& sample) {
   message_info.from_intra_process = false;
 }
 
+// Invalid samples tell of the end of a writer's data, not of a message.
+bool is_wanted(const rmw_subscription_t* handle, const fdds::SampleInfo& sample) {
+  const bool ignored =
+      handle->options.ignore_local_publications &&
+      sample.sample_identity.writer_guid().guidPrefix == subscription_of(*handle).reader->guid().guidPrefix;
+  return sample.valid_data && !ignored;
+}
+
 rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, const void* traced_message, bool* taken,
                rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
-  const auto own_prefix = subscription.reader->guid().guidPrefix;
   *taken = false;
   fdds::SampleInfo sample;
   while (!*taken && subscription.take_next(&incoming, sample)) {
-    // Invalid samples tell of the end of a writer's data, not of a message.
-    const bool ignored =
-        handle->options.ignore_local_publications && sample.sample_identity.writer_guid().guidPrefix == own_prefix;
-    *taken = sample.valid_data && !ignored;
+    *taken = is_wanted(handle, sample);
   }
   if (*taken && message_info != nullptr) {
     fill(*message_info, sample);
@@ -99,8 +116,12 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
       to_gid(subscription->reader->guid()),
       {GraphCache::Kind::kReader, dds_topic, dds_type_name(callbacks), profile_of(subscription->reader->get_qos())}};
   subscription->topic_name = topic_name;
-  subscription->handle = {
-      kIdentifier, static_cast<Waitable*>(subscription.get()), subscription->topic_name.c_str(), options, false, false};
+  subscription->handle = {kIdentifier,
+                          static_cast<Waitable*>(subscription.get()),
+                          subscription->topic_name.c_str(),
+                          options,
+                          is_plain(callbacks),
+                          false};
   TRACETOOLS_TRACEPOINT(rmw_subscription_init, static_cast<const void*>(&subscription->handle),
                         subscription->identity.gid.data());
   return &subscription.release()->handle;
@@ -109,6 +130,9 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
 void destroy_subscription(rmw_subscription_t* handle) {
   TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Subscription> subscription(&subscription_of(*handle));
+  for (const auto& [message, loan] : subscription->loans) {
+    subscription->reader->return_loan(loan->samples, loan->infos);
+  }
   subscription->reader->set_listener(nullptr);
   subscription->participant->subscriber().delete_datareader(subscription->reader);
   subscription->participant->release_topic(*subscription->topic);
@@ -135,6 +159,74 @@ rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_m
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(message_info, RMW_RET_INVALID_ARGUMENT);
   return take(subscription, {ros_message, nullptr}, ros_message, taken, message_info);
+}
+
+rmw_ret_t rmw_take_loaned_message_with_info(const rmw_subscription_t* subscription, void** loaned_message, bool* taken,
+                                            rmw_message_info_t* message_info, rmw_subscription_allocation_t*) {
+  RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(message_info, RMW_RET_INVALID_ARGUMENT);
+  if (!subscription->can_loan_messages) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("messages on topic '%s' cannot be loaned: their type is not plain",
+                                         subscription->topic_name);
+    return RMW_RET_UNSUPPORTED;
+  }
+  Subscription& owner = subscription_of(*subscription);
+  auto loan = std::make_unique<Loan>();
+  *taken = false;
+  *loaned_message = nullptr;
+  while (!*taken && owner.take_next_loan(loan->samples, loan->infos)) {
+    *taken = is_wanted(subscription, loan->infos[0]);
+    if (!*taken) {
+      owner.reader->return_loan(loan->samples, loan->infos);
+    }
+  }
+  if (*taken) {
+    fill(*message_info, loan->infos[0]);
+    *loaned_message = loan->samples.buffer()[0];
+    const std::lock_guard lock(owner.loans_mutex);
+    owner.loans.emplace(*loaned_message, std::move(loan));
+  }
+  TRACETOOLS_TRACEPOINT(rmw_take, static_cast<const void*>(subscription), static_cast<const void*>(*loaned_message),
+                        *taken ? message_info->source_timestamp : 0, *taken);
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_return_loaned_message_from_subscription(const rmw_subscription_t* subscription, void* loaned_message) {
+  RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RMW_RET_INVALID_ARGUMENT);
+  Subscription& owner = subscription_of(*subscription);
+  std::unique_ptr<Loan> loan;
+  {
+    const std::lock_guard lock(owner.loans_mutex);
+    const auto found = owner.loans.find(loaned_message);
+    if (found != owner.loans.end()) {
+      loan = std::move(found->second);
+      owner.loans.erase(found);
+    }
+  }
+  if (!loan || owner.reader->return_loan(loan->samples, loan->infos) != ReturnCode_t::RETCODE_OK) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the message was not taken from the subscription on topic '%s'",
+                                         subscription->topic_name);
+    return RMW_RET_INVALID_ARGUMENT;
+  }
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_subscription_get_network_flow_endpoints(const rmw_subscription_t* subscription,
+                                                      rcutils_allocator_t* allocator,
+                                                      rmw_network_flow_endpoint_array_t* network_flow_endpoint_array) {
+  RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(network_flow_endpoint_array, RMW_RET_INVALID_ARGUMENT);
+  eprosima::fastdds::rtps::LocatorList locators;
+  if (subscription_of(*subscription).reader->get_listening_locators(locators) != ReturnCode_t::RETCODE_OK) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the locators of the reader on topic '%s' cannot be told",
+                                         subscription->topic_name);
+    return RMW_RET_ERROR;
+  }
+  return rmw_fastrtps::to_endpoints(locators, allocator, *network_flow_endpoint_array);
 }
 
 rmw_ret_t rmw_take_serialized_message(const rmw_subscription_t* subscription,

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"
+#include "tracing/session/trace_config.hpp"
 
 namespace {
 
 using test_support::plan_actions;
+using test_support::plan_text;
 using test_support::Planned;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -21,7 +23,7 @@ std::map<std::string, launch::ScopeSetting> settings_of(const Planned& planned) 
 
 using Words = std::vector<std::string>;
 
-TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
+TEST(Trace, DefaultsAreThoseOfRos2TracingButForTheBuffers) {
   const Planned planned = plan_actions(R"xml(<trace session-name="run"/>)xml");
   auto settings = settings_of(planned);
   EXPECT_EQ(std::get<std::string>(settings.at("session-name").value), "run");
@@ -30,7 +32,8 @@ TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
   EXPECT_TRUE(std::get<Words>(settings.at("events-kernel").value).empty());
   EXPECT_TRUE(std::get<Words>(settings.at("syscalls").value).empty());
   EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("procname", "vpid", "vtid"));
-  EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-ust").value), 32768);
+  EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-ust").value),
+            static_cast<std::int64_t>(tracing::TraceConfig().subbuffer_size_ust));
   EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-kernel").value), 131072);
   EXPECT_FALSE(std::get<bool>(settings.at("append-trace").value));
   EXPECT_FALSE(std::get<bool>(settings.at("fail-on-loss").value));
@@ -40,9 +43,9 @@ TEST(Trace, DefaultsAreThoseOfRos2Tracing) {
 
 TEST(Trace, ListsAreSplitLikeCommandLines) {
   auto settings = settings_of(plan_actions(R"xml(
-    <let name="kernel" value=""/><let name="more" value="a b"/>
-    <trace session-name="run" events-ust="ros2:* 'x y' $(var more)" events-kernel="$(var kernel)" context-fields=""/>)xml"));
-  EXPECT_THAT(std::get<Words>(settings.at("events-ust").value), ElementsAre("ros2:*", "x y", "a b"));
+    <let name="kernel" value=""/><let name="more" value="a if b"/>
+    <trace session-name="run" events-ust="ros2:* 'x if y' $(var more)" events-kernel="$(var kernel)" context-fields=""/>)xml"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-ust").value), ElementsAre("ros2:*", "x if y", "a if b"));
   EXPECT_TRUE(std::get<Words>(settings.at("events-kernel").value).empty());
   EXPECT_TRUE(std::get<Words>(settings.at("context-fields").value).empty());
 }
@@ -75,6 +78,84 @@ TEST(Trace, PreloadsForProcessesBeforeItToo) {
   const std::string first = planned.plan.processes.at(0).environment.at("LD_PRELOAD");
   EXPECT_THAT(first, testing::EndsWith("liblttng-ust-libc-wrapper.so"));
   EXPECT_EQ(planned.plan.processes.at(1).environment.at("LD_PRELOAD"), "mine.so:" + first);
+}
+
+TEST(Trace, ASubstitutionMayGiveSeveralNames) {
+  auto settings = settings_of(plan_actions(R"xml(
+    <let name="events" value="ros2:*callback* ros2:rcl_*_init"/><let name="fields" value="vpid vtid"/>
+    <let name="kernel" value="sched_switch irq_handler_entry"/>
+    <trace session-name="run" events-ust="$(var events) a:b" events-kernel="$(var kernel)"
+           context-fields="$(var fields)"/>)xml"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-kernel").value), ElementsAre("sched_switch", "irq_handler_entry"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-ust").value),
+              ElementsAre("ros2:*callback*", "ros2:rcl_*_init", "a:b"));
+  EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("vpid", "vtid"));
+}
+
+TEST(Trace, YamlTakesListsOfTextsAndListsOfChannels) {
+  auto settings = settings_of(plan_text(R"yaml(launch:
+- let: {name: what, value: "ros2:rmw_*"}
+- trace:
+    session-name: run
+    events-ust: ["$(var what)", "my:event if a == 1"]
+    context-fields: [vpid]
+    channel:
+    - {name: fast, events-ust: ["ros2:callback_*"], subbuffer-size: 8192}
+    - {name: slow, events-ust: "a:b c:d"}
+)yaml"));
+  EXPECT_THAT(std::get<Words>(settings.at("events-ust").value), ElementsAre("ros2:rmw_*", "my:event if a == 1"));
+  EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("vpid"));
+  EXPECT_THAT(std::get<Words>(settings.at("channels").value), ElementsAre("fast", "slow"));
+}
+
+TEST(Trace, ListsInYamlHoldTexts) {
+  EXPECT_THAT(plan_text("launch:\n- trace: {session-name: run, syscalls: [openat, 5]}\n").error,
+              HasSubstr("error: the list 'syscalls' of 'trace' is expected to hold texts, got int"));
+}
+
+TEST(Trace, ChannelsStandInXmlAsElements) {
+  auto settings = settings_of(plan_actions(R"xml(<trace session-name="run">
+    <channel name="fast" events-ust="ros2:callback_*" subbuffer-size="8192" blocking-timeout="-1"/></trace>)xml"));
+  EXPECT_THAT(std::get<Words>(settings.at("channels").value), ElementsAre("fast"));
+}
+
+TEST(Trace, MalformedEventsAreErrorsAtTheirPlaceBeforeAnythingStarts) {
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="run" events-ust="'a:b level LOUD'"/>)xml").error,
+              HasSubstr(":2:39: error: unknown log level 'LOUD' in event 'a:b level LOUD'"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="run" buffers-ust="gid"/>)xml").error,
+              HasSubstr(":2:40: error: buffers-ust is expected to be uid or pid, got 'gid'"));
+}
+
+std::string preload_of(const launch::ProcessSpec& spec) {
+  const auto found = spec.environment.find("LD_PRELOAD");
+  return found == spec.environment.end() ? "" : found->second;
+}
+
+TEST(Trace, ProcessesThatAreNotToBeTracedArePreloadedWithWhatKeepsThemOut) {
+  const Planned planned = plan_actions(R"xml(
+    <trace session-name="run" events-ust="lttng_ust_libc:*"/>
+    <executable cmd="first" trace="false"/>
+    <executable cmd="second"/>)xml");
+  ASSERT_EQ(planned.error, "");
+  EXPECT_THAT(preload_of(planned.plan.processes.at(0)), testing::EndsWith("lib/launch/liblaunch_untraced.so"));
+  EXPECT_EQ(planned.plan.processes.at(0).environment.at("LTTNG_UST_REGISTER_TIMEOUT"), "0");
+  EXPECT_THAT(preload_of(planned.plan.processes.at(1)), testing::EndsWith("liblttng-ust-libc-wrapper.so"));
+}
+
+TEST(Trace, NodesNamesThoseThatAloneAreTraced) {
+  const Planned planned = plan_actions(R"xml(
+    <trace session-name="run" nodes="talk* chatter"/>
+    <executable cmd="talker"/><executable cmd="listener"/><executable cmd="mute" trace="false"/>)xml");
+  ASSERT_EQ(planned.error, "");
+  EXPECT_EQ(preload_of(planned.plan.processes.at(0)), "");
+  EXPECT_NE(preload_of(planned.plan.processes.at(1)), "");
+  EXPECT_NE(preload_of(planned.plan.processes.at(2)), "");
+}
+
+TEST(Trace, BlockingIsPermittedToProcesses) {
+  const Planned planned = plan_actions(R"xml(
+    <trace session-name="run" blocking-timeout-ust="100"/><executable cmd="talker"/>)xml");
+  EXPECT_EQ(planned.plan.processes.at(0).environment.at("LTTNG_UST_ALLOW_BLOCKING"), "1");
 }
 
 TEST(Trace, ConditionsApply) {

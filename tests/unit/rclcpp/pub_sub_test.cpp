@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <std_msgs/msg/string.hpp>
@@ -197,6 +198,20 @@ TEST_F(PubSubTest, KnowsNamesQueuesQosAndCounts) {
   EXPECT_TRUE(spin_until(executor_, [&] { return node_->count_subscribers("/outer/inner/topic") == 1; }));
   EXPECT_THAT(node_->get_node_names(), testing::UnorderedElementsAre("/node", "/outer/inner"));
   EXPECT_THAT(node_->get_topic_names_and_types()["/outer/inner/topic"], testing::ElementsAre("std_msgs/msg/String"));
+}
+
+TEST_F(PubSubTest, TellsWhereInTheNetworkItSendsAndListens) {
+  const auto subscription = node_->create_subscription<String>("topic", 10, [](const String&) {});
+  const auto endpoints = subscription->get_network_flow_endpoints();
+  const auto udp = std::find_if(endpoints.begin(), endpoints.end(),
+                                [](const auto& endpoint) { return endpoint.transport_protocol() == "UDP"; });
+  ASSERT_NE(udp, endpoints.end());
+  EXPECT_EQ(udp->internet_protocol(), "IPv4");
+  EXPECT_GT(udp->transport_port(), 7400);  // where the ports of DDS begin
+  EXPECT_THAT(udp->internet_address(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\\.[0-9]+"));
+  EXPECT_EQ(*udp, *udp);
+  EXPECT_THAT(testing::PrintToString(*udp), testing::StartsWith("{\"transportProtocol\": \"UDP\", "));
+  EXPECT_FALSE(node_->create_publisher<String>("topic", 10)->get_network_flow_endpoints().empty());
 }
 
 TEST_F(PubSubTest, ShowsWhereATopicNameIsWrong) {

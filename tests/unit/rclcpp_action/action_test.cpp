@@ -272,6 +272,58 @@ TEST_F(ActionTest, IsServedByTheEventsExecutor) {
   EXPECT_THAT(codes, ElementsAre(ResultCode::CANCELED));
 }
 
+// Goals end in threads of their own while others are sent, canceled and answered by several threads of the executor.
+TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
+  executor_.remove_node(server_node_);
+  executor_.remove_node(client_node_);
+  std::vector<std::thread> workers;
+  const auto work = [](const std::shared_ptr<ServerGoal>& goal) {
+    for (int i = 0; i < 3; ++i) goal->publish_feedback(std::make_shared<Fibonacci::Feedback>());
+    // The client of every third goal cancels it.
+    if (goal->get_goal()->order % 3 != 0) return goal->succeed(result_of({goal->get_goal()->order}));
+    while (!goal->is_canceling()) std::this_thread::yield();
+    goal->canceled(result_of({}));
+  };
+  const auto server_group = server_node_->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+  const auto client_group = client_node_->create_callback_group(rclcpp::CallbackGroupType::Reentrant);
+  const auto server = rclcpp_action::create_server<Fibonacci>(
+      server_node_, "fibonacci",
+      [](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal>) {
+        return GoalResponse::ACCEPT_AND_EXECUTE;
+      },
+      [](std::shared_ptr<ServerGoal>) { return CancelResponse::ACCEPT; },
+      [&](std::shared_ptr<ServerGoal> goal) { workers.emplace_back(work, std::move(goal)); },
+      rcl_action_server_get_default_options(), server_group);
+  const auto client = rclcpp_action::create_client<Fibonacci>(client_node_, "fibonacci", client_group);
+  ASSERT_TRUE(client->wait_for_action_server(kPatience));
+
+  rclcpp::executors::MultiThreadedExecutor executor(rclcpp::ExecutorOptions(), 4);
+  executor.add_node(server_node_);
+  executor.add_node(client_node_);
+  std::thread spinner([&] { executor.spin(); });
+  std::atomic<int> feedback = 0;
+  Client::SendGoalOptions options;
+  options.feedback_callback = [&](Client::GoalHandle::SharedPtr, std::shared_ptr<const Fibonacci::Feedback>) {
+    ++feedback;
+  };
+  std::vector<std::shared_future<Client::WrappedResult>> results;
+  for (int32_t order = 0; order < 12; ++order) {
+    Fibonacci::Goal goal;
+    goal.order = order;
+    const auto accepted = client->async_send_goal(goal, options);
+    ASSERT_EQ(accepted.wait_for(kPatience), std::future_status::ready);
+    results.push_back(client->async_get_result(accepted.get()));
+    if (order % 3 == 0) client->async_cancel_goal(accepted.get());
+  }
+  for (int32_t order = 0; order < 12; ++order) {
+    ASSERT_EQ(results[order].wait_for(kPatience), std::future_status::ready) << order;
+    EXPECT_EQ(results[order].get().code, order % 3 == 0 ? ResultCode::CANCELED : ResultCode::SUCCEEDED) << order;
+  }
+  executor.cancel();
+  spinner.join();
+  for (std::thread& worker : workers) worker.join();
+}
+
 TEST_F(ActionTest, WrongNameIsAnException) {
   try {
     rclcpp_action::create_client<Fibonacci>(client_node_, "not a name");

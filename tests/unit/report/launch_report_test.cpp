@@ -120,7 +120,7 @@ TEST_F(LaunchReport, SummarisesInOneLine) {
   writer.finish();
   const Outcome outcome = launch_report("--summary " + path_);
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.out, "58 events, 2 processes, 12 events lost\n");
+  EXPECT_EQ(outcome.out, "58 events, 2 processes, 12 events lost; doubtful: ping [71], pong [72]\n");
   EXPECT_EQ(outcome.err, "");
 }
 

@@ -36,13 +36,14 @@ TEST(SummaryLine, SaysWhetherEventsWereLost) {
   TraceOverview overview = overview_of(412, {{71, "ping", 200, false}, {72, "pong", 212, false}});
   EXPECT_EQ(summary_line(overview), "412 events, 2 processes, none lost");
   overview.losses = {loss_of(37, 0, false)};
-  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, 37 events lost");
+  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, 37 events lost; doubtful: ping [71]");
   overview.losses = {loss_of(0, 3, false)};
-  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, 3 packets lost");
+  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, 3 packets lost; doubtful: ping [71]");
   overview.losses = {loss_of(37, 0, false), loss_of(0, 1, true)};
-  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, at least 37 events and 1 packet lost");
+  EXPECT_EQ(summary_line(overview),
+            "412 events, 2 processes, at least 37 events and 1 packet lost; doubtful: ping [71]");
   overview.losses = {loss_of(0, 0, true)};
-  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, some events lost");
+  EXPECT_EQ(summary_line(overview), "412 events, 2 processes, some events lost; doubtful: ping [71]");
 }
 
 TEST(SummaryLine, KnowsOneAndNone) {

@@ -75,8 +75,9 @@ TEST_F(LttngTracer, RecordsEveryEventOfTwoApplications) {
   const SetupReport report = tracer->start(config);
   EXPECT_EQ(report.trace_directory, config.trace_directory());
   EXPECT_THAT(report.warnings, IsEmpty());
-  EXPECT_THAT(step_names(report), testing::ElementsAre("checks", "session daemon", "create session", "channel ros2",
-                                                       "events ros2", "context fields ros2", "start"));
+  EXPECT_THAT(step_names(report),
+              testing::ElementsAre("checks", "session daemon", "create session", "channel ros2", "events ros2",
+                                   "context fields ros2", "start", "consumer priority"));
   TracedApp first(60, 100);
   TracedApp second(60, 100);
   first.end();
@@ -239,9 +240,10 @@ TEST_F(LttngTracer, KernelEventsWithoutAKernelTracerAreAnErrorAndNoSessionIsLeft
 
 TEST_F(LttngTracer, FailureHalfWayLeavesNoSessionAndNoDirectory) {
   TraceConfig config = config_named("run");
-  const std::string too_long(300, 'x');  // found when the session and its channel exist
-  config.events_ust = {"ros2:rcl_init", too_long};
-  EXPECT_EQ(start_error(config), "event name '" + too_long + "' has 300 characters: 1 to 255 are possible\n");
+  config.events_ust = {"ros2:rcl_init", "ros2:rcl_take if ((("};  // found when the session and its channel exist
+  EXPECT_EQ(start_error(config),
+            "LTTng does not understand the filter of event 'ros2:rcl_take': (((\n"
+            "lttng-enable-event(1) describes filter expressions");
   EXPECT_EQ(listed_sessions(), "");
   EXPECT_FALSE(std::filesystem::exists(config.trace_directory()));
 }
@@ -256,12 +258,12 @@ TEST_F(LttngTracer, OddSubbufferSizesAreRoundedUpWithAWarning) {
   tracer->finish(config, never);
 }
 
-TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2Tracing) {
+TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2TracingButForItsBuffers) {
   tracer->start(config_named("run"));
   const std::string listing = run_command({"lttng", "list", "run"}).out;
-  for (const char* expected :
-       {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard", "Sub-buffer size:  32768 bytes",
-        "Sub-buffer count: 2", "Switch timer:     inactive", "Read timer:       200 us", "Output mode:      mmap"}) {
+  for (const char* expected : {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
+                               "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     inactive",
+                               "Read timer:       50000 us", "Output mode:      mmap"}) {
     EXPECT_THAT(listing, testing::HasSubstr(expected));
   }
   tracer->finish(config_named("run"), never);

@@ -134,10 +134,13 @@ TEST(TraceCommand, WrongUsageIsExitCodeTwo) {
 
 TEST(TraceCommand, VerbsActOnTheNamedSession) {
   FakeTracer tracer;
-  for (const char* verb : {"start", "pause", "resume", "record_snapshot", "stop"}) {
+  for (const char* verb : {"start", "pause", "resume", "record_snapshot", "save", "stop", "load"}) {
     EXPECT_EQ(run({verb, "run"}, tracer).exit_code, 0) << verb;
   }
-  EXPECT_THAT(tracer.calls(), ElementsAre("start run", "pause run", "resume run", "record_snapshot run", "finish run"));
+  EXPECT_THAT(tracer.calls(), ElementsAre("start run", "pause run", "resume run", "record_snapshot run", "save run ",
+                                          "finish run", "load run "));
+  EXPECT_EQ(run({"save", "run", "-p", "/there"}, tracer).exit_code, 0);
+  EXPECT_EQ(tracer.calls().back(), "save run /there");
 }
 
 TEST(TraceCommand, DualSessionRecordsTheSnapshotBeforeTheRuntimeHalfRuns) {

@@ -14,14 +14,16 @@ namespace {
 using tracing::trace_base_path;
 using tracing::TraceConfig;
 
-TEST(TraceConfig, DefaultsAreThoseOfRos2Tracing) {
+TEST(TraceConfig, DefaultsAreThoseOfRos2TracingButForTheBuffers) {
   const TraceConfig config;
   EXPECT_EQ(config.events_ust, tracing::default_ros_events());
   EXPECT_TRUE(config.events_kernel.empty());
   EXPECT_TRUE(config.syscalls.empty());
   EXPECT_THAT(config.context_fields_ust, testing::ElementsAre("procname", "vpid", "vtid"));
   EXPECT_EQ(config.context_fields_kernel, config.context_fields_ust);
-  EXPECT_EQ(config.subbuffer_size_ust, 32768u);
+  EXPECT_EQ(config.subbuffer_size_ust, 1048576u);
+  EXPECT_EQ(config.subbuffer_count_ust, 4u);
+  EXPECT_EQ(config.read_timer_ust, 50'000u);
   EXPECT_EQ(config.subbuffer_size_kernel, 131072u);
   EXPECT_FALSE(config.append_trace || config.snapshot_mode || config.dual_session);
 }

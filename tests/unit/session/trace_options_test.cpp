@@ -35,6 +35,21 @@ TEST(TraceOptions, WithoutArgumentsAreTheDefaultsOfTheInteractiveForm) {
   EXPECT_FALSE(options.list_names || options.dual_session);
 }
 
+TEST(TraceOptions, OfTheBuffersAndTheDestination) {
+  const tracing::TraceConfig config =
+      options_of({"start", "run", "--overwrite-ust", "true", "--blocking-timeout-ust", "-1", "--buffers-ust", "pid",
+                  "--tracefile-size", "65536", "--tracefile-count", "3", "--url", "net://host", "--live-timer", "1000"})
+          .config;
+  EXPECT_EQ(config.overwrite_ust, true);
+  EXPECT_EQ(config.blocking_timeout_ust, -1);
+  EXPECT_EQ(config.buffers_ust, tracing::BufferOwner::kProcess);
+  EXPECT_EQ(config.tracefile_size, 65536u);
+  EXPECT_EQ(config.tracefile_count, 3u);
+  EXPECT_EQ(config.url, "net://host");
+  EXPECT_EQ(config.live_timer, 1000u);
+  EXPECT_EQ(options_of({"start", "run"}).config.overwrite_ust, std::nullopt);
+}
+
 TEST(TraceOptions, AreAllTakenByTheInteractiveForm) {
   const TraceOptions options = options_of({"-s",
                                            "run",

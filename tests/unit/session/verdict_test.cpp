@@ -9,6 +9,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
 #include "tracing/session/loss_account.hpp"
 
 namespace {
@@ -27,6 +28,7 @@ struct Verdict : testing::Test {
   void write_index(const std::string& stream, const std::vector<IndexEntry>& entries) const {
     const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index" / (stream + ".idx");
     std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path.parent_path().parent_path() / stream);  // the stream itself, which is not looked into
     std::ofstream file(path, std::ios::binary);
     for (const std::uint32_t word : {0xC1F1DCC1U, 1U, 1U, 72U}) {
       const std::uint32_t big = htobe32(word);
@@ -93,6 +95,7 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
   "session": "run",
   "complete": true,
   "cut_short": false,
+  "damage": "",
   "discarded_events": 0,
   "lost_packets": 0,
   "channels": [
@@ -129,6 +132,33 @@ TEST_F(Verdict, IgnoresWhatIsNoIndex) {
   tracing::explain_losses(losses, sandbox.directory() / "run");
   EXPECT_EQ(losses.channels.at(0).bytes, 0u);
   EXPECT_TRUE(losses.channels.at(0).ranges.empty());
+}
+
+TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
+  const std::filesystem::path snapshot = sandbox.directory() / "snapshot-1";
+  tracing::testing::TraceWriter writer(snapshot / "ust/uid/0/64-bit");
+  const tracing::testing::Thread thread{.vpid = 1, .vtid = 1, .procname = "a"};
+  writer.write(0, 1000, thread, tracing::ros2::RclTake{1});
+  writer.end_packet(0);
+  writer.discard_events(0, 12);
+  writer.lose_packets(0, 3);
+  writer.write(0, 2000, thread, tracing::ros2::RclTake{1});
+  writer.write(1, 500, thread, tracing::ros2::RclTake{1});
+  writer.finish();
+  tracing::write_snapshot_verdict(snapshot, "run", {"c-1 died of SIGSEGV", "SIGUSR1"});
+  EXPECT_EQ(test_support::read_file(snapshot / "verdict.json"),
+            "{\n"
+            "  \"session\": \"run\",\n"
+            "  \"reasons\": [\n"
+            "    \"c-1 died of SIGSEGV\",\n"
+            "    \"SIGUSR1\"\n"
+            "  ],\n"
+            "  \"complete\": false,\n"
+            "  \"discarded_events\": 12,\n"
+            "  \"lost_packets\": 3,\n"
+            "  \"begin_ns\": 500,\n"
+            "  \"end_ns\": 2000\n"
+            "}\n");
 }
 
 }  // namespace

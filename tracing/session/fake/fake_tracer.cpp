@@ -108,6 +108,14 @@ TraceableEvents FakeTracer::traceable_events() {
   return events;
 }
 
+void FakeTracer::save(const std::string& lttng_session_name, const std::string& directory) {
+  record("save " + lttng_session_name + " " + directory);
+}
+
+void FakeTracer::load(const std::string& lttng_session_name, const std::string& directory) {
+  record("load " + lttng_session_name + " " + directory);
+}
+
 void FakeTracer::record(const std::string& call) {
   const std::lock_guard lock(mutex_);
   calls_.push_back(call);

@@ -44,6 +44,8 @@ class FakeTracer : public Tracer {
   std::vector<SessionSummary> sessions() override;
   SessionDetails status(const std::string& lttng_session_name) override;
   TraceableEvents traceable_events() override;
+  void save(const std::string& lttng_session_name, const std::string& directory) override;
+  void load(const std::string& lttng_session_name, const std::string& directory) override;
 
  private:
   void record(const std::string& call);

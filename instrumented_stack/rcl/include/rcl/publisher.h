@@ -38,6 +38,16 @@ rcl_ret_t rcl_publish(const rcl_publisher_t* publisher, const void* ros_message,
 rcl_ret_t rcl_publish_serialized_message(const rcl_publisher_t* publisher,
                                          const rcl_serialized_message_t* serialized_message,
                                          rmw_publisher_allocation_t* allocation);
+
+// Memory of the middleware to make a message in, not initialised; see rmw_borrow_loaned_message(). RCL_RET_UNSUPPORTED
+// unless rcl_publisher_can_loan_messages().
+rcl_ret_t rcl_borrow_loaned_message(const rcl_publisher_t* publisher, const rosidl_message_type_support_t* type_support,
+                                    void** ros_message);
+rcl_ret_t rcl_return_loaned_message_from_publisher(const rcl_publisher_t* publisher, void* loaned_message);
+// Takes the loan back, too.
+rcl_ret_t rcl_publish_loaned_message(const rcl_publisher_t* publisher, void* ros_message,
+                                     rmw_publisher_allocation_t* allocation);
+
 rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t* publisher);
 
 // Nanoseconds; negative waits forever.

@@ -22,9 +22,12 @@ typedef struct rcl_subscription_options_s {
   rmw_qos_profile_t qos;
   rcl_allocator_t allocator;
   rmw_subscription_options_t rmw_subscription_options;
+  // Whether messages are never taken where the middleware holds them.
+  bool disable_loaned_message;
 } rcl_subscription_options_t;
 
 rcl_subscription_t rcl_get_zero_initialized_subscription(void);
+// Loans are disabled unless ROS_DISABLE_LOANED_MESSAGES is 0.
 rcl_subscription_options_t rcl_subscription_get_default_options(void);
 
 // Creates the subscription on the expanded and remapped topic. Fires rcl_subscription_init with that name and the
@@ -41,12 +44,20 @@ rcl_ret_t rcl_take_serialized_message(const rcl_subscription_t* subscription,
                                       rcl_serialized_message_t* serialized_message, rmw_message_info_t* message_info,
                                       rmw_subscription_allocation_t* allocation);
 
+// The next message where the middleware holds it, to be read and returned. Only with
+// rcl_subscription_can_loan_messages(): otherwise RCL_RET_UNSUPPORTED.
+rcl_ret_t rcl_take_loaned_message(const rcl_subscription_t* subscription, void** loaned_message,
+                                  rmw_message_info_t* message_info, rmw_subscription_allocation_t* allocation);
+rcl_ret_t rcl_return_loaned_message_from_subscription(const rcl_subscription_t* subscription, void* loaned_message);
+
 const char* rcl_subscription_get_topic_name(const rcl_subscription_t* subscription);
 const rcl_subscription_options_t* rcl_subscription_get_options(const rcl_subscription_t* subscription);
 rmw_subscription_t* rcl_subscription_get_rmw_handle(const rcl_subscription_t* subscription);
 const rmw_qos_profile_t* rcl_subscription_get_actual_qos(const rcl_subscription_t* subscription);
 rcl_ret_t rcl_subscription_get_publisher_count(const rcl_subscription_t* subscription, size_t* publisher_count);
 bool rcl_subscription_is_valid(const rcl_subscription_t* subscription);
+// Whether the middleware filters by content: it does not.
+bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription);
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription);
 
 // `callback` is told of every message that arrives, and at once of those that wait to be taken. Null ends the calls:

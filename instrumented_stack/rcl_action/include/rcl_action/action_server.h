@@ -88,7 +88,7 @@ rcl_ret_t rcl_action_server_set_result_service_callback(const rcl_action_server_
 rcl_action_goal_handle_t* rcl_action_accept_new_goal(rcl_action_server_t* action_server,
                                                      const rcl_action_goal_info_t* goal_info);
 
-// To be called after a goal came to its end: it will expire.
+// To be called after a goal came to its end and got its terminal timestamp: it will expire. A goal without one is kept.
 rcl_ret_t rcl_action_notify_goal_done(const rcl_action_server_t* action_server);
 
 // Forgets goals whose results have expired; gives at most `capacity` of them.

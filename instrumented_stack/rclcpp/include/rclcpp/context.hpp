@@ -14,6 +14,9 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <typeindex>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "rclcpp/init_options.hpp"
@@ -75,6 +78,17 @@ class Context : public std::enable_shared_from_this<Context> {
 
   std::shared_ptr<rcl_context_t> get_rcl_context() const { return rcl_context_; }
 
+  // The one object of this type that belongs to the context, made at the first call.
+  template <typename SubContextT, typename... ArgumentTs>
+  std::shared_ptr<SubContextT> get_sub_context(ArgumentTs&&... arguments) {
+    const std::lock_guard lock(sub_contexts_mutex_);
+    std::shared_ptr<void>& sub_context = sub_contexts_[typeid(SubContextT)];
+    if (!sub_context) {
+      sub_context = std::make_shared<SubContextT>(std::forward<ArgumentTs>(arguments)...);
+    }
+    return std::static_pointer_cast<SubContextT>(sub_context);
+  }
+
  private:
   using Callbacks = std::vector<std::shared_ptr<std::function<void()>>>;
 
@@ -92,6 +106,9 @@ class Context : public std::enable_shared_from_this<Context> {
   std::mutex callbacks_mutex_;
   Callbacks pre_shutdown_callbacks_;
   Callbacks on_shutdown_callbacks_;
+
+  std::recursive_mutex sub_contexts_mutex_;  // recursive: one may need another
+  std::unordered_map<std::type_index, std::shared_ptr<void>> sub_contexts_;
 
   std::mutex interrupt_mutex_;
   std::condition_variable interrupt_condition_variable_;

@@ -12,6 +12,8 @@
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/clock.hpp"
 #include "rclcpp/create_client.hpp"
+#include "rclcpp/create_generic_publisher.hpp"
+#include "rclcpp/create_generic_subscription.hpp"
 #include "rclcpp/create_publisher.hpp"
 #include "rclcpp/create_service.hpp"
 #include "rclcpp/create_subscription.hpp"
@@ -57,6 +59,15 @@ class Node : public std::enable_shared_from_this<Node> {
   const char* get_fully_qualified_name() const { return node_base_->get_fully_qualified_name(); }
   const NodeOptions& get_node_options() const { return options_; }
 
+  // The same node, as far as others see it; but the relative names of what is created by it are in a sub-namespace.
+  // Throws exceptions::NameValidationError for one that is empty or begins with a slash, and
+  // exceptions::InvalidNamespaceError.
+  std::shared_ptr<Node> create_sub_node(const std::string& sub_namespace);
+  // Empty unless this is a sub-node: `a/b` for create_sub_node("a")->create_sub_node("b").
+  const std::string& get_sub_namespace() const { return sub_namespace_; }
+  // The node's namespace with the sub-namespace.
+  const std::string& get_effective_namespace() const { return effective_namespace_; }
+
   // `ns.node`
   Logger get_logger() const { return logger_; }
   // System time, or simulated time if the parameter use_sim_time is true.
@@ -71,18 +82,38 @@ class Node : public std::enable_shared_from_this<Node> {
 
   // Throw exceptions::InvalidTopicNameError or exceptions::RCLError. Publisher, subscription and timer live as long as
   // the pointer.
-  template <typename MessageT>
-  std::shared_ptr<Publisher<MessageT>> create_publisher(const std::string& topic_name, const QoS& qos,
-                                                        const PublisherOptions& options = PublisherOptions()) {
-    return rclcpp::create_publisher<MessageT>(*this, topic_name, qos, options);
+  template <typename MessageT, typename AllocatorT = std::allocator<void>,
+            typename PublisherT = Publisher<MessageT, AllocatorT>>
+  std::shared_ptr<PublisherT> create_publisher(
+      const std::string& topic_name, const QoS& qos,
+      const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
+    return rclcpp::create_publisher<MessageT, AllocatorT, PublisherT>(*this, extend_name(topic_name), qos, options);
   }
 
   // For the forms of the callback see any_subscription_callback.hpp.
-  template <typename MessageT, typename CallbackT>
-  std::shared_ptr<Subscription<MessageT>> create_subscription(
+  template <typename MessageT, typename CallbackT, typename AllocatorT = std::allocator<void>,
+            typename SubscriptionT = Subscription<MessageT, AllocatorT>>
+  std::shared_ptr<SubscriptionT> create_subscription(
       const std::string& topic_name, const QoS& qos, CallbackT&& callback,
-      const SubscriptionOptions& options = SubscriptionOptions()) {
-    return rclcpp::create_subscription<MessageT>(*this, topic_name, qos, std::forward<CallbackT>(callback), options);
+      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
+    return rclcpp::create_subscription<MessageT, AllocatorT, SubscriptionT>(*this, extend_name(topic_name), qos,
+                                                                            std::forward<CallbackT>(callback), options);
+  }
+
+  // For types that are known by name only: "std_msgs/msg/String". They throw std::runtime_error, too, for a type that
+  // cannot be found.
+  template <typename AllocatorT = std::allocator<void>>
+  std::shared_ptr<GenericPublisher> create_generic_publisher(
+      const std::string& topic_name, const std::string& topic_type, const QoS& qos,
+      const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
+    return rclcpp::create_generic_publisher(node_topics_, extend_name(topic_name), topic_type, qos, options);
+  }
+  template <typename CallbackT, typename AllocatorT = std::allocator<void>>
+  std::shared_ptr<GenericSubscription> create_generic_subscription(
+      const std::string& topic_name, const std::string& topic_type, const QoS& qos, CallbackT&& callback,
+      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
+    return rclcpp::create_generic_subscription(node_topics_, extend_name(topic_name), topic_type, qos,
+                                               std::forward<CallbackT>(callback), options);
   }
 
   // Throw exceptions::InvalidServiceNameError or exceptions::RCLError. For the forms of the callback see
@@ -91,13 +122,14 @@ class Node : public std::enable_shared_from_this<Node> {
   typename Service<ServiceT>::SharedPtr create_service(const std::string& service_name, CallbackT&& callback,
                                                        const QoS& qos = ServicesQoS(),
                                                        CallbackGroup::SharedPtr group = nullptr) {
-    return rclcpp::create_service<ServiceT>(node_base_, node_services_, service_name, std::forward<CallbackT>(callback),
-                                            qos, std::move(group));
+    return rclcpp::create_service<ServiceT>(node_base_, node_services_, extend_name(service_name),
+                                            std::forward<CallbackT>(callback), qos, std::move(group));
   }
   template <typename ServiceT>
   typename Client<ServiceT>::SharedPtr create_client(const std::string& service_name, const QoS& qos = ServicesQoS(),
                                                      CallbackGroup::SharedPtr group = nullptr) {
-    return rclcpp::create_client<ServiceT>(node_base_, node_services_, service_name, qos, std::move(group));
+    return rclcpp::create_client<ServiceT>(node_base_, node_services_, extend_name(service_name), qos,
+                                           std::move(group));
   }
 
   // On the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative
@@ -234,10 +266,17 @@ class Node : public std::enable_shared_from_this<Node> {
     return node_type_descriptions_;
   }
 
+ protected:
+  Node(Node& other, const std::string& sub_namespace);
+
  private:
   Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
        const rcl_node_options_t& rcl_options);
 
+  // Absolute and private names stay as they are.
+  std::string extend_name(const std::string& name) const;
+
+  std::shared_ptr<Node> parent_;  // of a sub-node
   NodeOptions options_;
   node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   Logger logger_;
@@ -250,6 +289,8 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr node_type_descriptions_;
   std::unique_ptr<node_interfaces::TimeSource> time_source_;
+  std::string sub_namespace_;
+  std::string effective_namespace_;
 };
 
 }  // namespace rclcpp

@@ -38,6 +38,14 @@ class NodeOptions {
     return *this;
   }
 
+  // Whether messages go to subscriptions of the same context by pointer. Default false.
+  bool use_intra_process_comms() const { return use_intra_process_comms_; }
+  NodeOptions& use_intra_process_comms(bool use_intra_process_comms);
+
+  // Whether subscriptions publish statistics. Accepted; nothing is published. Default false.
+  bool enable_topic_statistics() const { return enable_topic_statistics_; }
+  NodeOptions& enable_topic_statistics(bool enable_topic_statistics);
+
   // Whether log lines go to /rosout. Default true.
   bool enable_rosout() const { return enable_rosout_; }
   NodeOptions& enable_rosout(bool enable_rosout);
@@ -53,10 +61,6 @@ class NodeOptions {
   NodeOptions& start_parameter_event_publisher(bool start_parameter_event_publisher);
   const QoS& parameter_event_qos() const { return parameter_event_qos_; }
   NodeOptions& parameter_event_qos(const QoS& parameter_event_qos);
-
-  // Whether messages to subscriptions of this process go there directly. Default false.
-  bool use_intra_process_comms() const { return use_intra_process_comms_; }
-  NodeOptions& use_intra_process_comms(bool use_intra_process_comms);
 
   // Whether parameters may be set without having been declared. Default false.
   bool allow_undeclared_parameters() const { return allow_undeclared_parameters_; }
@@ -81,12 +85,13 @@ class NodeOptions {
   std::vector<std::string> arguments_;
   std::vector<Parameter> parameter_overrides_;
   bool use_global_arguments_ = true;
+  bool use_intra_process_comms_ = false;
+  bool enable_topic_statistics_ = false;
   bool enable_rosout_ = true;
   QoS rosout_qos_ = RosoutQoS();
   bool start_parameter_services_ = true;
   bool start_parameter_event_publisher_ = true;
   QoS parameter_event_qos_ = ParameterEventsQoS();
-  bool use_intra_process_comms_ = false;
   bool allow_undeclared_parameters_ = false;
   bool automatically_declare_parameters_from_overrides_ = false;
   rcl_clock_type_t clock_type_ = RCL_ROS_TIME;

@@ -3,28 +3,176 @@
 
 #include <memory>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 
+#include "rclcpp/allocator/allocator_common.hpp"
+#include "rclcpp/experimental/create_intra_process_buffer.hpp"
+#include "rclcpp/experimental/intra_process_manager.hpp"
+#include "rclcpp/loaned_message.hpp"
 #include "rclcpp/publisher_base.hpp"
+#include "rclcpp/publisher_options.hpp"
+#include "rclcpp/type_adapter.hpp"
 
 namespace rclcpp {
 
-// Publishing is thread safe.
-template <typename MessageT>
+// MessageT is a message type or a TypeAdapter. Publishing is thread safe.
+//
+// With intra-process communication a message goes to the subscriptions of the same context by pointer, and through the
+// middleware only if there are other subscriptions, or if the publisher is transient local. A message published as a
+// std::unique_ptr is then not copied on its way to a single subscription, nor to any number that only read it.
+template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class Publisher : public PublisherBase {
  public:
-  using ROSMessageType = MessageT;
-  RCLCPP_SMART_PTR_DEFINITIONS(Publisher<MessageT>)
+  using PublishedType = typename TypeAdapter<MessageT>::custom_type;
+  using ROSMessageType = typename TypeAdapter<MessageT>::ros_message_type;
+  using MessageUniquePtr = allocator::UniquePtr<ROSMessageType, AllocatorT>;
+  using PublishedUniquePtr = allocator::UniquePtr<PublishedType, AllocatorT>;
+  static constexpr bool kIsAdapted = !std::is_same_v<PublishedType, ROSMessageType>;
+  RCLCPP_SMART_PTR_DEFINITIONS(Publisher)
 
   Publisher(node_interfaces::NodeBaseInterface* node_base, const std::string& topic, const QoS& qos,
-            const PublisherOptionsBase& options = PublisherOptionsBase())
-      : PublisherBase(node_base, topic, *rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>(), qos,
-                      options) {}
+            const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>())
+      : PublisherBase(node_base, topic, *rosidl_typesupport_cpp::get_message_type_support_handle<ROSMessageType>(), qos,
+                      options),
+        allocator_(*options.get_allocator()) {}
 
-  virtual void publish(const MessageT& message) { publish_message(&message); }
-  virtual void publish(std::unique_ptr<MessageT> message) { publish_message(message.get()); }
+  // Joins intra-process communication if options and node say so. To be called once after the constructor, as
+  // create_publisher() does. Throws std::invalid_argument if the QoS is not made for it: history "keep all" or depth 0.
+  virtual void post_init_setup(node_interfaces::NodeBaseInterface* node_base, const std::string& /*topic*/,
+                               const QoS& /*qos*/, const PublisherOptionsWithAllocator<AllocatorT>& options) {
+    if (!uses_intra_process(options, *node_base)) {
+      return;
+    }
+    experimental::IntraProcessManager::Replay replay;
+    if (get_actual_qos().durability() == DurabilityPolicy::TransientLocal) {
+      buffer_ = experimental::create_intra_process_buffer<ROSMessageType>(IntraProcessBufferType::SharedPtr,
+                                                                          get_actual_qos(), allocator_);
+      replay = [buffer = buffer_](experimental::SubscriptionIntraProcessBase& subscription) {
+        using Target = experimental::SubscriptionROSMsgIntraProcessBuffer<ROSMessageType, AllocatorT>;
+        if (auto* target = dynamic_cast<Target*>(&subscription)) {
+          for (const std::shared_ptr<const ROSMessageType>& message : buffer->get_all_data_shared()) {
+            target->provide_intra_process_message(message);
+          }
+        }
+      };
+    }
+    join_intra_process(node_base->get_context()->get_sub_context<experimental::IntraProcessManager>(),
+                       std::move(replay));
+  }
+
+  // Throw exceptions::RCLError; do nothing when the context has ended.
+  virtual void publish(MessageUniquePtr message) { publish_owned(std::move(message)); }
+  virtual void publish(const ROSMessageType& message) { publish_reference(message); }
+
+  // The custom type of a TypeAdapter.
+  template <typename T>
+  std::enable_if_t<kIsAdapted && std::is_same_v<T, PublishedType>> publish(
+      allocator::UniquePtr<T, AllocatorT> message) {
+    publish_owned(std::move(message));
+  }
+  template <typename T>
+  std::enable_if_t<kIsAdapted && std::is_same_v<T, PublishedType>> publish(const T& message) {
+    publish_reference(message);
+  }
+
+  // A message in memory of the middleware, if its type allows that, to be filled and published.
+  LoanedMessage<ROSMessageType, AllocatorT> borrow_loaned_message() {
+    return LoanedMessage<ROSMessageType, AllocatorT>(*this, allocator_);
+  }
+  // Without a copy, unless subscriptions of this context take part in intra-process communication. Throws
+  // std::runtime_error for a message that was published already.
+  virtual void publish(LoanedMessage<ROSMessageType, AllocatorT>&& message) {
+    if (!message.is_valid()) {
+      throw std::runtime_error("loaned message is not valid");
+    }
+    if (intra_process_is_enabled()) {
+      publish_reference(message.get());
+    } else if (ROSMessageType* loan = message.release_loan()) {
+      publish_loaned(loan);
+    } else {
+      publish_inter_process(*message.release_own());
+    }
+  }
+
+  // Through the middleware only. Subscriptions that are reached without it get nothing: throws std::runtime_error when
+  // the publisher uses intra-process communication.
   void publish(const SerializedMessage& message) { publish_serialized(message.get_rcl_serialized_message()); }
   void publish(const rcl_serialized_message_t& message) { publish_serialized(message); }
+
+  AllocatorT get_allocator() const { return allocator_; }
+
+ private:
+  template <typename T>
+  void publish_owned(allocator::UniquePtr<T, AllocatorT> message) {
+    if (!intra_process_is_enabled()) {
+      publish_inter_process(*message);
+      return;
+    }
+    trace_intra_publish(message.get());
+    const auto manager = intra_process_manager();
+    if (!inter_process_publish_needed()) {
+      manager->template do_intra_process_publish<T, ROSMessageType, AllocatorT>(intra_process_publisher_id(),
+                                                                                std::move(message), allocator_);
+      return;
+    }
+    const std::shared_ptr<const T> shared =
+        manager->template do_intra_process_publish_and_return_shared<T, ROSMessageType, AllocatorT>(
+            intra_process_publisher_id(), std::move(message), allocator_, [this](const std::shared_ptr<const T>& kept) {
+              if (buffer_) {
+                buffer_->add_shared(to_ros_message(kept));
+              }
+            });
+    publish_inter_process(*shared);
+  }
+
+  template <typename T>
+  void publish_reference(const T& message) {
+    if (!intra_process_is_enabled()) {
+      publish_inter_process(message);
+    } else if (!buffer_ && get_intra_process_subscription_count() == 0) {
+      // Nobody will keep it: no copy.
+      trace_intra_publish(&message);
+      if (inter_process_publish_needed()) {
+        publish_inter_process(message);
+      }
+    } else {
+      publish_owned<T>(allocator::make_unique<T>(allocator_, message));
+    }
+  }
+
+  template <typename T>
+  void publish_inter_process(const T& message) {
+    if constexpr (std::is_same_v<T, ROSMessageType>) {
+      publish_message(&message);
+    } else {
+      auto ros_message = allocator::make_unique<ROSMessageType>(allocator_);
+      TypeAdapter<MessageT>::convert_to_ros_message(message, *ros_message);
+      publish_message(ros_message.get());
+    }
+  }
+
+  template <typename T>
+  std::shared_ptr<const ROSMessageType> to_ros_message(const std::shared_ptr<const T>& message) const {
+    if constexpr (std::is_same_v<T, ROSMessageType>) {
+      return message;
+    } else {
+      auto ros_message = allocator::make_shared<ROSMessageType>(allocator_);
+      TypeAdapter<MessageT>::convert_to_ros_message(*message, *ros_message);
+      return ros_message;
+    }
+  }
+
+  // A transient local publisher writes always: subscriptions of other processes may come later.
+  bool inter_process_publish_needed() const {
+    return buffer_ || get_subscription_count() > get_intra_process_subscription_count();
+  }
+
+  AllocatorT allocator_;
+  // What late subscriptions of this context get, of a transient local publisher with intra-process communication.
+  typename experimental::buffers::IntraProcessBuffer<ROSMessageType, AllocatorT>::SharedPtr buffer_;
 };
 
 }  // namespace rclcpp

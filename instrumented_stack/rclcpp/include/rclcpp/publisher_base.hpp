@@ -7,13 +7,16 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/network_flow_endpoint.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/publisher_options.hpp"
 #include "rclcpp/qos.hpp"
@@ -21,7 +24,12 @@
 
 namespace rclcpp {
 
-class PublisherBase {
+namespace experimental {
+class IntraProcessManager;
+class SubscriptionIntraProcessBase;
+}  // namespace experimental
+
+class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
  public:
   RCLCPP_SMART_PTR_ALIASES_ONLY(PublisherBase)
 
@@ -39,9 +47,14 @@ class PublisherBase {
   // What the middleware made of the QoS that was asked for.
   QoS get_actual_qos() const;
   const rmw_gid_t& get_gid() const { return gid_; }
+  bool operator==(const rmw_gid_t& gid) const;
 
   // Matched subscriptions, in this process and elsewhere.
   size_t get_subscription_count() const;
+  // Those of them that are reached without the middleware: in this context, with intra-process communication.
+  size_t get_intra_process_subscription_count() const;
+  // How many messages each of these can take without losing one; 0 if there are none.
+  size_t lowest_available_ipm_capacity() const;
 
   // Tells the subscribers that the publisher lives, for LivelinessPolicy::ManualByTopic. False on failure.
   bool assert_liveliness() const;
@@ -51,6 +64,12 @@ class PublisherBase {
   bool wait_for_all_acked(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) const {
     return wait_for_all_acked_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
+
+  // From where the publisher may send. Throws exceptions::RCLError.
+  std::vector<NetworkFlowEndpoint> get_network_flow_endpoints() const;
+
+  // Whether messages can be made in memory of the middleware.
+  bool can_loan_messages() const { return rcl_publisher_can_loan_messages(publisher_handle_.get()); }
 
   // Of the callbacks in the options, and the default one.
   using EventHandlers = std::unordered_map<rcl_publisher_event_type_t, std::shared_ptr<EventHandlerBase>>;
@@ -65,6 +84,21 @@ class PublisherBase {
   // Do nothing when the context has ended; throw exceptions::RCLError on other failures.
   void publish_message(const void* message);
   void publish_serialized(const rcl_serialized_message_t& serialized_message);
+  // Of can_loan_messages(): what was borrowed, and goes back in any case.
+  void publish_loaned(void* message);
+
+  // Throws std::invalid_argument if intra-process communication is wanted and the QoS is not made for it.
+  bool uses_intra_process(const PublisherOptionsBase& options,
+                          const node_interfaces::NodeBaseInterface& node_base) const;
+  // `replay`: see IntraProcessManager::add_publisher().
+  void join_intra_process(std::shared_ptr<experimental::IntraProcessManager> manager,
+                          std::function<void(experimental::SubscriptionIntraProcessBase&)> replay);
+  bool intra_process_is_enabled() const { return intra_process_manager_ != nullptr; }
+  const std::shared_ptr<experimental::IntraProcessManager>& intra_process_manager() const {
+    return intra_process_manager_;
+  }
+  uint64_t intra_process_publisher_id() const { return intra_process_publisher_id_; }
+  void trace_intra_publish(const void* message) const;
 
  private:
   bool wait_for_all_acked_ns(std::chrono::nanoseconds timeout) const;
@@ -76,6 +110,8 @@ class PublisherBase {
 
   std::shared_ptr<rcl_publisher_t> publisher_handle_;
   rmw_gid_t gid_;
+  std::shared_ptr<experimental::IntraProcessManager> intra_process_manager_;  // null: not used
+  uint64_t intra_process_publisher_id_ = 0;
   EventHandlers event_handlers_;
   CallbackGroup::WeakPtr callback_group_;
 };

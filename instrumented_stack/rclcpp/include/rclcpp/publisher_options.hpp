@@ -1,19 +1,46 @@
 // What a publisher is created with beside topic and QoS.
 #pragma once
 
+#include <rmw/types.h>
+
+#include <memory>
+#include <type_traits>
+
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/event_handler.hpp"
+#include "rclcpp/intra_process_setting.hpp"
+#include "rclcpp/qos_overriding_options.hpp"
 
 namespace rclcpp {
 
 struct PublisherOptionsBase {
+  IntraProcessSetting use_intra_process_comm = IntraProcessSetting::NodeDefault;
+  // Of the publisher's network traffic. Accepted; the middleware has no such endpoints.
+  rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints =
+      RMW_UNIQUE_NETWORK_FLOW_ENDPOINTS_NOT_REQUIRED;
   // Whether events without a callback get the default one: a warning that an endpoint cannot match.
   bool use_default_callbacks = true;
   PublisherEventCallbacks event_callbacks;
   // Where the event callbacks run. Null: the node's default group.
   CallbackGroup::SharedPtr callback_group;
+  QosOverridingOptions qos_overriding_options;
 };
 
-struct PublisherOptions : PublisherOptionsBase {};
+// AllocatorT, an allocator for void, gives the memory of messages that the publisher makes.
+template <typename AllocatorT>
+struct PublisherOptionsWithAllocator : PublisherOptionsBase {
+  static_assert(std::is_void_v<typename std::allocator_traits<AllocatorT>::value_type>,
+                "Publisher allocator value type must be void");
+
+  // Null: a default constructed one.
+  std::shared_ptr<AllocatorT> allocator;
+
+  PublisherOptionsWithAllocator() = default;
+  explicit PublisherOptionsWithAllocator(const PublisherOptionsBase& options) : PublisherOptionsBase(options) {}
+
+  std::shared_ptr<AllocatorT> get_allocator() const { return allocator ? allocator : std::make_shared<AllocatorT>(); }
+};
+
+using PublisherOptions = PublisherOptionsWithAllocator<std::allocator<void>>;
 
 }  // namespace rclcpp

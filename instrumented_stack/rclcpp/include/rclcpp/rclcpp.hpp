@@ -2,8 +2,10 @@
 //
 //   utilities.hpp        init, shutdown, ok, signals           context.hpp, init_options.hpp
 //   node.hpp             Node                                  node_options.hpp, node_interfaces/
-//   publisher.hpp        Publisher                             qos.hpp, serialization.hpp, serialized_message.hpp
-//   subscription.hpp     Subscription                          any_subscription_callback.hpp, message_info.hpp
+//   publisher.hpp        Publisher                             publisher_options.hpp, qos.hpp, loaned_message.hpp
+//   subscription.hpp     Subscription                          subscription_options.hpp, any_subscription_callback.hpp
+//   generic_publisher.hpp, generic_subscription.hpp            serialization.hpp, serialized_message.hpp
+//   type_adapter.hpp     TypeAdapter                           message_info.hpp
 //   service.hpp          Service                               any_service_callback.hpp
 //   client.hpp           Client
 //   timer.hpp            WallTimer, GenericTimer               create_timer.hpp

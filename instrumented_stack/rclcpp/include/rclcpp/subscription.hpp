@@ -5,40 +5,69 @@
 #include <rosidl_runtime_cpp/message_initialization.hpp>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 
+#include "rclcpp/experimental/subscription_intra_process.hpp"
 #include "rclcpp/subscription_base.hpp"
 
 namespace rclcpp {
 
-template <typename MessageT>
+// MessageT is a message type or a TypeAdapter.
+template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class Subscription : public SubscriptionBase {
  public:
-  using ROSMessageType = MessageT;
-  RCLCPP_SMART_PTR_DEFINITIONS(Subscription<MessageT>)
+  using SubscribedType = typename TypeAdapter<MessageT>::custom_type;
+  using ROSMessageType = typename TypeAdapter<MessageT>::ros_message_type;
+  using CallbackType = AnySubscriptionCallback<MessageT, AllocatorT>;
+  RCLCPP_SMART_PTR_DEFINITIONS(Subscription)
 
-  Subscription(node_interfaces::NodeBaseInterface* node_base, const std::string& topic, const QoS& qos,
-               AnySubscriptionCallback<MessageT> any_callback, const SubscriptionOptions& options)
-      : SubscriptionBase(node_base, *rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>(), topic, qos,
-                         options),
+  // Throws std::invalid_argument for intra-process communication with the history "keep all" or a depth of 0.
+  Subscription(
+      node_interfaces::NodeBaseInterface* node_base, const std::string& topic, const QoS& qos,
+      CallbackType any_callback,
+      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>())
+      : SubscriptionBase(node_base, *rosidl_typesupport_cpp::get_message_type_support_handle<ROSMessageType>(), topic,
+                         qos, options),
+        allocator_(*options.get_allocator()),
         any_callback_(std::move(any_callback)) {
+    // Bytes come from the middleware alone.
+    if (!any_callback_.is_serialized_message_callback() && uses_intra_process(options, *node_base)) {
+      using IntraProcess = experimental::SubscriptionIntraProcess<MessageT, AllocatorT>;
+      const auto intra_process = std::make_shared<IntraProcess>(
+          any_callback_, allocator_, node_base->get_context(), get_topic_name(), get_actual_qos(),
+          detail::resolve_intra_process_buffer_type(options.intra_process_buffer_type, any_callback_));
+      join_intra_process(*node_base, intra_process, intra_process->get_callback());
+    }
     trace_creation(any_callback_);
   }
 
   // The next message, without the callback. False if there is none.
-  bool take(MessageT& message_out, MessageInfo& message_info_out) {
+  bool take(ROSMessageType& message_out, MessageInfo& message_info_out) {
     return take_type_erased(&message_out, message_info_out);
+  }
+  // The same converted to the custom type of a TypeAdapter.
+  template <typename T>
+  std::enable_if_t<!std::is_same_v<T, ROSMessageType> && std::is_same_v<T, SubscribedType>, bool> take(
+      T& message_out, MessageInfo& message_info_out) {
+    ROSMessageType ros_message;
+    if (!take(ros_message, message_info_out)) {
+      return false;
+    }
+    TypeAdapter<MessageT>::convert_to_custom(ros_message, message_out);
+    return true;
   }
 
  protected:
   // Reading a message sets every member.
   std::shared_ptr<void> create_message() override {
-    return std::make_shared<MessageT>(rosidl_runtime_cpp::MessageInitialization::SKIP);
+    return allocator::make_shared<ROSMessageType>(allocator_, rosidl_runtime_cpp::MessageInitialization::SKIP);
   }
   AnySubscriptionCallbackBase& callback() override { return any_callback_; }
 
  private:
-  AnySubscriptionCallback<MessageT> any_callback_;
+  AllocatorT allocator_;
+  CallbackType any_callback_;
 };
 
 }  // namespace rclcpp

@@ -5,11 +5,13 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "rclcpp/any_subscription_callback.hpp"
 #include "rclcpp/callback_group.hpp"
@@ -17,12 +19,19 @@
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/message_info.hpp"
+#include "rclcpp/network_flow_endpoint.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/serialized_message.hpp"
 #include "rclcpp/subscription_options.hpp"
+#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
+
+namespace experimental {
+class IntraProcessManager;
+class SubscriptionIntraProcessBase;
+}  // namespace experimental
 
 class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
  public:
@@ -30,7 +39,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
   // Throws exceptions::InvalidTopicNameError or exceptions::RCLError.
   SubscriptionBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_message_type_support_t& type_support,
-                   const std::string& topic, const QoS& qos, const SubscriptionOptions& options);
+                   const std::string& topic, const QoS& qos, const SubscriptionOptionsBase& options);
   virtual ~SubscriptionBase();
   RCLCPP_DISABLE_COPY(SubscriptionBase)
 
@@ -44,6 +53,19 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // The next message into `message_out`, which points to a message of this subscription's type. False if there is none.
   bool take_type_erased(void* message_out, MessageInfo& message_info_out);
   bool take_serialized(SerializedMessage& message_out, MessageInfo& message_info_out);
+
+  // Where the subscription listens. Throws exceptions::RCLError.
+  std::vector<NetworkFlowEndpoint> get_network_flow_endpoints() const;
+
+  // Whether messages are taken where the middleware holds them: those of plain types, if the environment variable
+  // ROS_DISABLE_LOANED_MESSAGES is 0. Executors do so for callbacks that take a const reference, which cannot keep it.
+  bool can_loan_messages() const { return rcl_subscription_can_loan_messages(subscription_handle_.get()); }
+
+  // Whether the middleware filters messages by content.
+  bool is_cft_enabled() const { return rcl_subscription_is_cft_enabled(subscription_handle_.get()); }
+
+  // Where messages of publishers of the same context arrive; null if they come through the middleware like all others.
+  std::shared_ptr<Waitable> get_intra_process_waitable() const;
 
   // What an executor does with a subscription that is ready: one message, from the middleware to the callback.
   void execute();
@@ -73,7 +95,18 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // To be called by the most derived constructor, when the callback is where it will stay.
   void trace_creation(const AnySubscriptionCallbackBase& callback);
 
+  // Throws std::invalid_argument if intra-process communication is wanted and the QoS is not made for it.
+  bool uses_intra_process(const SubscriptionOptionsBase& options,
+                          const node_interfaces::NodeBaseInterface& node_base) const;
+  void join_intra_process(const node_interfaces::NodeBaseInterface& node_base,
+                          std::shared_ptr<experimental::SubscriptionIntraProcessBase> intra_process,
+                          const AnySubscriptionCallbackBase& callback);
+
  private:
+  void execute_loaned();
+  void trace_callback(const void* subscription, const AnySubscriptionCallbackBase& callback) const;
+  // Whether the same message comes through intra-process communication.
+  bool is_delivered_twice(const MessageInfo& message_info) const;
   bool check_taken(rcl_ret_t ret) const;
   void bind_event_callbacks(const SubscriptionEventCallbacks& callbacks, bool use_default_callbacks,
                             const std::string& logger_name);
@@ -86,6 +119,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;
   CallbackGroup::WeakPtr callback_group_;
+  // Null: not used.
+  std::shared_ptr<experimental::IntraProcessManager> intra_process_manager_;
+  std::shared_ptr<experimental::SubscriptionIntraProcessBase> intra_process_;
+  uint64_t intra_process_subscription_id_ = 0;
   EventHandlers event_handlers_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};

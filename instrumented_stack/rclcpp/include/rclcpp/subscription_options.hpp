@@ -1,19 +1,75 @@
 // What a subscription is created with beside topic, QoS and callback.
 #pragma once
 
+#include <rmw/types.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/event_handler.hpp"
+#include "rclcpp/intra_process_buffer_type.hpp"
+#include "rclcpp/intra_process_setting.hpp"
+#include "rclcpp/qos.hpp"
+#include "rclcpp/qos_overriding_options.hpp"
+#include "rclcpp/topic_statistics_state.hpp"
 
 namespace rclcpp {
 
-struct SubscriptionOptions {
-  // Null: the node's default group.
-  CallbackGroup::SharedPtr callback_group;
+// Which messages are wanted, in the filter language of DDS. Accepted; the middleware delivers all of them, and
+// SubscriptionBase::is_cft_enabled() says so.
+struct ContentFilterOptions {
+  std::string filter_expression;
+  std::vector<std::string> expression_parameters;
+};
+
+struct SubscriptionOptionsBase {
   // Drops what publishers of the same context send.
   bool ignore_local_publications = false;
+  // Of the subscription's network traffic. Accepted; the middleware has no such endpoints.
+  rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints =
+      RMW_UNIQUE_NETWORK_FLOW_ENDPOINTS_NOT_REQUIRED;
+  // Null: the node's default group.
+  CallbackGroup::SharedPtr callback_group;
   // Whether events without a callback get the default one: a warning that an endpoint cannot match.
   bool use_default_callbacks = true;
   SubscriptionEventCallbacks event_callbacks;
+
+  IntraProcessSetting use_intra_process_comm = IntraProcessSetting::NodeDefault;
+  IntraProcessBufferType intra_process_buffer_type = IntraProcessBufferType::CallbackDefault;
+
+  // Statistics of the received messages on a topic. Accepted; nothing is published.
+  struct TopicStatisticsOptions {
+    TopicStatisticsState state = TopicStatisticsState::NodeDefault;
+    std::string publish_topic = "/statistics";
+    std::chrono::milliseconds publish_period{std::chrono::seconds(1)};
+    QoS qos = SystemDefaultsQoS();
+  };
+  TopicStatisticsOptions topic_stats_options;
+
+  QosOverridingOptions qos_overriding_options;
+  ContentFilterOptions content_filter_options;
 };
+
+// AllocatorT, an allocator for void, gives the memory of received messages.
+template <typename AllocatorT>
+struct SubscriptionOptionsWithAllocator : SubscriptionOptionsBase {
+  static_assert(std::is_void_v<typename std::allocator_traits<AllocatorT>::value_type>,
+                "Subscription allocator value type must be void");
+
+  // Null: a default constructed one.
+  std::shared_ptr<AllocatorT> allocator;
+
+  SubscriptionOptionsWithAllocator() = default;
+  explicit SubscriptionOptionsWithAllocator(const SubscriptionOptionsBase& options)
+      : SubscriptionOptionsBase(options) {}
+
+  std::shared_ptr<AllocatorT> get_allocator() const { return allocator ? allocator : std::make_shared<AllocatorT>(); }
+};
+
+using SubscriptionOptions = SubscriptionOptionsWithAllocator<std::allocator<void>>;
 
 }  // namespace rclcpp

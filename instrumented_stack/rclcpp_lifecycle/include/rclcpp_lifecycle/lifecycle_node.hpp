@@ -55,13 +55,13 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
   }
 
   // A publisher that is on only while the node is active.
-  template <typename MessageT>
-  std::shared_ptr<LifecyclePublisher<MessageT>> create_publisher(
+  template <typename MessageT, typename AllocatorT = std::allocator<void>>
+  std::shared_ptr<LifecyclePublisher<MessageT, AllocatorT>> create_publisher(
       const std::string& topic_name, const rclcpp::QoS& qos,
-      const rclcpp::PublisherOptions& options = rclcpp::PublisherOptions()) {
-    auto publisher =
-        std::make_shared<LifecyclePublisher<MessageT>>(get_node_base_interface().get(), topic_name, qos, options);
-    get_node_topics_interface()->add_publisher(publisher, options.callback_group);
+      const rclcpp::PublisherOptionsWithAllocator<AllocatorT>& options =
+          rclcpp::PublisherOptionsWithAllocator<AllocatorT>()) {
+    auto publisher = rclcpp::create_publisher<MessageT, AllocatorT, LifecyclePublisher<MessageT, AllocatorT>>(
+        *this, topic_name, qos, options);
     add_managed_entity(publisher);
     return publisher;
   }

@@ -11,21 +11,29 @@
 namespace rclcpp_lifecycle {
 
 // Publishing while it is off does nothing; the first time since it was switched off, it warns.
-template <typename MessageT>
-class LifecyclePublisher : public SimpleManagedEntity, public rclcpp::Publisher<MessageT> {
+template <typename MessageT, typename AllocatorT = std::allocator<void>>
+class LifecyclePublisher : public SimpleManagedEntity, public rclcpp::Publisher<MessageT, AllocatorT> {
  public:
-  RCLCPP_SMART_PTR_DEFINITIONS(LifecyclePublisher<MessageT>)
+  using Base = rclcpp::Publisher<MessageT, AllocatorT>;
+  using typename Base::MessageUniquePtr;
+  using typename Base::ROSMessageType;
+  RCLCPP_SMART_PTR_DEFINITIONS(LifecyclePublisher)
 
-  using rclcpp::Publisher<MessageT>::Publisher;
+  using Base::Base;
 
-  void publish(std::unique_ptr<MessageT> message) override {
+  void publish(MessageUniquePtr message) override {
     if (is_activated_or_warn()) {
-      rclcpp::Publisher<MessageT>::publish(std::move(message));
+      Base::publish(std::move(message));
     }
   }
-  void publish(const MessageT& message) override {
+  void publish(const ROSMessageType& message) override {
     if (is_activated_or_warn()) {
-      rclcpp::Publisher<MessageT>::publish(message);
+      Base::publish(message);
+    }
+  }
+  void publish(rclcpp::LoanedMessage<ROSMessageType, AllocatorT>&& message) override {
+    if (is_activated_or_warn()) {
+      Base::publish(std::move(message));
     }
   }
 

@@ -15,6 +15,7 @@
 #include "rmw/event_callback_type.h"
 #include "rmw/init.h"
 #include "rmw/names_and_types.h"
+#include "rmw/network_flow_endpoint.h"
 #include "rmw/qos_profiles.h"
 #include "rmw/types.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
@@ -49,6 +50,15 @@ rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
                                          const rmw_serialized_message_t* serialized_message,
                                          rmw_publisher_allocation_t* allocation);
 
+// Memory of the middleware to make a message in, which is then sent from where it is. The memory is not initialised.
+// Only for publishers whose can_loan_messages is set, those of types that have the same layout in memory and on the
+// wire: otherwise RMW_RET_UNSUPPORTED. The memory must be given back by one of the other two functions.
+rmw_ret_t rmw_borrow_loaned_message(const rmw_publisher_t* publisher, const rosidl_message_type_support_t* type_support,
+                                    void** ros_message);
+rmw_ret_t rmw_return_loaned_message_from_publisher(const rmw_publisher_t* publisher, void* loaned_message);
+rmw_ret_t rmw_publish_loaned_message(const rmw_publisher_t* publisher, void* ros_message,
+                                     rmw_publisher_allocation_t* allocation);
+
 rmw_ret_t rmw_publisher_count_matched_subscriptions(const rmw_publisher_t* publisher, size_t* subscription_count);
 rmw_ret_t rmw_publisher_get_actual_qos(const rmw_publisher_t* publisher, rmw_qos_profile_t* qos);
 rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher);
@@ -56,6 +66,9 @@ rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher);
 // Waits until every matched reliable subscription has acknowledged everything written so far.
 // RMW_RET_TIMEOUT if that takes longer than `wait_timeout`.
 rmw_ret_t rmw_publisher_wait_for_all_acked(const rmw_publisher_t* publisher, rmw_time_t wait_timeout);
+// From where the publisher may send. `network_flow_endpoint_array` must be zero initialised, and is to be finalised.
+rmw_ret_t rmw_publisher_get_network_flow_endpoints(const rmw_publisher_t* publisher, rcutils_allocator_t* allocator,
+                                                   rmw_network_flow_endpoint_array_t* network_flow_endpoint_array);
 rmw_ret_t rmw_get_gid_for_publisher(const rmw_publisher_t* publisher, rmw_gid_t* gid);
 rmw_ret_t rmw_compare_gids_equal(const rmw_gid_t* gid1, const rmw_gid_t* gid2, bool* result);
 
@@ -79,6 +92,18 @@ rmw_ret_t rmw_take(const rmw_subscription_t* subscription, void* ros_message, bo
                    rmw_subscription_allocation_t* allocation);
 rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
                              rmw_message_info_t* message_info, rmw_subscription_allocation_t* allocation);
+// Takes the next message where the middleware holds it, only for subscriptions whose can_loan_messages is set:
+// otherwise RMW_RET_UNSUPPORTED. It must be returned, and not be written to.
+rmw_ret_t rmw_take_loaned_message_with_info(const rmw_subscription_t* subscription, void** loaned_message, bool* taken,
+                                            rmw_message_info_t* message_info,
+                                            rmw_subscription_allocation_t* allocation);
+rmw_ret_t rmw_return_loaned_message_from_subscription(const rmw_subscription_t* subscription, void* loaned_message);
+
+// Where the subscription listens; see rmw_publisher_get_network_flow_endpoints().
+rmw_ret_t rmw_subscription_get_network_flow_endpoints(const rmw_subscription_t* subscription,
+                                                      rcutils_allocator_t* allocator,
+                                                      rmw_network_flow_endpoint_array_t* network_flow_endpoint_array);
+
 rmw_ret_t rmw_take_serialized_message(const rmw_subscription_t* subscription,
                                       rmw_serialized_message_t* serialized_message, bool* taken,
                                       rmw_subscription_allocation_t* allocation);

@@ -22,13 +22,15 @@ class NodeBase {
 
   // Throws exceptions::InvalidNodeNameError, exceptions::InvalidNamespaceError or exceptions::RCLError.
   NodeBase(const std::string& node_name, const std::string& node_namespace, Context::SharedPtr context,
-           const rcl_node_options_t& rcl_node_options);
+           const rcl_node_options_t& rcl_node_options, bool use_intra_process_default = false);
   ~NodeBase();
 
   const char* get_name() const { return rcl_node_get_name(node_handle_.get()); }
   const char* get_namespace() const { return rcl_node_get_namespace(node_handle_.get()); }
   const char* get_fully_qualified_name() const { return rcl_node_get_fully_qualified_name(node_handle_.get()); }
   Context::SharedPtr get_context() const { return context_; }
+  // Whether publishers and subscriptions that do not say otherwise use intra-process communication.
+  bool get_use_intra_process_default() const { return use_intra_process_default_; }
 
   rcl_node_t* get_rcl_node_handle() { return node_handle_.get(); }
   const rcl_node_t* get_rcl_node_handle() const { return node_handle_.get(); }
@@ -54,6 +56,7 @@ class NodeBase {
   void notify() const;
 
   Context::SharedPtr context_;
+  bool use_intra_process_default_;
   std::shared_ptr<rcl_node_t> node_handle_;
   std::atomic_bool associated_with_executor_{false};
 

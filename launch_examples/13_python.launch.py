@@ -26,7 +26,7 @@ def generate_launch_description():
         DeclareLaunchArgument('count', default_value='10', description='how many messages each ping sends'),
         Trace(session_name='from_python', append_timestamp=True, subbuffer_size_ust=1048576),
         IncludeLaunchDescription(
-            XMLLaunchDescriptionSource(PathJoinSubstitution([ThisLaunchFileDir(), '12_python_part.launch.xml'])),
+            XMLLaunchDescriptionSource(PathJoinSubstitution([ThisLaunchFileDir(), '13_python_part.launch.xml'])),
             launch_arguments={'pairs': LaunchConfiguration('pairs')}.items()),
         OpaqueFunction(function=add_pings),
         LogInfo(msg=['pairs: ', LaunchConfiguration('pairs')]),

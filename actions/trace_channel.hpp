@@ -1,0 +1,62 @@
+// <channel> in <trace>: buffers of their own for some events.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/core/fields.hpp"
+#include "tracing/session/trace_config.hpp"
+
+namespace launch {
+
+enum class Tracepoints { kUserspace /* PROVIDER:NAME */, kKernel /* NAME */ };
+
+// A list of words that may be given, and its place.
+class WordsField {
+ public:
+  WordsField(const Fields& fields, std::string_view attribute);
+
+  bool given() const { return words_.has_value(); }
+  // Names, without the empty ones that empty substitutions leave. One that a substitution gives may be several, as in
+  // context-fields="$(var fields)". Empty when none are given.
+  std::vector<std::string> perform(Scope& scope) const;
+  // Event rules. What a substitution gives may be a rule with blanks, or several names. Throws LaunchError.
+  std::vector<std::string> perform_events(Scope& scope, Tracepoints of) const;
+
+ private:
+  std::vector<std::string> performed_words(Scope& scope) const;
+
+  std::optional<std::vector<Template>> words_;
+  SourceRange where_;
+};
+
+// A number that must not be negative. LTTng's timers are 32 bits wide: more than 71 minutes are as good as never.
+std::optional<NumberField> count_field(const Fields& fields, std::string_view attribute);
+std::uint64_t count(const NumberField& field, Scope& scope);
+std::uint32_t microseconds(const NumberField& field, Scope& scope);
+
+class ChannelFields {
+ public:
+  static ItemSpec item();
+
+  explicit ChannelFields(const Fields& fields);
+  // Throws LaunchError.
+  tracing::ChannelConfig perform(Scope& scope) const;
+
+ private:
+  Template name_;
+  WordsField events_ust_;
+  WordsField events_kernel_;
+  WordsField syscalls_;
+  WordsField context_fields_;
+  std::optional<NumberField> subbuffer_size_;
+  std::optional<NumberField> subbuffer_count_;
+  std::optional<NumberField> read_timer_;
+  std::optional<NumberField> switch_timer_;
+  std::optional<BooleanField> overwrite_;
+  std::optional<NumberField> blocking_timeout_;
+};
+
+}  // namespace launch

@@ -1,0 +1,25 @@
+// Latencies of messages and what can be said of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace performance_test {
+
+// Times in milliseconds; 0 without messages.
+struct LatencySummary {
+  double min = 0;
+  double mean = 0;
+  double standard_deviation = 0;
+  double median = 0;
+  double p90 = 0;
+  double p99 = 0;
+  double p999 = 0;
+  double max = 0;
+};
+
+// Of latencies in ns. A percentile is the smallest latency that at least so many of all do not exceed.
+LatencySummary summarize(std::vector<int64_t> latencies_ns);
+
+}  // namespace performance_test

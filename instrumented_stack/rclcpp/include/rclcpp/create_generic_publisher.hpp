@@ -1,0 +1,25 @@
+// Publishers of types by name, for anything that has node interfaces.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rclcpp/generic_publisher.hpp"
+#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/typesupport_helpers.hpp"
+
+namespace rclcpp {
+
+// `topic_type` is "std_msgs/msg/String" or the like. Throws std::runtime_error for a type that cannot be found, and
+// what create_publisher() throws.
+template <typename AllocatorT = std::allocator<void>>
+std::shared_ptr<GenericPublisher> create_generic_publisher(
+    const node_interfaces::NodeTopicsInterface::SharedPtr& topics, const std::string& topic_name,
+    const std::string& topic_type, const QoS& qos,
+    const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
+  return std::make_shared<GenericPublisher>(topics->get_node_base_interface().get(),
+                                            get_typesupport_library(topic_type, "rosidl_typesupport_cpp"), topic_name,
+                                            topic_type, qos, options);
+}
+
+}  // namespace rclcpp

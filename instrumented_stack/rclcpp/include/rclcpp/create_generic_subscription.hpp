@@ -1,0 +1,31 @@
+// Subscriptions of types by name, for anything that has node interfaces.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rclcpp/generic_subscription.hpp"
+#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/typesupport_helpers.hpp"
+
+namespace rclcpp {
+
+// `topic_type` is "std_msgs/msg/String" or the like; the callback takes a SerializedMessage in one of the forms of
+// any_subscription_callback.hpp. Throws std::runtime_error for a type that cannot be found, and what
+// create_subscription() throws.
+template <typename CallbackT, typename AllocatorT = std::allocator<void>>
+std::shared_ptr<GenericSubscription> create_generic_subscription(
+    const node_interfaces::NodeTopicsInterface::SharedPtr& topics, const std::string& topic_name,
+    const std::string& topic_type, const QoS& qos, CallbackT&& callback,
+    const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
+  GenericSubscription::CallbackType any_callback;
+  any_callback.set(std::forward<CallbackT>(callback));
+  auto subscription = std::make_shared<GenericSubscription>(
+      topics->get_node_base_interface().get(), get_typesupport_library(topic_type, "rosidl_typesupport_cpp"),
+      topic_name, topic_type, qos, std::move(any_callback), options);
+  topics->add_subscription(subscription, options.callback_group);
+  return subscription;
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,20 @@
+// The parameters of qos_overriding_options.hpp.
+#pragma once
+
+#include <string>
+
+#include "rclcpp/node_interfaces/node_parameters.hpp"
+#include "rclcpp/qos.hpp"
+#include "rclcpp/qos_overriding_options.hpp"
+
+namespace rclcpp::detail {
+
+enum class QosEntity { Publisher, Subscription };
+
+// Declares a read-only parameter for each policy of `options` that the entity has, and gives `qos` with their values.
+// `topic_name` is the full one. Throws exceptions::InvalidQosOverridesException for a refused or unknown value, and
+// what declaring parameters throws.
+QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces::NodeParametersInterface& parameters,
+                           const std::string& topic_name, const QoS& qos, QosEntity entity);
+
+}  // namespace rclcpp::detail

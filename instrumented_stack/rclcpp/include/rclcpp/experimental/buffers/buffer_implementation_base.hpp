@@ -1,0 +1,27 @@
+// Where messages wait between publisher and callback of one process.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace rclcpp::experimental::buffers {
+
+// Thread safe. BufferT is a shared or unique pointer to a message.
+template <typename BufferT>
+class BufferImplementationBase {
+ public:
+  virtual ~BufferImplementationBase() = default;
+
+  // The oldest, null if there is none.
+  virtual BufferT dequeue() = 0;
+  virtual void enqueue(BufferT request) = 0;
+
+  // All of them, oldest first; they stay. Unique pointers are copied with what they point to.
+  virtual std::vector<BufferT> get_all_data() = 0;
+
+  virtual void clear() = 0;
+  virtual bool has_data() const = 0;
+  virtual size_t available_capacity() const = 0;
+};
+
+}  // namespace rclcpp::experimental::buffers

@@ -1,0 +1,110 @@
+// A subscription's buffer as publishers and the subscription see it: messages go in and come out as shared or unique
+// pointers, whichever of the two the buffer holds. Where the two differ, a message is copied.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "rclcpp/allocator/allocator_common.hpp"
+#include "rclcpp/detail/intra_process_trace.hpp"
+#include "rclcpp/experimental/buffers/buffer_implementation_base.hpp"
+#include "rclcpp/macros.hpp"
+
+namespace rclcpp::experimental::buffers {
+
+class IntraProcessBufferBase {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(IntraProcessBufferBase)
+  virtual ~IntraProcessBufferBase() = default;
+
+  virtual void clear() = 0;
+  virtual bool has_data() const = 0;
+  // Whether taking shared pointers costs no copy.
+  virtual bool use_take_shared_method() const = 0;
+  virtual size_t available_capacity() const = 0;
+};
+
+template <typename MessageT, typename AllocatorT = std::allocator<void>>
+class IntraProcessBuffer : public IntraProcessBufferBase {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(IntraProcessBuffer)
+  using MessageUniquePtr = allocator::UniquePtr<MessageT, AllocatorT>;
+  using MessageSharedPtr = std::shared_ptr<const MessageT>;
+
+  virtual void add_shared(MessageSharedPtr message) = 0;
+  virtual void add_unique(MessageUniquePtr message) = 0;
+
+  // The oldest message, null if there is none.
+  virtual MessageSharedPtr consume_shared() = 0;
+  virtual MessageUniquePtr consume_unique() = 0;
+
+  // All messages, oldest first. They stay.
+  virtual std::vector<MessageSharedPtr> get_all_data_shared() = 0;
+};
+
+// Holds pointers of type BufferT, one of the two.
+template <typename MessageT, typename AllocatorT, typename BufferT>
+class TypedIntraProcessBuffer : public IntraProcessBuffer<MessageT, AllocatorT> {
+ public:
+  using Base = IntraProcessBuffer<MessageT, AllocatorT>;
+  using typename Base::MessageSharedPtr;
+  using typename Base::MessageUniquePtr;
+  static constexpr bool kHoldsShared = std::is_same_v<BufferT, MessageSharedPtr>;
+  static_assert(kHoldsShared || std::is_same_v<BufferT, MessageUniquePtr>);
+
+  explicit TypedIntraProcessBuffer(std::unique_ptr<BufferImplementationBase<BufferT>> buffer_impl,
+                                   const AllocatorT& allocator = AllocatorT())
+      : allocator_(allocator), buffer_(std::move(buffer_impl)) {
+    rclcpp::detail::trace_buffer_to_ipb(buffer_.get(), static_cast<IntraProcessBufferBase*>(this));
+  }
+  ~TypedIntraProcessBuffer() override { rclcpp::detail::trace_ipb_fini(static_cast<IntraProcessBufferBase*>(this)); }
+  RCLCPP_DISABLE_COPY(TypedIntraProcessBuffer)
+
+  void add_shared(MessageSharedPtr message) override {
+    if constexpr (kHoldsShared) {
+      buffer_->enqueue(std::move(message));
+    } else {
+      buffer_->enqueue(copy(*message));
+    }
+  }
+  void add_unique(MessageUniquePtr message) override { buffer_->enqueue(std::move(message)); }
+
+  MessageSharedPtr consume_shared() override { return buffer_->dequeue(); }
+  MessageUniquePtr consume_unique() override {
+    if constexpr (kHoldsShared) {
+      // Others may hold it too.
+      const MessageSharedPtr message = buffer_->dequeue();
+      return message ? copy(*message) : nullptr;
+    } else {
+      return buffer_->dequeue();
+    }
+  }
+
+  std::vector<MessageSharedPtr> get_all_data_shared() override {
+    if constexpr (kHoldsShared) {
+      return buffer_->get_all_data();
+    } else {
+      std::vector<MessageSharedPtr> all;
+      for (MessageUniquePtr& message : buffer_->get_all_data()) {
+        all.push_back(std::move(message));
+      }
+      return all;
+    }
+  }
+
+  void clear() override { buffer_->clear(); }
+  bool has_data() const override { return buffer_->has_data(); }
+  bool use_take_shared_method() const override { return kHoldsShared; }
+  size_t available_capacity() const override { return buffer_->available_capacity(); }
+
+ private:
+  MessageUniquePtr copy(const MessageT& message) const { return allocator::make_unique<MessageT>(allocator_, message); }
+
+  AllocatorT allocator_;
+  std::unique_ptr<BufferImplementationBase<BufferT>> buffer_;
+};
+
+}  // namespace rclcpp::experimental::buffers

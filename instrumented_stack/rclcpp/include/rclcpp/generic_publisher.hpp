@@ -1,0 +1,40 @@
+// Sends messages of a type that is known by name at run time only, as bytes. Created by
+// Node::create_generic_publisher().
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rclcpp/publisher_base.hpp"
+#include "rclcpp/publisher_options.hpp"
+#include "rclcpp/serialized_message.hpp"
+#include "rclcpp/typesupport_helpers.hpp"
+
+namespace rclcpp {
+
+// Publishing is thread safe.
+class GenericPublisher : public PublisherBase {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(GenericPublisher)
+
+  // `library` is that of `topic_type`, see get_typesupport_library().
+  template <typename AllocatorT = std::allocator<void>>
+  GenericPublisher(
+      node_interfaces::NodeBaseInterface* node_base, const std::shared_ptr<SharedLibrary>& library,
+      const std::string& topic_name, const std::string& topic_type, const QoS& qos,
+      const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>())
+      : PublisherBase(node_base, topic_name,
+                      *get_message_typesupport_handle(topic_type, "rosidl_typesupport_cpp", *library), qos, options),
+        type_support_(get_message_typesupport_handle(topic_type, "rosidl_typesupport_cpp", *library)) {}
+
+  // The bytes of a message: the encapsulation header, then CDR.
+  void publish(const SerializedMessage& message);
+
+  // The same through memory of the middleware. Throws exceptions::RCLError if the type cannot be loaned.
+  void publish_as_loaned_msg(const SerializedMessage& message);
+
+ private:
+  const rosidl_message_type_support_t* type_support_;
+};
+
+}  // namespace rclcpp

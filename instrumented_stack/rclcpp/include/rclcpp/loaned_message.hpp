@@ -1,0 +1,74 @@
+// A message that is made where the middleware sends it from, so that publishing does not copy it:
+//
+//   auto loan = publisher->borrow_loaned_message();
+//   loan.get().data = 1;
+//   publisher->publish(std::move(loan));
+#pragma once
+
+#include <rcl/publisher.h>
+
+#include <memory>
+#include <new>
+#include <rosidl_runtime_cpp/message_initialization.hpp>
+#include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <utility>
+
+#include "rclcpp/allocator/allocator_common.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+#include "rclcpp/publisher_base.hpp"
+
+namespace rclcpp {
+
+// What a borrowed message holds at first is not defined. Of types that are not plain, which
+// PublisherBase::can_loan_messages() tells, it holds an ordinary message. The publisher must live longer. Not thread
+// safe.
+template <typename MessageT, typename AllocatorT = std::allocator<void>>
+class LoanedMessage {
+ public:
+  // Throws exceptions::RCLError.
+  explicit LoanedMessage(PublisherBase& publisher, const AllocatorT& allocator = AllocatorT())
+      : publisher_handle_(publisher.get_publisher_handle()) {
+    if (!publisher.can_loan_messages()) {
+      own_ = allocator::make_unique<MessageT>(allocator);
+      return;
+    }
+    void* memory = nullptr;
+    const rcl_ret_t ret = rcl_borrow_loaned_message(
+        publisher_handle_.get(), rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>(), &memory);
+    if (ret != RCL_RET_OK) {
+      exceptions::throw_from_rcl_error(ret, "failed to borrow a message");
+    }
+    loan_ = new (memory) MessageT(rosidl_runtime_cpp::MessageInitialization::SKIP);
+  }
+
+  LoanedMessage(LoanedMessage&& other) noexcept
+      : publisher_handle_(std::move(other.publisher_handle_)),
+        loan_(std::exchange(other.loan_, nullptr)),
+        own_(std::move(other.own_)) {}
+  LoanedMessage(const LoanedMessage&) = delete;
+  LoanedMessage& operator=(const LoanedMessage&) = delete;
+  LoanedMessage& operator=(LoanedMessage&&) = delete;
+
+  // Gives back what was not published.
+  virtual ~LoanedMessage() {
+    if (loan_ && rcl_return_loaned_message_from_publisher(publisher_handle_.get(), loan_) != RCL_RET_OK) {
+      RCLCPP_ERROR(get_logger("rclcpp"), "failed to return a loaned message: %s", rcl_get_error_string().str);
+      rcl_reset_error();
+    }
+  }
+
+  bool is_valid() const { return loan_ || own_; }
+  MessageT& get() const { return loan_ ? *loan_ : *own_; }
+
+  // What publishers do with it: they take the loan, null if it is none, or the ordinary message.
+  MessageT* release_loan() { return std::exchange(loan_, nullptr); }
+  allocator::UniquePtr<MessageT, AllocatorT> release_own() { return std::move(own_); }
+
+ private:
+  std::shared_ptr<rcl_publisher_t> publisher_handle_;
+  MessageT* loan_ = nullptr;
+  allocator::UniquePtr<MessageT, AllocatorT> own_;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,12 @@
+// Whether a subscription publishes statistics of what it receives.
+#pragma once
+
+namespace rclcpp {
+
+enum class TopicStatisticsState {
+  Enable,
+  Disable,
+  NodeDefault,
+};
+
+}  // namespace rclcpp

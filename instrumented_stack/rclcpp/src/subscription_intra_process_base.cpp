@@ -1,0 +1,63 @@
+#include "rclcpp/experimental/subscription_intra_process_base.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "rclcpp/exceptions.hpp"
+
+namespace rclcpp::experimental {
+
+namespace {
+
+constexpr int kSubscription = static_cast<int>(SubscriptionIntraProcessBase::EntityType::Subscription);
+
+}  // namespace
+
+void SubscriptionIntraProcessBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
+  // An executor may have taken one message of several, and a wait uses the trigger up.
+  if (has_data()) {
+    guard_condition_.trigger();
+  }
+  const rcl_ret_t ret =
+      rcl_wait_set_add_guard_condition(&wait_set, &guard_condition_.get_rcl_guard_condition(), nullptr);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to add guard condition to wait set");
+  }
+}
+
+bool SubscriptionIntraProcessBase::is_ready(const rcl_wait_set_t& /*wait_set*/) {
+  return has_data();
+}
+
+std::shared_ptr<void> SubscriptionIntraProcessBase::take_data_by_entity_id(size_t /*id*/) {
+  return take_data();
+}
+
+void SubscriptionIntraProcessBase::set_on_ready_callback(std::function<void(size_t, int)> callback) {
+  if (!callback) {
+    throw std::invalid_argument("The callback passed to set_on_ready_callback is not callable.");
+  }
+  const std::lock_guard lock(callback_mutex_);
+  on_ready_ = std::move(callback);
+  if (unread_count_ > 0) {
+    on_ready_(std::min(std::exchange(unread_count_, 0), qos_.depth()), kSubscription);
+  }
+}
+
+void SubscriptionIntraProcessBase::clear_on_ready_callback() {
+  const std::lock_guard lock(callback_mutex_);
+  on_ready_ = nullptr;
+}
+
+void SubscriptionIntraProcessBase::notify() {
+  guard_condition_.trigger();
+  const std::lock_guard lock(callback_mutex_);
+  if (on_ready_) {
+    on_ready_(1, kSubscription);
+  } else {
+    ++unread_count_;
+  }
+}
+
+}  // namespace rclcpp::experimental

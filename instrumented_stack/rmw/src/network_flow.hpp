@@ -1,0 +1,14 @@
+// Locators of DDS as endpoints of network flows.
+#pragma once
+
+#include <fastdds/rtps/common/Locator.h>
+
+#include "rmw/network_flow_endpoint.h"
+
+namespace rmw_fastrtps {
+
+// `endpoints` must be zero initialised. RMW_RET_BAD_ALLOC.
+rmw_ret_t to_endpoints(const eprosima::fastdds::rtps::LocatorList& locators, rcutils_allocator_t* allocator,
+                       rmw_network_flow_endpoint_array_t& endpoints);
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,50 @@
+// What the launcher itself did and when, for a trace of the run: LTTng provider `launch`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "launcher/base/source.hpp"
+
+namespace launch {
+
+struct LaunchRecord {
+  enum class Kind {
+    kLoad,     // a launch file was read and checked, name: its path
+    kInclude,  // another one was visited, name: its path
+    kVisit,    // the launch file, or the children of a timer, were visited
+    kSpawn,    // a process is about to be started, name: as all below its label
+    kExec,     // its program runs
+    kExit,     // it ended, value: its exit code, -N for signal N
+    kRespawn,  // it ended and will be started again
+    kSignal    // a signal was sent to its group, value: which
+  };
+
+  Kind kind = Kind::kVisit;
+  std::string name = {};
+  SourceRange where = {};  // the line that asked for it; may be empty
+  std::int32_t pid = 0;
+  std::int32_t value = 0;
+  bool asked_for = false;     // exit: a signal of the launcher or its shutdown came before
+  std::int64_t time = 0;      // CLOCK_MONOTONIC in nanoseconds, of the beginning where it took a while
+  std::int64_t duration = 0;  // nanoseconds: load, include, visit
+};
+
+// CLOCK_MONOTONIC in nanoseconds, as LTTng's own time stamps.
+std::int64_t monotonic_time();
+
+// Where records go. All calls come from the loop's thread and must not block it, but for end().
+class LaunchRecorder {
+ public:
+  virtual ~LaunchRecorder() = default;
+
+  // A session records from now on: what was recorded before follows at once, with the times at which it happened.
+  virtual void begin() = 0;
+  // No session will: what was kept is dropped.
+  virtual void drop() = 0;
+  virtual void record(LaunchRecord record) = 0;
+  // Returns when everything has been handed over, before the sessions end.
+  virtual void end() = 0;
+};
+
+}  // namespace launch

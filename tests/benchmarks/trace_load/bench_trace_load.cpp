@@ -1,0 +1,212 @@
+// Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER]]]]
+//
+// Whether the default buffers hold: the events of NODES processes, first those of their creation all at once, then
+// EVENTS_PER_SECOND of all together, are recorded with the three context fields. And what a session adds to a launch:
+// how long it takes to set it up, with a session daemon and without one, and to end it after the last process has gone.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tracing/session/tracer.hpp"
+
+extern char** environ;  // NOLINT: POSIX names it so
+
+namespace {
+
+namespace fs = std::filesystem;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+constexpr int kWarmRuns = 11;
+
+struct Load {
+  int nodes = 100;
+  long events_per_second = 200'000;
+  int seconds = 60;
+};
+
+[[noreturn]] void fail(const std::string& what) {
+  fmt::print(stderr, "bench_trace_load: {}\n", what);
+  std::exit(1);
+}
+
+template <typename Work>
+double milliseconds_of(Work work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return Milliseconds(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A session daemon of our own: root has one in /run, everybody else one in LTTNG_HOME.
+void isolate(const fs::path& directory) {
+  setenv("LTTNG_HOME", directory.c_str(), 1);
+  if (geteuid() == 0 && (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+                         mount("tmpfs", "/run", "tmpfs", 0, "mode=1777") != 0)) {
+    fail("no mount namespace of its own");
+  }
+}
+
+// The process that the command name is the beginning of; zero when there is none. Names end after 15 characters.
+pid_t process_named(const std::string& name) {
+  for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+    std::string found;
+    if (std::getline(std::ifstream(entry.path() / "comm"), found) && found == name &&
+        fs::read_symlink(entry.path() / "ns" / "mnt") == fs::read_symlink("/proc/self/ns/mnt")) {
+      return std::stoi(entry.path().filename());
+    }
+  }
+  return 0;
+}
+
+// Processor time that the process has used, in seconds (proc(5), fields 14 and 15 of stat).
+double cpu_seconds(pid_t pid) {
+  std::ifstream file(fmt::format("/proc/{}/stat", pid));
+  std::string word;
+  double ticks = 0;
+  for (int field = 1; file >> word; ++field) {
+    if (field == 14 || field == 15) {
+      ticks += std::stod(word);
+    }
+  }
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+// Starts all nodes at once and returns, when the last has ended, how many events they fired.
+long run_nodes(const Load& load, int seconds) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    fail("no pipe");
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  std::string rate = std::to_string(load.events_per_second / load.nodes);
+  std::string duration = std::to_string(seconds);
+  std::string program = TRACED_NODE_PROGRAM;
+  for (int i = 0; i < load.nodes; ++i) {
+    char* const argv[] = {program.data(), rate.data(), duration.data(), nullptr};
+    pid_t pid = -1;
+    if (posix_spawn(&pid, argv[0], &actions, nullptr, argv, environ) != 0) {
+      fail("cannot start " + program);
+    }
+  }
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  long fired = 0;
+  FILE* const answers = fdopen(ends[0], "r");
+  for (long count = 0; std::fscanf(answers, "%ld", &count) == 1;) {
+    fired += count;
+  }
+  std::fclose(answers);
+  for (int i = 0; i < load.nodes; ++i) {
+    int status = 0;
+    wait(&status);
+  }
+  return fired;
+}
+
+struct Bench {
+  Load load;
+  tracing::TraceConfig config;
+  std::unique_ptr<tracing::Tracer> tracer = tracing::make_lttng_tracer();
+
+  double begin(const std::string& name) {
+    config.session_name = name;
+    return milliseconds_of([this] { tracer->start(config); });
+  }
+
+  double end(tracing::LossAccount& losses) {
+    return milliseconds_of([&] { losses = tracer->finish(config, [] { return false; }); });
+  }
+
+  void setup_and_teardown() {
+    tracing::LossAccount losses;
+    const double cold = begin("cold");
+    end(losses);
+    std::vector<double> warm;
+    std::vector<double> ended;
+    for (int run = 0; run < kWarmRuns; ++run) {
+      warm.push_back(begin(fmt::format("warm{}", run)));
+      // As the launcher does while nodes run.
+      std::thread flush([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        if (std::system(TRACE_PROBE_PROGRAM) != 0) {
+          fail("failed: " TRACE_PROBE_PROGRAM);
+        }
+      });
+      run_nodes({.nodes = 2, .events_per_second = 2000, .seconds = 1}, 1);
+      flush.join();
+      ended.push_back(end(losses));
+    }
+    std::sort(warm.begin(), warm.end());
+    std::sort(ended.begin(), ended.end());
+    fmt::print("what a session adds to a launch\n");
+    fmt::print("  set-up, no session daemon yet      {:8.1f} ms\n", cold);
+    fmt::print("  set-up, median of {}               {:8.1f} ms\n", kWarmRuns, warm[kWarmRuns / 2]);
+    fmt::print("  end, after the last of two nodes   {:8.1f} ms\n", ended[kWarmRuns / 2]);
+  }
+
+  void record(const std::string& name, const std::string& what, int seconds) {
+    begin(name);
+    const pid_t consumer = process_named("lttng-consumerd");
+    const double cpu_before = cpu_seconds(consumer);
+    const auto began = std::chrono::steady_clock::now();
+    const long fired = run_nodes(load, seconds);
+    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    const double cpu = cpu_seconds(consumer) - cpu_before;
+    tracing::LossAccount losses;
+    const double ended = end(losses);
+    fmt::print("{}: {} nodes, {} events in {:.1f} s ({:.0f} per second)\n", what, load.nodes, fired, took,
+               static_cast<double>(fired) / took);
+    fmt::print("  lost                               {:8}\n", losses.discarded_events());
+    fmt::print("  consumer, of one processor         {:8.1f} %\n", 100 * cpu / took);
+    fmt::print("  end, after the last node           {:8.1f} ms\n", ended);
+    fs::remove_all(config.trace_directory());
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Bench bench;
+  const auto argument = [&](int index, auto& value) {
+    if (argc > index) {
+      value = static_cast<std::remove_reference_t<decltype(value)>>(std::atol(argv[index]));
+    }
+  };
+  argument(1, bench.load.nodes);
+  argument(2, bench.load.events_per_second);
+  argument(3, bench.load.seconds);
+  argument(4, bench.config.subbuffer_size_ust);
+  argument(5, bench.config.subbuffer_count_ust);
+  argument(6, bench.config.read_timer_ust);
+  std::string directory = (fs::temp_directory_path() / "bench_trace_load-XXXXXX").string();
+  if (mkdtemp(directory.data()) == nullptr) {
+    fail("cannot create " + directory);
+  }
+  isolate(directory);
+  bench.config.base_path = directory;
+  try {
+    bench.setup_and_teardown();
+    bench.record("startup", "start-up", 0);
+    bench.record("load", "load", bench.load.seconds);
+  } catch (const tracing::TraceError& error) {
+    fail(error.what());
+  }
+  kill(process_named("lttng-sessiond"), SIGTERM);
+  fs::remove_all(directory);
+}

@@ -1,0 +1,221 @@
+// What <trace> does in a launch: the launcher's own events, processes that stay out, snapshots when something goes
+// wrong.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test_support;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class TraceControl : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& actions) const {
+    const fs::path path = sandbox_.directory() / name;
+    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
+    return path.string();
+  }
+
+  // The lines that babeltrace2 prints for events whose name begins with `prefix`.
+  static std::vector<std::string> events(const fs::path& directory, const std::string& prefix) {
+    const CommandResult read = run_command({"babeltrace2", directory.string()});
+    EXPECT_EQ(read.exit_code, 0) << read.err;
+    std::vector<std::string> lines;
+    std::istringstream out(read.out);
+    for (std::string line; std::getline(out, line);) {
+      const std::size_t end = line.find(": {");
+      if (end != std::string::npos && line.substr(line.rfind(' ', end) + 1).starts_with(prefix)) lines.push_back(line);
+    }
+    return lines;
+  }
+
+  // The directories of the snapshots of a session.
+  std::vector<fs::path> snapshots(const std::string& session) const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(sandbox_.trace_directory() / session)) {
+      found.push_back(entry.path());
+    }
+    return found;
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(TraceControl, WhatTheLauncherDoesIsInTheTraceWithTheLineThatAskedForIt) {
+  const std::string part = write("part.launch.xml", R"xml(<executable name="second" cmd="true"/>)xml");
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run"/>
+<include file="part.launch.xml"/>
+<executable name="first" cmd="false" respawn="true" respawn_max_retries="1"/>
+<executable name="lasting" cmd="sleep 1000"/>
+<timer period="0.3"><shutdown/></timer>)xml");
+  const CommandResult result = run_command({.argv = {LAUNCH_PROGRAM, file}, .directory = sandbox_.directory()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+
+  const std::vector<std::string> lines = events(sandbox_.trace_directory() / "run", "launch:");
+  const auto of = [&lines](const std::string& event) {
+    std::vector<std::string> found;
+    for (const std::string& line : lines) {
+      if (line.find(" launch:" + event + ": {") != std::string::npos) found.push_back(line);
+    }
+    return found;
+  };
+  const auto place = [](const std::string& path, int line) {
+    return "file = \"" + path + "\", line = " + std::to_string(line) + " }";
+  };
+  ASSERT_THAT(of("load"), SizeIs(1));
+  EXPECT_THAT(of("load")[0], AllOf(HasSubstr("name = \"" + file + "\""), ContainsRegex("duration = [1-9][0-9]+")));
+  ASSERT_THAT(of("include"), SizeIs(1));
+  EXPECT_THAT(of("include")[0], AllOf(HasSubstr("name = \"part.launch.xml\""), HasSubstr(place(file, 3))));
+  EXPECT_THAT(of("visit"), SizeIs(2)) << "the file, and the timer's children";
+  EXPECT_THAT(of("spawn"), SizeIs(3));
+  ASSERT_THAT(of("exec"), SizeIs(4)) << "one runs twice";
+  EXPECT_THAT(of("exec")[0], AllOf(HasSubstr("process = \"second-1\""), HasSubstr(place(part, 2))));
+  ASSERT_THAT(of("respawn"), SizeIs(1));
+  EXPECT_THAT(of("respawn")[0],
+              AllOf(HasSubstr("process = \"first-2\""), HasSubstr("exit_code = 1"), HasSubstr(place(file, 4))));
+  EXPECT_THAT(of("exit"), SizeIs(4));
+  ASSERT_THAT(of("signal"), SizeIs(1));
+  EXPECT_THAT(of("signal")[0], AllOf(HasSubstr("process = \"lasting-3\""), HasSubstr("signal = 2")));
+  EXPECT_THAT(lines.back(), AllOf(HasSubstr("launch:exit"), HasSubstr("exit_code = -2")));
+}
+
+TEST_F(TraceControl, LaunchEventsCanBeLeftOut) {
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run" launch-events="false"/>
+<executable cmd="sh -c ')xml" TRACED_APP R"xml( 3 10 &lt;/dev/null'"/>)xml");
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, file}).exit_code, 0);
+  EXPECT_THAT(events(sandbox_.trace_directory() / "run", "launch:"), IsEmpty());
+  EXPECT_THAT(events(sandbox_.trace_directory() / "run", "ros2:"), SizeIs(4));
+}
+
+TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
+  const std::string app = std::string("sh -c '") + TRACED_APP + " 3 10 &lt;/dev/null'";
+  const std::string file =
+      write("system.launch.xml",
+            "<trace session-name=\"run\" events-ust=\"*\" nodes=\"loud other\"/>\n<executable name=\"loud\" cmd=\"" +
+                app + "\"/>\n<executable name=\"quiet\" cmd=\"" + app +
+                "\"/>\n<executable name=\"other\" trace=\"false\" cmd=\"" + app + "\"/>");
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, file}).exit_code, 0);
+  std::map<std::string, std::string> pids;  // of the applications, by label
+  EXPECT_THAT(events(sandbox_.trace_directory() / "run", "ros2:"), SizeIs(4)) << "of one of three";
+  std::set<std::string> processes;
+  for (const std::string& line : events(sandbox_.trace_directory() / "run", "")) {
+    const std::size_t begin = line.find("procname = \"") + 12;
+    processes.insert(line.substr(begin, line.find('"', begin) - begin));
+  }
+  EXPECT_EQ(processes.count("traced_app"), 1u);
+}
+
+TEST_F(TraceControl, NodesThatNothingIsCalledAreWarnedOf) {
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run" nodes="talkr"/>
+<executable name="talker" cmd="true"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("[WARNING] [launch.trace]: nothing that is launched now is called 'talkr', which "
+                                    "'nodes' names"));
+}
+
+// Twenty processes die within a second. Each fires its last event just before: it is in a snapshot.
+TEST_F(TraceControl, TheLastEventBeforeEachOfTwentyCrashesIsInASnapshot) {
+  std::string actions =
+      "<trace session-name=\"run\" snapshot-on-crash=\"true\" snapshot-limit=\"40\" events-ust=\"ros2:*\"/>\n";
+  constexpr int kCrashes = 20;
+  for (int i = 0; i < kCrashes; ++i) {
+    actions += "<timer period=\"" + std::to_string(0.3 + i * 0.03) + "\"><executable name=\"c" + std::to_string(i) +
+               "\" cmd=\"" TRACED_APP " 1 " + std::to_string(i) + " abort\"/></timer>\n";
+  }
+  const CommandResult result = run_command({LAUNCH_PROGRAM, write("system.launch.xml", actions)});
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_THAT(result.out, ContainsRegex("snapshot written to: .*/run/snapshot-.* \\(c[0-9]+-[0-9]+ died of SIGABRT"));
+
+  std::set<std::size_t> seen;  // by the length of the text in the last event
+  for (const fs::path& snapshot : snapshots("run")) {
+    EXPECT_THAT(read_file(snapshot / "verdict.json"), HasSubstr("died of SIGABRT"));
+    for (const std::string& line : events(snapshot, "ros2:rclcpp_callback_register")) {
+      const std::size_t begin = line.find("symbol = \"") + 10;
+      seen.insert(line.find('"', begin) - begin);
+    }
+  }
+  EXPECT_THAT(seen, SizeIs(kCrashes));
+}
+
+TEST_F(TraceControl, NoMoreSnapshotsAreKeptThanAskedFor) {
+  std::string actions = "<trace session-name=\"run\" snapshot-on-crash=\"true\" snapshot-limit=\"2\"/>\n";
+  for (int i = 0; i < 5; ++i) {
+    actions += "<timer period=\"" + std::to_string(0.2 + i * 0.2) +
+               "\"><executable cmd=\"" TRACED_APP " 1 5 abort\"/></timer>\n";
+  }
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, write("system.launch.xml", actions)}).exit_code, 0);
+  EXPECT_THAT(snapshots("run"), SizeIs(2));
+}
+
+TEST_F(TraceControl, SnapshotsAreTakenOnASignalAndOnAnEvent) {
+  const std::string file =
+      write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-signal="SIGUSR1" events-ust="ros2:*"
+       snapshot-on-events="'ros2:rclcpp_callback_register if callback == 2'"/>
+<executable name="app" output="screen" cmd=")xml" TRACED_APP R"xml( 1 10"/>
+<timer period="0.2"><executable name="late" output="screen" cmd=")xml" TRACED_APP R"xml( 2 10"/></timer>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("(event ros2:rclcpp_callback_register if callback == 2)")) << run.out() << run.err();
+  run.send_signal(SIGUSR1);
+  ASSERT_TRUE(run.wait_for_output("(SIGUSR1)")) << run.out() << run.err();
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+  EXPECT_THAT(snapshots("run"), SizeIs(testing::Ge(2u)));
+  EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, testing::Not(HasSubstr("run:")));
+}
+
+TEST_F(TraceControl, AKilledLauncherLeavesNoTriggerAndNoSession) {
+  const std::string file =
+      write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-events="ros2:rcl_init"/>
+<executable name="app" output="screen" cmd=")xml" TRACED_APP R"xml( 1 10"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("(event ros2:rcl_init)")) << run.out() << run.err();
+  EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, HasSubstr("run:0"));
+  run.send_signal(SIGKILL);
+  EXPECT_EQ(run.wait().signal, SIGKILL);
+  while (true) {  // the guardian and what it ends become ours; the session daemon stays
+    const CommandResult sessions = run_command({"lttng", "list"});
+    if (sessions.out.find("Currently no available recording session") != std::string::npos) break;
+    ASSERT_EQ(sessions.exit_code, 0) << sessions.err;
+  }
+  for (std::string triggers = "run:"; triggers.find("run:") != std::string::npos;) {
+    triggers = run_command({"lttng", "list-triggers"}).out;
+  }
+}
+
+TEST_F(TraceControl, TheNetworkExampleSendsItsTraceToTheRelayDaemon) {
+  const fs::path relayed = sandbox_.directory() / "relayed";
+  ASSERT_EQ(run_command({"lttng-relayd", "--daemonize", "--output=" + relayed.string()}).exit_code, 0);
+  for (const std::string format : {"xml", "yaml"}) {
+    const CommandResult result = run_command({LAUNCH_PROGRAM, EXAMPLES_DIRECTORY "/25_network.launch." + format});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.out, HasSubstr("trace written to: net://127.0.0.1"));
+    EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+    EXPECT_FALSE(events(relayed, "ros2:rcl_node_init").empty());
+    fs::remove_all(relayed);
+  }
+}
+
+TEST_F(TraceControl, WhatSnapshotsAreTakenOnIsChecked) {
+  const std::string file =
+      write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-signal="SIGKILL"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(":2:47: error: snapshot-on-signal is expected to be SIGUSR1 or SIGUSR2, got "
+                                    "'SIGKILL'"));
+}
+
+}  // namespace

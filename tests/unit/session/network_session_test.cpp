@@ -1,0 +1,87 @@
+// Traces that go to a relay daemon, and live sessions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tests/unit/session/listed_session.hpp"
+#include "tests/unit/session/trace_reading.hpp"
+#include "tracing/session/tracer.hpp"
+
+namespace {
+
+using test_support::run_command;
+using trace_test::list_session;
+using trace_test::read_trace;
+using trace_test::TracedApp;
+using tracing::TraceConfig;
+using tracing::TraceError;
+
+struct NetworkSession : testing::Test {
+  TraceConfig config() const {
+    TraceConfig made;
+    made.session_name = "run";
+    made.base_path = sandbox.trace_directory();
+    made.url = "net://127.0.0.1";
+    return made;
+  }
+
+  // Answers when the command returns. Ends with the sandbox, as all of LTTng's daemons.
+  void start_relay_daemon() {
+    ASSERT_EQ(run_command({"lttng-relayd", "--daemonize", "--output=" + relayed().string()}).exit_code, 0);
+  }
+  std::filesystem::path relayed() const { return sandbox.directory() / "relayed"; }
+
+  test_support::Sandbox sandbox;
+  std::unique_ptr<tracing::Tracer> tracer = tracing::make_lttng_tracer();
+};
+
+TEST_F(NetworkSession, TheTraceArrivesAtTheRelayDaemon) {
+  start_relay_daemon();
+  EXPECT_EQ(tracer->start(config()).trace_directory, "net://127.0.0.1");
+  TracedApp(25, 10).end();
+  const tracing::LossAccount losses = tracer->finish(config(), [] { return false; });
+  EXPECT_TRUE(losses.complete());
+  EXPECT_EQ(losses.unwritten_verdict, "") << "there is no directory of ours that could hold it";
+  EXPECT_EQ(read_trace(relayed()).events.at("ros2:rclcpp_callback_register"), 25);
+  EXPECT_FALSE(std::filesystem::exists(sandbox.trace_directory() / "run"));
+}
+
+TEST_F(NetworkSession, ALiveSessionHasItsTimerAndIsRelayed) {
+  start_relay_daemon();
+  TraceConfig live = config();
+  live.url.clear();
+  live.live_timer = 100'000;
+  tracer->start(live);
+  EXPECT_EQ(list_session("run").live_timer, 100'000u);
+  TracedApp(25, 10).end();
+  tracer->finish(live, [] { return false; });
+  EXPECT_EQ(read_trace(relayed()).events.at("ros2:rclcpp_callback_register"), 25);
+}
+
+TEST_F(NetworkSession, SnapshotsAreRelayed) {
+  start_relay_daemon();
+  TraceConfig snapshots = config();
+  snapshots.snapshot_mode = true;
+  tracer->start(snapshots);
+  TracedApp app(25, 10);
+  tracer->record_snapshot("run");
+  tracer->finish(snapshots, [] { return false; });
+  app.end();
+  EXPECT_EQ(read_trace(relayed()).events.at("ros2:rclcpp_callback_register"), 25);
+}
+
+TEST_F(NetworkSession, WithoutARelayDaemonItIsAnErrorThatSaysSo) {
+  try {
+    tracer->start(config());
+    FAIL() << "no error";
+  } catch (const TraceError& error) {
+    EXPECT_STREQ(error.what(), "cannot create ust channel 'ros2': Unable to connect to lttng-relayd");
+    EXPECT_EQ(error.remedy(), "start a relay daemon there: lttng-relayd --daemonize");
+  }
+  EXPECT_EQ(trace_test::listed_sessions(), "");
+}
+
+}  // namespace

@@ -1,0 +1,225 @@
+// What may go wrong around a session: each is one clear error, blocks nobody, and leaves no session.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tests/unit/session/listed_session.hpp"
+#include "tests/unit/session/trace_reading.hpp"
+#include "tracing/session/context_check.hpp"
+#include "tracing/session/session_daemon.hpp"
+#include "tracing/session/tracer.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::HasSubstr;
+using trace_test::listed_sessions;
+using trace_test::read_trace;
+using trace_test::TracedApp;
+using tracing::LossAccount;
+using tracing::TraceConfig;
+using tracing::TraceError;
+
+bool never() {
+  return false;
+}
+
+struct RobustControl : testing::Test {
+  TraceConfig config(const std::string& name = "run") const {
+    TraceConfig made;
+    made.session_name = name;
+    made.base_path = sandbox.trace_directory();
+    return made;
+  }
+
+  // "what\nremedy" of the error that `work` throws.
+  template <typename Work>
+  static std::string error_of(Work work) {
+    try {
+      work();
+    } catch (const TraceError& error) {
+      return std::string(error.what()) + "\n" + error.remedy();
+    }
+    return "no error";
+  }
+
+  // The processes of this test with this name.
+  static std::vector<pid_t> processes(const std::string& name) {
+    std::vector<pid_t> found;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+      std::string comm;
+      std::getline(std::ifstream(entry.path() / "comm") >> std::ws, comm);
+      if (comm == name &&
+          fs::read_symlink(entry.path() / "ns" / "net", ignored) == fs::read_symlink("/proc/self/ns/net")) {
+        found.push_back(std::stoi(entry.path().filename()));
+      }
+    }
+    return found;
+  }
+
+  // Kills them and waits until they have gone.
+  static void kill_processes(const std::string& name) {
+    for (const pid_t pid : processes(name)) {
+      const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+      kill(pid, SIGKILL);
+      pollfd death{pidfd, POLLIN, 0};
+      EXPECT_EQ(poll(&death, 1, 10000), 1);
+      close(pidfd);
+    }
+  }
+
+  test_support::Sandbox sandbox;
+  std::unique_ptr<tracing::Tracer> tracer = tracing::make_lttng_tracer();
+};
+
+TEST_F(RobustControl, AKilledConsumerIsAnErrorAndBlocksNoApplication) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  tracer->start(config());
+  TracedApp app(10, 10);
+  kill_processes("lttng-consumerd");
+  app.fire_again();
+  app.end();
+  const std::string error = error_of([this] { tracer->finish(config(), never); });
+  EXPECT_THAT(error, HasSubstr("run"));
+  EXPECT_NE(error, "no error");
+  EXPECT_EQ(listed_sessions(), "");
+}
+
+TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndDoesNotBlock) {
+  tracer->start(config());
+  TracedApp app(10, 10);
+  const std::string home = std::string(getenv("LTTNG_HOME")) + "/.lttng";
+  const pid_t pid = std::stoi(test_support::read_file((geteuid() == 0 ? "/run/lttng" : home) + "/lttng-sessiond.pid"));
+  kill(pid, SIGSTOP);
+  ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);
+  EXPECT_EQ(error_of([this] { tracer->finish(config(), never); }),
+            "the LTTng session daemon (process " + std::to_string(pid) +
+                ") is stopped and answers nobody\ncontinue it with `kill -CONT " + std::to_string(pid) + "`");
+  kill(pid, SIGCONT);
+  tracer->finish(config(), never);
+  app.end();
+  EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 10);
+}
+
+TEST_F(RobustControl, AFullDiskIsSaidAndTheSessionEnds) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root no small file system can be mounted";
+  fs::create_directories(sandbox.trace_directory());
+  ASSERT_EQ(mount("tmpfs", sandbox.trace_directory().c_str(), "tmpfs", 0, "size=256k"), 0);
+  const TraceConfig full = config();
+  tracer->start(full);
+  TracedApp app(2000, 200);
+  app.fire_again();
+  app.end();
+  const LossAccount losses = tracer->finish(full, never);
+  EXPECT_FALSE(losses.complete());
+  EXPECT_EQ(losses.damage,
+            "the file system of " + full.trace_directory() + " is full: events are missing, nobody knows how many");
+  EXPECT_EQ(listed_sessions(), "");
+  umount2(sandbox.trace_directory().c_str(), MNT_DETACH);
+}
+
+TEST_F(RobustControl, SharedMemoryThatCannotBeWrittenIsAnErrorBeforeAnythingIsCreated) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm can't be made read-only";
+  ASSERT_EQ(mount(nullptr, "/dev/shm", nullptr, MS_REMOUNT | MS_RDONLY, nullptr), 0);
+  EXPECT_EQ(error_of([this] { tracer->start(config()); }),
+            "userspace events need shared memory, but /dev/shm cannot be written: Read-only file system\n"
+            "mount a tmpfs there that all users can write to; containers have one unless it was taken away");
+  ASSERT_EQ(mount(nullptr, "/dev/shm", nullptr, MS_REMOUNT, nullptr), 0);
+  EXPECT_FALSE(fs::exists(config().trace_directory()));
+}
+
+TEST_F(RobustControl, LittleSharedMemoryMakesTheBuffersSmallerWithAWarning) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm can't be made small";
+  ASSERT_EQ(mount(nullptr, "/dev/shm", nullptr, MS_REMOUNT, "size=3m"), 0);
+  const auto warnings = tracer->start(config()).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("sub-buffers are made smaller"));
+  const auto size = trace_test::list_session("run").channel("ros2").subbuffer_size;
+  EXPECT_LT(size, TraceConfig().subbuffer_size_ust);
+  TracedApp(20, 100).end();
+  tracer->finish(config(), never);
+  EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 20);
+}
+
+TEST_F(RobustControl, TwoThatStartTheDaemonAtOnceBothGetTheirSession) {
+  const auto start = [this](const std::string& name) {
+    return test_support::Command{.argv = {TRACE_COMMAND, "start", name, "-p", sandbox.trace_directory().string()}};
+  };
+  for (int round = 0; round < 5; ++round) {
+    test_support::RunningCommand first(start("first"));
+    test_support::RunningCommand second(start("second"));
+    const auto first_result = first.wait();
+    const auto second_result = second.wait();
+    ASSERT_EQ(first_result.exit_code, 0) << first_result.err;
+    ASSERT_EQ(second_result.exit_code, 0) << second_result.err;
+    for (const std::string name : {"first", "second"}) {
+      ASSERT_TRUE(trace_test::list_session(name).active);
+      tracer->finish(config(name), never);
+    }
+    sandbox.end_processes();
+    fs::remove_all(sandbox.trace_directory());
+  }
+}
+
+TEST_F(RobustControl, FiveHundredProcessesAreAllRecorded) {
+  TraceConfig many = config();
+  tracer->start(many);
+  constexpr int kProcesses = 500;
+  const auto result = test_support::run_command({.argv = {"sh", "-c",
+                                                          "for i in $(seq " + std::to_string(kProcesses) + "); do " +
+                                                              TRACED_APP + " 1 10 >/dev/null & done; wait"},
+                                                 // However busy the machine is: this is about the daemon's descriptors.
+                                                 .environment = {{"LTTNG_UST_REGISTER_TIMEOUT", "-1"}}},
+                                                std::chrono::seconds(60));
+  const LossAccount losses = tracer->finish(many, never);
+  EXPECT_EQ(losses.discarded_events(), 0u);
+  EXPECT_EQ(read_trace(many.trace_directory()).events["ros2:rcl_init"], kProcesses);
+}
+
+TEST_F(RobustControl, TheConsumerIsPreferredWherePermitted) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root no process can be preferred";
+  tracer->start(config());
+  const std::vector<pid_t> consumers = processes("lttng-consumerd");
+  EXPECT_FALSE(consumers.empty());
+  for (const pid_t consumer : consumers) {
+    for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(consumer) + "/task")) {
+      EXPECT_EQ(getpriority(PRIO_PROCESS, static_cast<id_t>(std::stoi(thread.path().filename()))), -10);
+    }
+  }
+  tracer->finish(config(), never);
+}
+
+TEST_F(RobustControl, ContextFieldsAreTriedByRecordingOneEvent) {
+  tracing::ensure_session_daemon();
+  EXPECT_TRUE(tracing::records_an_event({"vpid"}, TRACE_PROBE));
+  // A raw counter that no processor has: LTTng accepts it and records nothing.
+  EXPECT_FALSE(tracing::records_an_event({"perf:thread:raw:rffffffffffff:NONE"}, TRACE_PROBE));
+  EXPECT_EQ(listed_sessions(), "");
+}
+
+TEST_F(RobustControl, AWrongUserIsToldWhoseSessionItIs) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because only root has a session daemon that others can't use";
+  tracer->start(config());
+  const auto result = test_support::run_command(
+      {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", TRACE_COMMAND, "stop", "run"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("error: "));
+  EXPECT_THAT(result.err, HasSubstr("hint: "));
+  EXPECT_TRUE(trace_test::list_session("run").active) << "it is as it was";
+  tracer->finish(config(), never);
+}
+
+}  // namespace

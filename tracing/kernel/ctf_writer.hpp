@@ -1,0 +1,58 @@
+// Writes events of the kernel as a CTF 1.8 trace, as LTTng's kernel tracer would: one stream file per processor, domain
+// "kernel", the clock of a userspace trace beside it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tracing/kernel/event_format.hpp"
+
+namespace tracing::kernel {
+
+// CLOCK_MONOTONIC, and how far it is behind the time of day.
+struct TraceClock {
+  std::string uuid;
+  std::int64_t offset = 0;  // nanoseconds
+};
+
+// The clock of the userspace trace in `directory` (its metadata), so that both are put in one order by their raw time
+// stamps; one of our own when there is none.
+TraceClock clock_beside(const std::filesystem::path& directory);
+
+class CtfWriter {
+ public:
+  // The directory must exist. Throws std::system_error when a file can't be written.
+  CtfWriter(std::filesystem::path directory, const std::vector<EventFormat>& formats);
+
+  // One page of a processor's ring buffer becomes one packet. Pages of a processor come in their order.
+  void write_page(unsigned cpu, std::span<const std::uint8_t> page);
+  void write_metadata(const TraceClock& clock) const;
+
+  std::uint64_t events() const { return events_; }
+  std::uint64_t lost_events() const { return lost_events_; }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct Stream {
+    std::uint64_t packets = 0;
+    std::uint64_t discarded = 0;
+  };
+
+  void append_record(std::string& packet, std::uint64_t time, std::span<const std::uint8_t> record);
+
+  std::filesystem::path directory_;
+  std::unordered_map<std::uint16_t, EventFormat> formats_;
+  std::array<std::uint8_t, 16> uuid_{};
+  std::map<unsigned, Stream> streams_;
+  std::uint64_t events_ = 0;
+  std::uint64_t lost_events_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace tracing::kernel

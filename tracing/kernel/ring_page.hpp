@@ -1,0 +1,21 @@
+// A page of the kernel's trace ring buffer, as `trace_pipe_raw` gives it (Documentation/trace/ring-buffer-design.rst
+// and events/header_page, events/header_event of tracefs).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace tracing::kernel {
+
+struct RingPage {
+  std::uint64_t begin = 0;         // clock of the instance, of the first record
+  std::uint64_t end = 0;           // of the last one
+  std::uint64_t lost_records = 0;  // between the page before and this one; 1 when the kernel doesn't know how many
+};
+
+// Calls `record` for each record of the page, with its time and its bytes. A page that is cut off ends where it is.
+RingPage read_ring_page(std::span<const std::uint8_t> page,
+                        const std::function<void(std::uint64_t time, std::span<const std::uint8_t> record)>& record);
+
+}  // namespace tracing::kernel

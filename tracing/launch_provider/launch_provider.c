@@ -1,0 +1,34 @@
+#include "launch_provider.h"
+
+#define LTTNG_UST_TRACEPOINT_CREATE_PROBES
+#define LTTNG_UST_TRACEPOINT_DEFINE
+#include "tracepoints.h"
+
+__attribute__((visibility("default"))) void launch_trace_fire(const struct launch_trace_event* e) {
+  switch (e->kind) {
+    case LAUNCH_TRACE_LOAD:
+      lttng_ust_tracepoint(launch, load, e->time, e->duration, e->name, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_INCLUDE:
+      lttng_ust_tracepoint(launch, include, e->time, e->duration, e->name, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_VISIT:
+      lttng_ust_tracepoint(launch, visit, e->time, e->duration, e->name, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_SPAWN:
+      lttng_ust_tracepoint(launch, spawn, e->time, e->name, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_EXEC:
+      lttng_ust_tracepoint(launch, exec, e->time, e->name, e->pid, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_EXIT:
+      lttng_ust_tracepoint(launch, exit, e->time, e->name, e->pid, e->value, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_RESPAWN:
+      lttng_ust_tracepoint(launch, respawn, e->time, e->name, e->pid, e->value, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_SIGNAL:
+      lttng_ust_tracepoint(launch, signal, e->time, e->name, e->value, e->file, e->line);
+      break;
+  }
+}

@@ -1,0 +1,40 @@
+/* The only function of liblaunch_trace.so, which the launcher opens when a session records: so it has neither LTTng-UST
+   nor its threads without one. */
+#pragma once
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum launch_trace_kind {
+  LAUNCH_TRACE_LOAD,
+  LAUNCH_TRACE_INCLUDE,
+  LAUNCH_TRACE_VISIT,
+  LAUNCH_TRACE_SPAWN,
+  LAUNCH_TRACE_EXEC,
+  LAUNCH_TRACE_EXIT,
+  LAUNCH_TRACE_RESPAWN,
+  LAUNCH_TRACE_SIGNAL
+};
+
+struct launch_trace_event {
+  enum launch_trace_kind kind;
+  int64_t time;     /* CLOCK_MONOTONIC, ns */
+  int64_t duration; /* ns */
+  const char* name; /* a path or a process label */
+  const char* file;
+  uint32_t line;
+  int32_t pid;
+  int32_t value; /* an exit code or a signal */
+};
+
+/* Fires the event of provider `launch` of this kind. Callable from any thread, does not block. */
+void launch_trace_fire(const struct launch_trace_event* event);
+
+typedef void (*launch_trace_fire_function)(const struct launch_trace_event*);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,17 @@
+// The one event of launch-trace-probe.
+#undef LTTNG_UST_TRACEPOINT_PROVIDER
+#define LTTNG_UST_TRACEPOINT_PROVIDER launch_probe
+
+#undef LTTNG_UST_TRACEPOINT_INCLUDE
+#define LTTNG_UST_TRACEPOINT_INCLUDE "probe_tracepoints.h"
+
+#if !defined(LAUNCH_PROBE_TRACEPOINTS_H) || defined(LTTNG_UST_TRACEPOINT_HEADER_MULTI_READ)
+#define LAUNCH_PROBE_TRACEPOINTS_H
+
+#include <lttng/tracepoint.h>
+
+LTTNG_UST_TRACEPOINT_EVENT(launch_probe, fired, LTTNG_UST_TP_ARGS(void), LTTNG_UST_TP_FIELDS())
+
+#endif
+
+#include <lttng/tracepoint-event.h>

@@ -1,0 +1,82 @@
+// Provider `launch`: what the launcher does. `time` is CLOCK_MONOTONIC in nanoseconds of when it happened or began,
+// `duration` nanoseconds: what comes before the session exists is fired once it does. `file` and `line` are the place
+// in the launch file that asked for it, "" and 0 without one.
+#undef LTTNG_UST_TRACEPOINT_PROVIDER
+#define LTTNG_UST_TRACEPOINT_PROVIDER launch
+
+#undef LTTNG_UST_TRACEPOINT_INCLUDE
+#define LTTNG_UST_TRACEPOINT_INCLUDE "tracepoints.h"
+
+#if !defined(LAUNCH_PROVIDER_TRACEPOINTS_H) || defined(LTTNG_UST_TRACEPOINT_HEADER_MULTI_READ)
+#define LAUNCH_PROVIDER_TRACEPOINTS_H
+
+#include <lttng/tracepoint.h>
+#include <stdint.h>
+
+LTTNG_UST_TRACEPOINT_EVENT_CLASS(
+    launch, step,
+    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*, file, uint32_t, line),
+    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time)
+                            lttng_ust_field_integer(int64_t, duration, duration) lttng_ust_field_string(name, name)
+                                lttng_ust_field_string(file, file) lttng_ust_field_integer(uint32_t, line, line)))
+
+LTTNG_UST_TRACEPOINT_EVENT_CLASS(launch, exit_class,
+                                 LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
+                                                   exit_code, const char*, file, uint32_t, line),
+                                 LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time)
+                                                         lttng_ust_field_string(process, process)
+                                                             lttng_ust_field_integer(int32_t, pid, pid)
+                                                                 lttng_ust_field_integer(int32_t, exit_code, exit_code)
+                                                                     lttng_ust_field_string(file, file)
+                                                                         lttng_ust_field_integer(uint32_t, line, line)))
+
+// A launch file was read and checked.
+LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, load,
+                                    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
+                                                      file, uint32_t, line))
+
+// Another launch file was included: read, checked and visited.
+LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, include,
+                                    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
+                                                      file, uint32_t, line))
+
+// The actions of the launch file, or of a timer, were visited.
+LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, visit,
+                                    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
+                                                      file, uint32_t, line))
+
+// A process is about to be started; its label is known once it runs.
+LTTNG_UST_TRACEPOINT_EVENT(
+    launch, spawn, LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, file, uint32_t, line),
+    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
+                            lttng_ust_field_string(file, file) lttng_ust_field_integer(uint32_t, line, line)))
+
+// Its program runs.
+LTTNG_UST_TRACEPOINT_EVENT(
+    launch, exec,
+    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, const char*, file, uint32_t, line),
+    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
+                            lttng_ust_field_integer(int32_t, pid, pid) lttng_ust_field_string(file, file)
+                                lttng_ust_field_integer(uint32_t, line, line)))
+
+// It has ended; -N when by signal N.
+LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, exit_class, launch, exit,
+                                    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
+                                                      exit_code, const char*, file, uint32_t, line))
+
+// It has ended and will be started again.
+LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, exit_class, launch, respawn,
+                                    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
+                                                      exit_code, const char*, file, uint32_t, line))
+
+// A signal was sent to the process and its group.
+LTTNG_UST_TRACEPOINT_EVENT(
+    launch, signal,
+    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, signal_number, const char*, file, uint32_t, line),
+    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
+                            lttng_ust_field_integer(int32_t, signal, signal_number) lttng_ust_field_string(file, file)
+                                lttng_ust_field_integer(uint32_t, line, line)))
+
+#endif
+
+#include <lttng/tracepoint-event.h>

@@ -1,0 +1,52 @@
+#include "tracing/session/consumer_priority.hpp"
+
+#include <sys/resource.h>
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kConsumer = "lttng-consumerd";
+
+pid_t number_of(const fs::path& path) {
+  const std::string name = path.filename();
+  pid_t number = 0;
+  std::from_chars(name.data(), name.data() + name.size(), number);
+  return number;
+}
+
+// Whether the process is a consumer of the daemon, from /proc/PID/stat, proc(5): "pid (name) state parent …".
+bool is_consumer_of(const fs::path& process, pid_t daemon) {
+  std::ifstream file(process / "stat");
+  std::string line;
+  std::getline(file, line);
+  const std::size_t open = line.find('(');
+  const std::size_t close = line.rfind(')');
+  if (open == std::string::npos || close == std::string::npos || close + 4 >= line.size()) return false;
+  return line.substr(open + 1, close - open - 1) == kConsumer && std::atoi(line.c_str() + close + 4) == daemon;
+}
+
+}  // namespace
+
+bool prefer_consumers(pid_t daemon) {
+  bool preferred = false;
+  std::error_code none;
+  for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
+    if (number_of(process.path()) <= 0 || !is_consumer_of(process.path(), daemon)) continue;
+    // On Linux a nice value belongs to a thread.
+    for (const fs::directory_entry& thread : fs::directory_iterator(process.path() / "task", none)) {
+      const auto id = static_cast<id_t>(number_of(thread.path()));
+      if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0) return false;
+      preferred = true;
+    }
+  }
+  return preferred;
+}
+
+}  // namespace tracing

@@ -1,0 +1,91 @@
+#include "tracing/session/flight_recorder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "tracing/session/snapshot.hpp"
+#include "tracing/session/tracer.hpp"
+#include "tracing/session/verdict.hpp"
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// LTTng numbers the snapshots of a session in their names: snapshot-20261121-190000-17.
+long number_of(const fs::path& snapshot) {
+  const std::string name = snapshot.filename();
+  const std::size_t digits = name.rfind('-') + 1;
+  long number = -1;
+  std::from_chars(name.data() + digits, name.data() + name.size(), number);
+  return number;
+}
+
+// From the oldest to the newest.
+std::vector<fs::path> snapshots_in(const fs::path& directory) {
+  std::vector<fs::path> snapshots;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, none)) {
+    if (entry.path().filename().string().starts_with(std::string(kSnapshotName) + "-")) {
+      snapshots.push_back(entry.path());
+    }
+  }
+  std::sort(snapshots.begin(), snapshots.end(),
+            [](const fs::path& a, const fs::path& b) { return number_of(a) < number_of(b); });
+  return snapshots;
+}
+
+}  // namespace
+
+FlightRecorder::FlightRecorder(const TraceConfig& config, std::function<void(const TakenSnapshot&)> told)
+    : config_(config), told_(std::move(told)), thread_([this] { work(); }) {}
+
+FlightRecorder::~FlightRecorder() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void FlightRecorder::request(const std::string& reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    requested_.push_back(reason);
+  }
+  changed_.notify_one();
+}
+
+void FlightRecorder::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || !requested_.empty(); });
+    if (requested_.empty()) return;
+    std::vector<std::string> reasons = std::exchange(requested_, {});
+    lock.unlock();
+    told_(take(std::move(reasons)));
+    lock.lock();
+  }
+}
+
+TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
+  TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .error = {}};
+  try {
+    record_snapshot(config_.lttng_session_name());
+    if (config_.over_network()) return taken;
+    std::vector<fs::path> snapshots = snapshots_in(config_.trace_directory());
+    if (snapshots.empty()) throw TraceError("LTTng has written no snapshot");
+    taken.directory = snapshots.back();
+    write_snapshot_verdict(taken.directory, config_.lttng_session_name(), taken.reasons);
+    for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
+      fs::remove_all(snapshots[oldest]);
+    }
+  } catch (const std::exception& error) {
+    taken.error = error.what();
+  }
+  return taken;
+}
+
+}  // namespace tracing

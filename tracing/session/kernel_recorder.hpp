@@ -1,0 +1,25 @@
+// Records events of the kernel without LTTng's modules: runs launch-kernel-recorder beside a session.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/session/channel_plan.hpp"
+#include "tracing/session/tracer.hpp"
+
+namespace tracing {
+
+inline constexpr const char* kKernelRecorder = "launch-kernel-recorder";
+
+// Starts it for the kernel channels of `plans`, writing to `recording`/kernel. Returns when it records. Throws
+// TraceError.
+void start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
+                           const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans);
+
+// Ends the recorder of `recording`, waits until everything is written, and returns what it has recorded and lost.
+// Nothing when none runs there.
+std::optional<ChannelLoss> finish_kernel_recorder(const std::filesystem::path& recording);
+
+}  // namespace tracing
