@@ -19,6 +19,10 @@ bool is_read_in(const LaunchDescription& description, const std::string& name) {
     return false;
   }
   const std::string& text = description.file->text();
+  if (description.file->path().ends_with(".py")) {
+    return text.find(fmt::format("'{}'", name)) != std::string::npos ||
+           text.find(fmt::format("\"{}\"", name)) != std::string::npos;
+  }
   return text.find(fmt::format("$(var {})", name)) != std::string::npos ||
          text.find(fmt::format("$(var {} ", name)) != std::string::npos;
 }

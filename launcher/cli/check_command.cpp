@@ -153,7 +153,8 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     for (const auto& [name, value] : target.arguments) {
       context.scope().configurations.insert_or_assign(name, value);
     }
-    const auto description = load_launch_files(find_launch_files(target.words, context.scope()), registry);
+    const auto description =
+        load_launch_files(find_launch_files(target.words, context.scope()), registry, context.scope());
     const std::string dot = plan_as_dot(plan_launch(context, *description));
     const std::string text = format == "svg" ? dot_as_svg(dot) : dot;
     if (output.empty()) {

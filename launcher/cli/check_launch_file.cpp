@@ -31,8 +31,12 @@ class Checker {
 
   std::vector<Diagnostic> run(const std::string& path) {
     try {
-      const auto description = load_launch_files({path}, registry_);
-      check(*description);
+      LaunchContext context(registry_, environment_, own_install_prefix(), [](auto, auto, auto) {});
+      context.scope().warn = [this](const SourceRange& where, const std::string& text) { warn(text, where); };
+      for (const auto& [name, value] : options_.arguments) {
+        context.scope().configurations.insert_or_assign(name, value);
+      }
+      check(*load_launch_files({path}, registry_, context.scope()), context);
     } catch (const LaunchError& error) {
       add(error);
     }
@@ -59,12 +63,7 @@ class Checker {
     add({Severity::kWarning, std::move(message), where, std::move(help)});
   }
 
-  void check(const LaunchDescription& description) {
-    LaunchContext context(registry_, environment_, own_install_prefix(), [](auto, auto, auto) {});
-    context.scope().warn = [this](const SourceRange& where, const std::string& text) { warn(text, where); };
-    for (const auto& [name, value] : options_.arguments) {
-      context.scope().configurations.insert_or_assign(name, value);
-    }
+  void check(const LaunchDescription& description, LaunchContext& context) {
     const ArgumentList list = find_arguments(description, registry_, context.scope());
     if (options_.strict_ros2) {
       std::vector<const LaunchDescription*> all = {&description};

@@ -103,7 +103,7 @@ class Completer {
 
   // "name:=", and after that the choices of the argument.
   Words arguments_of(const Words& target, const std::string& current) {
-    const auto description = load_launch_files(find_launch_files(target, scope_), registry_);
+    const auto description = load_launch_files(find_launch_files(target, scope_), registry_, scope_);
     Words words;
     for (const ArgumentInfo& info : find_arguments(*description, registry_, scope_).arguments) {
       const std::string begin = info.declaration->name + ":=";

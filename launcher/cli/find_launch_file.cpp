@@ -79,15 +79,15 @@ std::vector<std::string> find_launch_files(const std::vector<std::string>& words
 }
 
 std::shared_ptr<const LaunchDescription> load_launch_files(const std::vector<std::string>& paths,
-                                                           const Registry& registry) {
+                                                           const Registry& registry, const Scope& scope) {
   std::vector<std::shared_ptr<const LaunchDescription>> descriptions;
   for (const std::string& path : paths) {
     if (path == kStandardInput) {
       std::string text(std::istreambuf_iterator<char>(std::cin), {});
       descriptions.push_back(
-          parse_launch_description(std::make_shared<SourceFile>("standard input", std::move(text)), registry));
+          parse_launch_description(std::make_shared<SourceFile>("standard input", std::move(text)), registry, scope));
     } else {
-      descriptions.push_back(load_launch_description(path, registry));
+      descriptions.push_back(load_launch_description(path, registry, scope));
     }
   }
   return descriptions.size() == 1 ? descriptions.front() : join_launch_descriptions(std::move(descriptions));

@@ -17,6 +17,6 @@ std::vector<std::string> find_launch_files(const std::vector<std::string>& words
 // Loads what find_launch_files() has found: several files are one description, which visits them in turn. Throws
 // LaunchError.
 std::shared_ptr<const LaunchDescription> load_launch_files(const std::vector<std::string>& paths,
-                                                           const Registry& registry);
+                                                           const Registry& registry, const Scope& scope);
 
 }  // namespace launch

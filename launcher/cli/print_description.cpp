@@ -27,6 +27,10 @@ class Printer {
   explicit Printer(const std::vector<std::shared_ptr<const LaunchDescription>>& loaded) : loaded_(loaded) {}
 
   void file(const std::shared_ptr<const SourceFile>& source, const std::string& indent) {
+    if (source->path().ends_with(".py")) {
+      text += indent + "└── (what its Python code makes)\n";
+      return;
+    }
     children(load_entity_tree(source).children, indent);
   }
 

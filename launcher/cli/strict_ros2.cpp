@@ -80,7 +80,7 @@ class Walk {
 
 std::vector<Diagnostic> beyond_ros2(const LaunchDescription& description, const Registry& registry) {
   Walk walk(registry);
-  if (description.file != nullptr) {
+  if (description.file != nullptr && !description.file->path().ends_with(".py")) {
     walk.actions(load_entity_tree(description.file).children);
   }
   return std::move(walk.found);
