@@ -36,14 +36,33 @@ std::vector<std::string> tags_of(const std::vector<ItemSpec>& items) {
   return tags;
 }
 
-bool accepts(AttributeType type, const Scalar& scalar) {
+bool accepts(const AttributeSpec& spec, const Scalar& scalar) {
   using Type = Scalar::Type;
+  const AttributeType type = spec.type;
   if (scalar.type == Type::kUntyped || scalar.type == Type::kString) {
     return true;
+  }
+  if (spec.extension && type == AttributeType::kText) {
+    return scalar.type == Type::kInt || scalar.type == Type::kFloat;  // `exit_code: 0` needs no quotes
   }
   return (type == AttributeType::kBoolean && scalar.type == Type::kBool) ||
          (type == AttributeType::kFloat && scalar.type == Type::kFloat) ||
          (type == AttributeType::kInteger && scalar.type == Type::kInt);
+}
+
+// Whether a list holds what a Python launch file gives as the words of a command line.
+bool is_made(const std::vector<Value>& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [](const Value& word) { return word.scalar() != nullptr && word.scalar()->made != nullptr; });
+}
+
+std::string literal_text(const Template& given, const Attribute& attribute) {
+  if (!given.is_literal()) {
+    throw LaunchError(fmt::format("attribute '{}' can't be a substitution", attribute.name), given.where(),
+                      "it must be known before anything is visited: use a text");
+  }
+  Scope nothing;
+  return given.perform(nothing);
 }
 
 std::string help_for_type(AttributeType type, const Value& value) {
@@ -105,6 +124,9 @@ std::vector<ActionPtr> ActionParser::parse_actions(const std::vector<Entity>& en
 }
 
 ActionPtr ActionParser::parse_action(const Entity& entity) {
+  if (entity.made != nullptr) {
+    return entity.made;
+  }
   const ActionType* const type = registry_.find(entity.type_name);
   if (type == nullptr) {
     std::vector<std::string> tags;
@@ -130,7 +152,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
                                    [&](const ItemSpec& spec) { return spec.tag == child.type_name; });
     if (item != type->items.end()) {
       parse_item(child, *item, fields);
-    } else if (type->holds_actions && registry_.find(child.type_name) != nullptr) {
+    } else if (type->holds_actions && (child.made != nullptr || registry_.find(child.type_name) != nullptr)) {
       if (ActionPtr action = parse_action(child)) {
         fields.actions_.push_back(std::move(action));
       }
@@ -204,19 +226,27 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
   if (spec.type == AttributeType::kParameter) {
     return attribute.value;
   }
+  const bool takes_words = spec.type == AttributeType::kWords || spec.type == AttributeType::kCommandLine;
+  if (takes_words && attribute.value.list() != nullptr && is_made(*attribute.value.list())) {
+    std::vector<Template> words;
+    for (const Value& word : *attribute.value.list()) {
+      words.push_back(*word.scalar()->made);
+    }
+    return words;
+  }
   if (spec.type == AttributeType::kWords && attribute.value.list() != nullptr) {
     return words_of_list(entity, attribute);
   }
   const Scalar* const scalar = attribute.value.scalar();
-  if (scalar == nullptr || !accepts(spec.type, *scalar)) {
+  if (scalar == nullptr || !accepts(spec, *scalar)) {
     throw LaunchError(fmt::format("attribute '{}' of '{}' is expected to be of type {}, got {}", attribute.name,
                                   entity.type_name, expected_kind(spec.type), kind_of(attribute.value)),
                       attribute.value.where, help_for_type(spec.type, attribute.value));
   }
   if (spec.type == AttributeType::kLiteral) {
-    return unescape(scalar->text.text());
+    return scalar->made != nullptr ? literal_text(*scalar->made, attribute) : unescape(scalar->text.text());
   }
-  Template parsed = parse_template(scalar->text);
+  Template parsed = scalar->made != nullptr ? *scalar->made : parse_template(scalar->text);
   switch (spec.type) {
     case AttributeType::kBoolean:
       return BooleanField(std::move(parsed));

@@ -25,7 +25,7 @@ class EntityBuilder {
       return entity;
     }
     if (document.entries.size() > 1) {
-      const auto other = std::find_if(document.entries.begin() + 1, document.entries.end(),
+      const auto other = std::find_if(document.entries.begin(), document.entries.end(),
                                       [](const YamlEntry& entry) { return entry.key.scalar.text.text() != "launch"; });
       error(fmt::format("expected only the root key 'launch', found {} keys", document.entries.size()),
             other->key.where, "indent what belongs to 'launch'");

@@ -135,6 +135,20 @@ TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
             "      = help: add respawn_delay, the first delay in seconds");
 }
 
+TEST(EventHandlersText, NumbersNeedNoQuotesInYaml) {
+  const auto planned = plan_text(R"(launch:
+- executable: {cmd: a, cpus: 0, memory_limit: 4096}
+- on_process_exit:
+    exit_code: -9
+    children:
+    - signal: {process: a, signal: 10}
+)");
+  EXPECT_EQ(planned.error, "");
+  EXPECT_THAT(lines_of(planned.plan),
+              ElementsAre("on_process_exit of any process with exit code -9:", "  signal a 10"));
+  EXPECT_THAT(describe(planned.plan.processes.at(0).limits), ElementsAre("cpus 0", "memory 4096 bytes"));
+}
+
 TEST(EventHandlersText, EndsAtShutdownWithoutTraces) {
   EXPECT_EQ(error_of("<on_shutdown><trace session-name=\"late\"/></on_shutdown>"),
             "/test/system.launch.xml:2:15: error: a trace can't begin when the system ends\n"

@@ -52,8 +52,11 @@ TEST_F(ExecutorTest, SpinAllStopsAfterItsTime) {
   executor_.add_node(node_);
   int calls = 0;
   auto timer = eager_timer([&calls] { ++calls; });
-  executor_.spin_all(milliseconds(5));
-  EXPECT_GT(calls, 1);
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (calls < 10 && std::chrono::steady_clock::now() < give_up) {
+    executor_.spin_all(milliseconds(5));  // returns, though there is always more
+  }
+  EXPECT_GE(calls, 10);
   EXPECT_THROW(executor_.spin_all(nanoseconds(-1)), std::invalid_argument);
 }
 

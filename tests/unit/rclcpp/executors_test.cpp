@@ -91,8 +91,11 @@ TYPED_TEST(ExecutorsTest, SpinAllStopsAfterItsTime) {
   this->executor_.add_node(this->node_);
   int calls = 0;
   auto timer = this->eager_timer([&calls] { ++calls; });
-  this->executor_.spin_all(milliseconds(5));
-  EXPECT_GT(calls, 1);
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (calls < 10 && std::chrono::steady_clock::now() < give_up) {
+    this->executor_.spin_all(milliseconds(5));  // returns, though there is always more
+  }
+  EXPECT_GE(calls, 10);
   EXPECT_THROW(this->executor_.spin_all(nanoseconds(-1)), std::invalid_argument);
 }
 
@@ -103,8 +106,11 @@ TYPED_TEST(ExecutorsTest, SpinNodeOnceAndSomeAndAllServeANodeForAWhile) {
   EXPECT_EQ(calls, 1);
   this->executor_.spin_node_some(this->node_);
   EXPECT_EQ(calls, 2);
-  this->executor_.spin_node_all(this->node_, milliseconds(2));
-  EXPECT_GT(calls, 2);
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (calls < 3 && std::chrono::steady_clock::now() < give_up) {
+    this->executor_.spin_node_all(this->node_, milliseconds(2));
+  }
+  EXPECT_GE(calls, 3);
   const int before = calls;
   this->executor_.spin_some();
   EXPECT_EQ(calls, before);
