@@ -88,7 +88,7 @@ ComposableNode ComposableNodes::evaluate(const Description& node, LaunchContext&
   result.name_space = resolve_namespace(node.name_space, scope, node.where).value_or("");
   result.autostart = node.autostart.perform(scope);
   const std::string full_name = qualified_name(result.name_space, result.name);
-  if (!result.name_space.empty()) {
+  if (!result.name_space.empty() && !result.name.empty()) {
     context.note_node(full_name);
   }
   for (const GlobalParameter& parameter : scope.global_parameters) {

@@ -46,12 +46,14 @@ class IncludeLaunchDescription : public Action {
                         "a file includes itself, directly or through others");
     }
     const std::string path = declaration_.file.perform(context.scope());
-    if (path.ends_with(".py")) {
-      note_python_include(path, context);
+    std::error_code ignored;
+    if (path.ends_with(".py") && context.is_plan_only() && !std::filesystem::exists(path, ignored)) {
+      note_missing_python(path, context);
       return;
     }
     const std::int64_t begin = monotonic_time();
-    const auto included = load_launch_description(path, context.registry(), declaration_.file.where());
+    const auto included =
+        load_launch_description(path, context.registry(), context.scope(), declaration_.file.where());
 
     std::vector<std::string> given;
     for (const auto& [name, value] : declaration_.arguments) {
@@ -83,12 +85,10 @@ class IncludeLaunchDescription : public Action {
     }
   }
 
-  // What a Python launch file would do is unknown: a plan goes on without it, whether it is there or not.
-  void note_python_include(const std::string& path, LaunchContext& context) const {
-    context.cannot_run(fmt::format("Python launch files can't be included: {}", path), declaration_.file.where(),
-                       "rewrite it in XML or YAML, or launch it with ros2 launch");
+  // What a Python launch file that is missing would do is unknown: a plan goes on without it.
+  void note_missing_python(const std::string& path, LaunchContext& context) const {
     context.message(LogLevel::kWarning, "launch",
-                    fmt::format("{}: what the Python launch file asks for is not known: {}",
+                    fmt::format("{}: what the Python launch file asks for is not known, it does not exist: {}",
                                 to_string(declaration_.file.where()), path));
     context.requests().python_includes.push_back(std::filesystem::absolute(path).lexically_normal().string());
     set_arguments(context.scope());

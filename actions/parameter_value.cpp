@@ -249,6 +249,10 @@ void ParameterValueSource::take_value(const Value& value) {
     return;
   }
   const Scalar& scalar = *value.scalar();
+  if (scalar.made != nullptr && type_is_list_) {
+    items_.emplace_back(*scalar.made);
+    return;
+  }
   if (scalar.type == Scalar::Type::kUntyped && (type_ == ParameterType::kAny || type_is_list_)) {
     std::optional<Value> typed;
     if (scalar.text.text().empty()) {
@@ -314,7 +318,7 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
     }
     return value;
   }
-  Template parsed = parse_template(scalar.text);
+  Template parsed = scalar.made != nullptr ? *scalar.made : parse_template(scalar.text);
   if (!parsed.is_literal()) {
     return parsed;
   }
@@ -341,13 +345,25 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
   return typed_parameter(text, where);
 }
 
+// The text of a whole list, which only a Python launch file can ask for.
+ParameterValue ParameterValueSource::typed_list(const std::string& text, const SourceRange& where) const {
+  ParameterValue value = typed_parameter(text, where);
+  const auto* const items = std::get_if<std::vector<ParameterScalar>>(&value);
+  if (items == nullptr || !std::all_of(items->begin(), items->end(),
+                                       [this](const ParameterScalar& item) { return has_type(type_, item); })) {
+    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where);
+  }
+  return value;
+}
+
 ParameterValue ParameterValueSource::perform(Scope& scope) const {
   if (!is_list_) {
     if (const auto* const finished = std::get_if<ParameterScalar>(&items_.front())) {
       return *finished;
     }
     const Template& source = std::get<Template>(items_.front());
-    return type_text(source.perform(scope), source.where());
+    return type_is_list_ ? typed_list(source.perform(scope), source.where())
+                         : type_text(source.perform(scope), source.where());
   }
   std::vector<ParameterScalar> values;
   for (const Item& item : items_) {

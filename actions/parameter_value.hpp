@@ -38,6 +38,7 @@ class ParameterValueSource {
   void take_value(const Value& value);
   void take_items(const std::vector<Value>& values);
   ParameterValue type_text(const std::string& text, const SourceRange& where) const;
+  ParameterValue typed_list(const std::string& text, const SourceRange& where) const;
 
   ParameterType type_ = ParameterType::kAny;
   bool type_is_list_ = false;

@@ -76,8 +76,9 @@ void Parameters::perform_tree(const Tree& tree, const std::string& prefix, Scope
     parameters.push_back({name, tree.value->perform(scope)});
     return;
   }
+  // An empty name is that of a whole file: what it holds has no prefix.
   for (const Tree& child : tree.nested) {
-    perform_tree(child, name + ".", scope, parameters);
+    perform_tree(child, name.empty() ? name : name + ".", scope, parameters);
   }
 }
 

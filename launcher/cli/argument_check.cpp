@@ -12,9 +12,14 @@ namespace {
 constexpr std::string_view kOwnConfigurations[] = {"launch-prefix",   "launch-prefix-filter", "sigterm_timeout",
                                                    "sigkill_timeout", "emulate_tty",          "ros_namespace"};
 
-// A configuration may be read without being declared.
+// A configuration may be read without being declared. What a function of a Python file declares or reads can't be known,
+// but it names it.
 bool is_read_in(const LaunchDescription& description, const std::string& name) {
   const std::string& text = description.file->text();
+  if (description.file->path().ends_with(".py")) {
+    return text.find(fmt::format("'{}'", name)) != std::string::npos ||
+           text.find(fmt::format("\"{}\"", name)) != std::string::npos;
+  }
   return text.find(fmt::format("$(var {})", name)) != std::string::npos ||
          text.find(fmt::format("$(var {} ", name)) != std::string::npos;
 }

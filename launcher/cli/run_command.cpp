@@ -15,6 +15,7 @@
 #include "launcher/core/introspection.hpp"
 #include "launcher/core/launch_plan.hpp"
 #include "launcher/core/launch_service.hpp"
+#include "launcher/core/python_launch_file.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros_client/ros_client_process.hpp"
@@ -129,6 +130,9 @@ int run_command(const CommandLine& command, Environment environment) {
   if (command.show_all_output) {
     environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
   }
+  if (command.debug) {
+    show_python_tracebacks();
+  }
   const Registry registry = builtin_actions();
   try {
     LaunchContext context(registry, environment, own_install_prefix(),
@@ -138,7 +142,8 @@ int run_command(const CommandLine& command, Environment environment) {
     set_arguments(command, context.scope());
 
     const std::int64_t begin = monotonic_time();
-    auto description = load_launch_description(find_launch_file(command.target, context.scope()), registry);
+    auto description =
+        load_launch_description(find_launch_file(command.target, context.scope()), registry, context.scope());
     if (!command.arguments.empty()) {
       report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
     }

@@ -50,6 +50,21 @@ bool accepts(const AttributeSpec& spec, const Scalar& scalar) {
          (type == AttributeType::kInteger && scalar.type == Type::kInt);
 }
 
+// Whether a list holds what a Python launch file gives as the words of a command line.
+bool is_made(const std::vector<Value>& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [](const Value& word) { return word.scalar() != nullptr && word.scalar()->made != nullptr; });
+}
+
+std::string literal_text(const Template& given, const Attribute& attribute) {
+  if (!given.is_literal()) {
+    throw LaunchError(fmt::format("attribute '{}' can't be a substitution", attribute.name), given.where(),
+                      "it must be known before anything is visited: use a text");
+  }
+  Scope nothing;
+  return given.perform(nothing);
+}
+
 std::string help_for_type(AttributeType type, const Value& value) {
   const Scalar* const scalar = value.scalar();
   if (scalar == nullptr || scalar->type == Scalar::Type::kNull) {
@@ -109,6 +124,9 @@ std::vector<ActionPtr> ActionParser::parse_actions(const std::vector<Entity>& en
 }
 
 ActionPtr ActionParser::parse_action(const Entity& entity) {
+  if (entity.made != nullptr) {
+    return entity.made;
+  }
   const ActionType* const type = registry_.find(entity.type_name);
   if (type == nullptr) {
     std::vector<std::string> tags;
@@ -134,7 +152,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
                                    [&](const ItemSpec& spec) { return spec.tag == child.type_name; });
     if (item != type->items.end()) {
       parse_item(child, *item, fields);
-    } else if (type->holds_actions && registry_.find(child.type_name) != nullptr) {
+    } else if (type->holds_actions && (child.made != nullptr || registry_.find(child.type_name) != nullptr)) {
       if (ActionPtr action = parse_action(child)) {
         fields.actions_.push_back(std::move(action));
       }
@@ -208,6 +226,14 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
   if (spec.type == AttributeType::kParameter) {
     return attribute.value;
   }
+  const bool takes_words = spec.type == AttributeType::kWords || spec.type == AttributeType::kCommandLine;
+  if (takes_words && attribute.value.list() != nullptr && is_made(*attribute.value.list())) {
+    std::vector<Template> words;
+    for (const Value& word : *attribute.value.list()) {
+      words.push_back(*word.scalar()->made);
+    }
+    return words;
+  }
   if (spec.type == AttributeType::kWords && attribute.value.list() != nullptr) {
     return words_of_list(entity, attribute);
   }
@@ -218,9 +244,9 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
                       attribute.value.where, help_for_type(spec.type, attribute.value));
   }
   if (spec.type == AttributeType::kLiteral) {
-    return unescape(scalar->text.text());
+    return scalar->made != nullptr ? literal_text(*scalar->made, attribute) : unescape(scalar->text.text());
   }
-  Template parsed = parse_template(scalar->text);
+  Template parsed = scalar->made != nullptr ? *scalar->made : parse_template(scalar->text);
   switch (spec.type) {
     case AttributeType::kBoolean:
       return BooleanField(std::move(parsed));

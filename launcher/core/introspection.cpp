@@ -55,7 +55,7 @@ class Walk {
   void include(const IncludeDeclaration& declaration, std::set<std::string> given, bool conditional, int depth) {
     std::shared_ptr<const LaunchDescription> included;
     try {
-      included = load_launch_description(declaration.file.perform(scope_), registry_, declaration.where);
+      included = load_launch_description(declaration.file.perform(scope_), registry_, scope_, declaration.file.where());
       for (const auto& [name, value] : declaration.arguments) {
         given.insert(name.perform(scope_));
       }

@@ -55,6 +55,13 @@ void LaunchContext::visit(const LaunchDescription& description, const std::funct
   }
   AtExit restore([this, outer = scope_.current_file] { scope_.current_file = outer; });
   scope_.current_file = description.file;
+  for (const auto& [name, value] : description.environment_changes) {
+    if (value) {
+      scope_.environment.insert_or_assign(name, *value);
+    } else {
+      scope_.environment.erase(name);
+    }
+  }
   if (before) {
     before();
   }

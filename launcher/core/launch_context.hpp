@@ -83,6 +83,7 @@ class LaunchContext {
 
   // From now on nothing of what is visited will be carried out: what cannot_run() is only noted.
   void plan_only() { plan_only_ = true; }
+  bool is_plan_only() const { return plan_only_; }
   // For what a launch file may ask for and this launcher can't carry out: throws LaunchError, before anything has been
   // started, unless the visit is only to know what would run.
   void cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const;
@@ -103,6 +104,11 @@ class LaunchContext {
 
   void message(LogLevel level, std::string_view logger, std::string_view text) { messages_(level, logger, text); }
 
+  // What PushEnvironment or PushLaunchConfigurations of a Python launch file have put by, the last one at the end.
+  std::vector<Scope>& kept_scopes(bool environment) {
+    return environment ? pushed_environments_ : pushed_configurations_;
+  }
+
   // Counts a node by its fully qualified name and warns when there are several.
   void note_node(const std::string& fully_qualified_name);
 
@@ -114,6 +120,8 @@ class LaunchContext {
   Scope scope_;
   Requests requests_;
   bool plan_only_ = false;
+  std::vector<Scope> pushed_environments_;
+  std::vector<Scope> pushed_configurations_;
   RosClient* ros_client_ = nullptr;
   std::unordered_map<std::string, int> nodes_;
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -13,6 +14,9 @@
 #include "launcher/base/source.hpp"
 
 namespace launch {
+
+class Action;
+class Template;
 
 // One scalar. XML gives only kUntyped; YAML gives the types of YAML 1.1 as PyYAML's safe loader resolves them.
 struct Scalar {
@@ -23,6 +27,9 @@ struct Scalar {
   bool bool_value = false;
   std::int64_t int_value = 0;
   double float_value = 0.0;
+  // Given by Python launch files alone: the substitutions that a template would have been parsed to. `text` only
+  // describes them.
+  std::shared_ptr<const Template> made;
 };
 
 // The value of an attribute: a scalar, or (YAML only) a list, possibly nested.
@@ -52,6 +59,8 @@ struct Entity {
   bool has_children_list = true;
   // True for an item of a YAML list that is named by its key, as `param: [{...}]`. XML does not tell: always false.
   bool is_structured_item = false;
+  // Given by Python launch files alone: an action that no tag can say. The rest is empty then.
+  std::shared_ptr<const Action> made;
 
   const Attribute* find(std::string_view name) const;
 };

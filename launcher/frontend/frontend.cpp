@@ -21,10 +21,6 @@ bool looks_like_xml(std::string_view text) {
 
 Entity load_entity_tree(const std::shared_ptr<const SourceFile>& file) {
   const std::string_view path = file->path();
-  if (path.ends_with(".py")) {
-    throw LaunchError("Python launch files can't be loaded", {file, 0, 0},
-                      "only XML and YAML launch files are supported: rewrite it, or launch it with ros2 launch");
-  }
   // The content decides, whatever the suffix; an empty file is reported in the format that its suffix promises.
   const bool blank = file->text().find_first_not_of(" \t\r\n") == std::string::npos;
   const bool xml_suffix = path.ends_with(".xml") || path.ends_with(".launch");

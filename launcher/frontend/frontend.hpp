@@ -10,7 +10,7 @@ namespace launch {
 
 // Parses XML or YAML by the content of the file: XML begins with "<", and YAML launch files can't. So a file whose
 // suffix names the other format loads as well, as in ROS 2, which tries the formats in turn. Returns the root entity,
-// type_name "launch". Throws LaunchError with every syntax error found. A `.py` file is refused with a clear error.
+// type_name "launch". Throws LaunchError with every syntax error found.
 Entity load_entity_tree(const std::shared_ptr<const SourceFile>& file);
 
 Entity parse_xml(const std::shared_ptr<const SourceFile>& file);   // xml_frontend.cpp

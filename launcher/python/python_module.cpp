@@ -1,9 +1,15 @@
-// liblaunch_python.so: CPython for $(eval …). Loaded with dlopen on first use, so that launching without Python
-// expressions costs and needs no Python.
+// liblaunch_python.so: CPython for $(eval …) and Python launch files. Loaded with dlopen on first use, so that
+// launching without Python costs and needs no Python.
+#include <dlfcn.h>
 #include <pybind11/embed.h>
 
+#include <filesystem>
 #include <sstream>
 #include <string>
+
+#include "launcher/python/entity_reader.hpp"
+#include "launcher/python/python_failure.hpp"
+#include "launcher/python/python_runtime.hpp"
 
 namespace py = pybind11;
 
@@ -15,6 +21,8 @@ void start_interpreter() {
   PyConfig_InitPythonConfig(&config);
   config.install_signal_handlers = 0;
   config.parse_argv = 0;
+  config.buffered_stdio = 0;  // what a launch file prints appears among the launcher's own lines
+  config.write_bytecode = 0;  // no __pycache__ beside the user's files
   // Else the first python3 on the PATH would tell where the standard library is, whatever version it has.
   PyConfig_SetBytesString(&config, &config.program_name, LAUNCH_PYTHON_PROGRAM);
   const PyStatus status = Py_InitializeFromConfig(&config);
@@ -24,10 +32,17 @@ void start_interpreter() {
   }
 }
 
-std::string evaluate(const char* expression, const char* modules) {
-  if (Py_IsInitialized() == 0) {
-    start_interpreter();
+// The folder `python` beside this library, with the packages that launch files import.
+std::string package_directory() {
+  Dl_info info;
+  if (::dladdr(reinterpret_cast<void*>(&start_interpreter), &info) == 0) {
+    return {};
   }
+  std::error_code ignored;
+  return (std::filesystem::absolute(info.dli_fname, ignored).parent_path() / "python").string();
+}
+
+std::string evaluate(const std::string& expression, const std::string& modules) {
   py::dict names;
   names["__builtins__"] = py::module_::import("builtins");
   std::istringstream list(modules);
@@ -52,23 +67,45 @@ std::string evaluate(const char* expression, const char* modules) {
   return py::str(py::module_::import("builtins").attr("eval")(expression, names));
 }
 
+class CPython : public launch::python::Runtime {
+ public:
+  std::string evaluate(const std::string& expression, const std::string& modules) override {
+    start();
+    try {
+      return ::evaluate(expression, modules);
+    } catch (py::error_already_set& error) {
+      // "NameError: name 'x' is not defined", without the traceback.
+      throw std::runtime_error(error.type().attr("__name__").cast<std::string>() + ": " +
+                               py::str(error.value()).cast<std::string>());
+    }
+  }
+
+  std::vector<launch::python::Entity> load(const std::string& path, const std::string& text,
+                                           launch::python::Host& host) override {
+    start();
+    return launch::python::run_python(host, [&] {
+      if (!packages_found_) {
+        // In front of everything: an installed ROS 2 has packages of the same names.
+        py::module_::import("sys").attr("path").attr("insert")(0, package_directory());
+        packages_found_ = true;
+      }
+      return launch::python::read_entities(py::module_::import("launch._load").attr("load")(path, text));
+    });
+  }
+
+ private:
+  static void start() {
+    if (Py_IsInitialized() == 0) {
+      start_interpreter();
+    }
+  }
+
+  bool packages_found_ = false;
+};
+
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) bool launch_evaluate_python(const char* expression,
-                                                                              const char* modules,
-                                                                              std::string* result) {
-  try {
-    *result = evaluate(expression, modules);
-    return true;
-  } catch (py::error_already_set& error) {
-    // "NameError: name 'x' is not defined", without the traceback.
-    try {
-      *result = error.type().attr("__name__").cast<std::string>() + ": " + py::str(error.value()).cast<std::string>();
-    } catch (const std::exception&) {
-      *result = "a Python error that can't be shown";
-    }
-  } catch (const std::exception& error) {
-    *result = error.what();
-  }
-  return false;
+extern "C" __attribute__((visibility("default"))) launch::python::Runtime* launch_python_runtime() {
+  static auto* const runtime = new CPython;
+  return runtime;
 }

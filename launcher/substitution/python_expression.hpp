@@ -10,12 +10,4 @@ namespace launch {
 // Not for several threads at once.
 std::string evaluate_python(const std::string& expression, const std::string& modules);
 
-// Where the module liblaunch_python.so is loaded from, instead of ../lib/launch beside the program's directory.
-// For programs that are not installed; counts until the first expression.
-void use_python_module(std::string path);
-
-// What the module exports: the value, or on failure the error; false on failure.
-using PythonEvaluate = bool (*)(const char* expression, const char* modules, std::string* result);
-constexpr const char* kPythonEvaluateSymbol = "launch_evaluate_python";
-
 }  // namespace launch

@@ -121,19 +121,18 @@ TEST(ComposableNodes, ItemsAreCheckedLikeActions) {
                   HasSubstr("unexpected nested tag 'parm' in 'composable_node'"), HasSubstr("did you mean 'param'?")));
 }
 
-TEST(PythonIncludes, AreNotedByAPlanAndRefusedByARun) {
+TEST(PythonIncludes, ThatAreMissingAreNotedByAPlanAndRefusedByARun) {
   const std::string text = R"xml(<include file="/nowhere/x.launch.py"><arg name="a" value="1"/></include>)xml";
   const Planned planned = plan_actions(text + "<log message=\"$(var a)\"/>");
   EXPECT_EQ(planned.error, "");
   EXPECT_THAT(planned.plan.python_includes, ElementsAre("/nowhere/x.launch.py"));
   EXPECT_THAT(planned.plan.logs, ElementsAre("1"));
   EXPECT_EQ(run_error(text),
-            "/test/system.launch.xml:2:16: error: Python launch files can't be included: /nowhere/x.launch.py\n"
+            "/test/system.launch.xml:2:16: error: can't read launch file '/nowhere/x.launch.py': No such file or directory\n"
             "    2 | " +
                 text +
                 "\n"
-                "      |                ^~~~~~~~~~~~~~~~~~~~\n"
-                "      = help: rewrite it in XML or YAML, or launch it with ros2 launch");
+                "      |                ^~~~~~~~~~~~~~~~~~~~");
 }
 
 }  // namespace

@@ -32,14 +32,14 @@ class LaunchFiles : public testing::Test {
   }
 
   std::string show(const std::string& path) {
-    return show_arguments(find_arguments(*load_launch_description(path, registry_), registry_, scope_));
+    return show_arguments(find_arguments(*load_launch_description(path, registry_, scope_), registry_, scope_));
   }
 
   // What the visit of a file ends with: "" or the error.
   std::string visit(const std::string& path) {
     LaunchContext context(registry_, {}, "", [](LogLevel, std::string_view, std::string_view) {});
     try {
-      plan_launch(context, *load_launch_description(path, registry_));
+      plan_launch(context, *load_launch_description(path, registry_, context.scope()));
     } catch (const LaunchError& error) {
       return error.what();
     }
@@ -128,7 +128,7 @@ TEST_F(LaunchFiles, IncludesAreNoScopeAndRestoreTheirDirectory) {
     <include file="$(dirname)/child.launch.xml"/>
     <executable cmd="$(var a) $(var set) $(filename)"/>)xml");
   LaunchContext context(registry_, {}, "", [](LogLevel, std::string_view, std::string_view) {});
-  const LaunchPlan plan = plan_launch(context, *load_launch_description(main, registry_));
+  const LaunchPlan plan = plan_launch(context, *load_launch_description(main, registry_, context.scope()));
   EXPECT_THAT(plan.processes.at(0).argv, testing::ElementsAre("p", "by child", main));
 }
 

@@ -106,14 +106,6 @@ TEST(MalformedFiles, EmptyOnesAreRefused) {
             "      = help: a launch file begins with 'launch:'\n");
 }
 
-TEST(MalformedFiles, PythonOnesAreRefused) {
-  EXPECT_EQ(load_error(file_of("a.launch.py", "import launch\n")),
-            "a.launch.py:1:1: error: Python launch files can't be loaded\n"
-            "    1 | import launch\n"
-            "      | ^\n"
-            "      = help: only XML and YAML launch files are supported: rewrite it, or launch it with ros2 launch\n");
-}
-
 TEST(MalformedFiles, GiveNoMoreThanTwentyErrors) {
   std::string text = "<launch>\n";
   for (int i = 0; i < 1000; ++i) {

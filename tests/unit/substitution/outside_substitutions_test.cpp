@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "launcher/substitution/python_expression.hpp"
+#include "launcher/substitution/python_module.hpp"
 #include "tests/unit/substitution/template_test.hpp"
 
 namespace launch {

@@ -238,7 +238,8 @@ class Recorder {
     interval.end = seconds(now - start_);
     interval.length = seconds(now - last_);
     last_ = now;
-    if (interval.end > settings_.ignore) {
+    // By its middle: the timer is never quite on time.
+    if (interval.end - interval.length / 2 > settings_.ignore) {
       add(whole_, interval);
       whole_.length += interval.length;
       whole_.end = interval.end;

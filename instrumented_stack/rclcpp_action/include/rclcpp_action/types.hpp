@@ -25,13 +25,7 @@ void convert(const rcl_action_goal_info_t& info, GoalUUID* goal_id);
 
 }  // namespace rclcpp_action
 
-template <>
-struct std::less<rclcpp_action::GoalUUID> {
-  bool operator()(const rclcpp_action::GoalUUID& one, const rclcpp_action::GoalUUID& other) const noexcept {
-    return one < other;
-  }
-};
-
+// std::less works as it is.
 template <>
 struct std::hash<rclcpp_action::GoalUUID> {
   std::size_t operator()(const rclcpp_action::GoalUUID& goal_id) const noexcept {

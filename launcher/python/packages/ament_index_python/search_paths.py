@@ -1,0 +1,10 @@
+"""The prefixes that are searched."""
+
+import os
+
+
+def get_search_paths():
+    prefixes = os.environ.get('AMENT_PREFIX_PATH', '')
+    if not prefixes:
+        raise OSError("environment variable 'AMENT_PREFIX_PATH' is not set or empty")
+    return [prefix for prefix in prefixes.split(os.pathsep) if prefix and os.path.isdir(prefix)]

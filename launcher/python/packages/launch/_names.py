@@ -1,0 +1,32 @@
+"""The import names of ROS 2's packages that hold one class each."""
+
+import sys
+
+
+def same_module(module, *names):
+    """Makes a module importable by other names as well."""
+    for name in names:
+        sys.modules[name] = sys.modules[module]
+
+
+def snake_case(name):
+    """ExecuteProcess is execute_process, SetROSLogDir set_ros_log_dir."""
+    result = ''
+    for index, character in enumerate(name):
+        before, after = name[index - 1:index], name[index + 1:index + 2]
+        if character.isupper() and before and (not before.isupper() or after.islower()):
+            result += '_'
+        result += character.lower()
+    return result
+
+
+def one_class_modules(module_name):
+    """
+    Each class of the module can be imported from a module of its own, too.
+
+    So that `from launch.actions.execute_process import ExecuteProcess` means what it means in ROS 2.
+    """
+    module = sys.modules[module_name]
+    for name, value in list(vars(module).items()):
+        if isinstance(value, type) and name[0] != '_':
+            sys.modules.setdefault(f'{module_name}.{snake_case(name)}', module)

@@ -1,0 +1,113 @@
+"""
+Where in a launch file something is: (file, line, first byte, end byte).
+
+The instruction that makes an object tells the position of the call; the syntax tree of the file, read when the first
+place of it is asked for, tells where the name that is called and the arguments are.
+"""
+
+import os
+import sys
+
+_OWN_PACKAGES = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
+
+_sources = {}
+_positions = {}
+_calls = {}
+
+
+def note_source(filename, source):
+    """The text of a launch file, as it was read."""
+    _sources[filename] = source
+    _calls.pop(filename, None)
+
+
+def is_own(filename):
+    return filename.startswith(_OWN_PACKAGES) or filename.startswith('<')
+
+
+def caller():
+    """The instruction outside these packages that is being executed."""
+    frame = sys._getframe(2)
+    while frame is not None and is_own(frame.f_code.co_filename):
+        frame = frame.f_back
+    return None if frame is None else (frame.f_code, frame.f_lasti, frame.f_lineno)
+
+
+def resolve(instruction):
+    """The place of an instruction; only its line when the interpreter doesn't tell more."""
+    if instruction is None:
+        return None
+    code, offset, line = instruction
+    if hasattr(code, 'co_positions'):
+        positions = _positions.get(code)
+        if positions is None:
+            positions = _positions[code] = list(code.co_positions())
+        first, last, begin, end = positions[offset // 2]
+        if first is not None and begin is not None:
+            return code.co_filename, first, begin, end if last == first else 1 << 30
+    return code.co_filename, line, 0, 0
+
+
+def of_function(function):
+    """The first line of a function; None for what isn't written in Python."""
+    code = getattr(function, '__code__', None)
+    return code and (code.co_filename, code.co_firstlineno, 0, 0)
+
+
+def _call_at(place):
+    """The syntax of the call at a place, or None."""
+    filename = place[0]
+    calls = _calls.get(filename)
+    if calls is None:
+        import ast
+        calls = _calls[filename] = {}
+        try:
+            source = _sources.get(filename)
+            if source is None:
+                with open(filename, 'rb') as file:
+                    source = file.read()
+            # Inner calls that begin where outer ones do, as in a().b(), come later.
+            for node in ast.walk(ast.parse(source)):
+                if isinstance(node, ast.Call):
+                    calls.setdefault((node.lineno, node.col_offset), node)
+        except (OSError, SyntaxError, ValueError):
+            pass
+    return calls.get(place[1:3])
+
+
+def _of_node(filename, node):
+    return filename, node.lineno, node.col_offset, node.end_col_offset if node.end_lineno == node.lineno else 1 << 30
+
+
+class Located:
+    """Remembers where it was made."""
+
+    def __new__(cls, *_args, **_kwargs):
+        self = object.__new__(cls)
+        self._made_at = caller()
+        return self
+
+    def _place(self):
+        """The name that is called to make it."""
+        place = resolve(self._made_at)
+        call = place and _call_at(place)
+        if call is None or call.func.end_lineno != call.lineno:
+            return place
+        return place[:3] + (call.func.end_col_offset,)
+
+    def _place_of(self, argument):
+        """The argument of that name in the call that makes it; None when it can't be told."""
+        place = resolve(self._made_at)
+        call = place and _call_at(place)
+        if call is None:
+            return None
+        for keyword in call.keywords:
+            if keyword.arg == argument:
+                return _of_node(place[0], keyword.value)
+        code = type(self).__init__.__code__
+        names = code.co_varnames[1:code.co_argcount]
+        if argument in names:
+            index = names.index(argument)
+            if index < len(call.args) and not any(type(arg).__name__ == 'Starred' for arg in call.args[:index + 1]):
+                return _of_node(place[0], call.args[index])
+        return None

@@ -1,0 +1,78 @@
+"""Action: one thing that a launch file asks for."""
+
+from launch._entities import entities, entity
+from launch._values import LaunchFileError, reject
+from launch._places import of_function
+from launch.condition import Condition
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+# The arguments of Python that have another name than the attributes of XML.
+_ARGUMENTS = {'args': 'arguments', 'clean_env': 'env', 'default': 'default_value', 'exec': 'executable',
+              'file': 'launch_description_source', 'from': 'src', 'launch-prefix': 'prefix', 'message': 'msg',
+              'pkg': 'package', 'ros_args': 'ros_arguments', 'stderr': 'output', 'stdout': 'output',
+              'target': 'target_container', 'to': 'dst'}
+
+
+class Action(LaunchDescriptionEntity):
+    """
+    To be derived from by launch files: execute() returns the actions to visit in its place.
+
+    The launcher's own actions implement _tags() instead, which gives entities.
+    """
+
+    def __init__(self, *, condition=None, **unknown):
+        reject(type(self), unknown, ['condition'])
+        if condition is not None and not isinstance(condition, Condition):
+            raise LaunchFileError(f'condition of {type(self).__name__} must be a Condition, '
+                                  f'got {type(condition).__name__}', 'write IfCondition(…)')
+        self._condition = condition
+
+    @property
+    def condition(self):
+        return getattr(self, '_condition', None)
+
+    def visit(self, context):
+        if self.condition is None or self.condition.evaluate(context):
+            return self.execute(context)
+        return None
+
+    def execute(self, context):
+        return [_Plain(self)]
+
+    def _with_places(self, attributes):
+        """Attributes with the places of the arguments that they come from."""
+        return [attribute if len(attribute) > 2 or attribute[1] is None else
+                (*attribute, self._place_of(_ARGUMENTS.get(attribute[0]) or attribute[0].replace('-', '_')))
+                for attribute in attributes]
+
+    # Pairs for `if` and `unless`.
+    def _when(self):
+        return [] if self.condition is None else [self.condition._attribute()]
+
+    def _tags(self):
+        raise LaunchFileError(f'{type(self).__name__} has no execute()')
+
+    def _entities(self):
+        if type(self).execute is Action.execute:
+            return self._tags()
+        return [entity('', self._place(), self._when(), obj=self)]
+
+    def _execute(self):
+        from launch.launch_context import LaunchContext
+        return entities(self.execute(LaunchContext._of_launch()), self._place_of_execute())
+
+    def _place_of_execute(self):
+        return of_function(type(self).execute)
+
+
+class _Plain(LaunchDescriptionEntity):
+    """An action of the launcher's without what a derived class makes of it."""
+
+    def __init__(self, action):
+        self._action = action
+
+    def _entities(self):
+        # Its condition has been evaluated.
+        return [(tag, place, [pair for pair in attributes if pair[0] not in ('if', 'unless')], *rest)
+                for tag, place, attributes, *rest in self._action._tags()]

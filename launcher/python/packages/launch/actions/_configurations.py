@@ -1,0 +1,172 @@
+"""Actions on launch arguments, configurations and the environment."""
+
+import _launch_engine
+from launch._entities import entity
+from launch._values import LaunchFileError, boolean, literal, number, pairs, text
+from launch.action import Action
+
+
+class DeclareLaunchArgument(Action):
+    _tag = 'arg'
+
+    def __init__(self, name, *, default_value=None, description=None, choices=None, **kwargs):
+        super().__init__(**kwargs)
+        self.name = name
+        self.choices = None if choices is None else list(choices)
+        self._name = literal(name, 'name')
+        if isinstance(default_value, (bool, int, float)):
+            raise LaunchFileError(f"default_value of '{name}' must be text, got {type(default_value).__name__}",
+                                  f"write '{str(default_value)}'")
+        self._default = None if default_value is None else text(default_value, f"default_value of '{name}'")
+        self._description = None if description is None else text(description, 'description')
+
+    @property
+    def default_value(self):
+        return self._default
+
+    @property
+    def description(self):
+        return self._description or 'no description given'
+
+    def _tags(self):
+        choices = [entity('choice', self._place(), [('value', literal(choice, 'a choice'))])
+                   for choice in self.choices or []]
+        return [entity(self._tag, self._place(),
+                       self._with_places([('name', self._name), ('default', self._default),
+                                          ('description', self._description), *self._when()]), choices)]
+
+
+class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
+    """An argument that is true or false."""
+
+    _tag = 'bool_arg'
+
+    def __init__(self, name, *, default_value=None, **kwargs):
+        if isinstance(default_value, bool):
+            default_value = str(default_value).lower()
+        super().__init__(name, default_value=default_value, **kwargs)
+
+
+class _Simple(Action):
+    """An action whose attributes are known when it is made."""
+
+    def __init__(self, tag, attributes, children=(), **kwargs):
+        super().__init__(**kwargs)
+        self._content = (tag, attributes, children)
+
+    def _tags(self):
+        tag, attributes, children = self._content
+        place = self._place()
+        return [entity(tag, place, self._with_places([*attributes, *self._when()]),
+                       [entity(item, place, item_attributes) for item, item_attributes in children])]
+
+
+def _named(tag, values, what):
+    return [(tag, [('name', name), ('value', value)]) for name, value in pairs(values, what)]
+
+
+class SetLaunchConfiguration(_Simple):
+
+    def __init__(self, name, value, **kwargs):
+        super().__init__('let', [('name', text(name, 'name')), ('value', text(value, 'value'))], **kwargs)
+
+
+class UnsetLaunchConfiguration(_Simple):
+
+    def __init__(self, name, **kwargs):
+        super().__init__('unset', [('name', text(name, 'name'))], **kwargs)
+
+
+class ResetLaunchConfigurations(_Simple):
+
+    def __init__(self, launch_configurations=None, **kwargs):
+        super().__init__('reset', [], _named('keep', dict(launch_configurations or {}).items(),
+                                             'launch_configurations'), **kwargs)
+
+
+class SetEnvironmentVariable(_Simple):
+
+    def __init__(self, name, value, **kwargs):
+        super().__init__('set_env', [('name', text(name, 'name')), ('value', text(value, 'value'))], **kwargs)
+
+
+class UnsetEnvironmentVariable(_Simple):
+
+    def __init__(self, name, **kwargs):
+        super().__init__('unset_env', [('name', text(name, 'name'))], **kwargs)
+
+
+class AppendEnvironmentVariable(_Simple):
+
+    def __init__(self, name, value, prepend=False, separator=':', **kwargs):
+        super().__init__('append_env', [('name', text(name, 'name')), ('value', text(value, 'value')),
+                                        ('prepend', boolean(prepend, 'prepend')),
+                                        ('separator', text(separator, 'separator'))], **kwargs)
+
+
+class ResetEnvironment(_Simple):
+
+    def __init__(self, **kwargs):
+        super().__init__('reset_env', [], **kwargs)
+
+
+class ReplaceEnvironmentVariables(_Simple):
+
+    def __init__(self, environment=None, **kwargs):
+        super().__init__('rep_env', [], _named('env', dict(environment or {}).items(), 'environment'), **kwargs)
+
+
+class TimerAction(Action):
+
+    def __init__(self, *, period, actions, name=None, cancel_on_shutdown=True, **kwargs):
+        super().__init__(**kwargs)
+        self._period = number(period, 'period')
+        self._cancel = boolean(cancel_on_shutdown, 'cancel_on_shutdown')
+        self._actions = actions
+
+    _tag = 'timer'
+
+    @property
+    def actions(self):
+        return self._actions
+
+    def _tags(self):
+        from launch._entities import entities
+        return [entity(self._tag, self._place(),
+                       self._with_places([('period', self._period), ('cancel_on_shutdown', self._cancel),
+                                          *self._when()]),
+                       entities(self._actions, self._place()))]
+
+
+class _OfEngine(Action):
+    """Something that is done to the launch's state."""
+
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+
+    def execute(self, context):
+        self._do()
+
+
+class PushEnvironment(_OfEngine):
+
+    def _do(self):
+        _launch_engine.push(True)
+
+
+class PopEnvironment(_OfEngine):
+
+    def _do(self):
+        _launch_engine.pop(True)
+
+
+class PushLaunchConfigurations(_OfEngine):
+
+    def _do(self):
+        _launch_engine.push(False)
+
+
+class PopLaunchConfigurations(_OfEngine):
+
+    def _do(self):
+        _launch_engine.pop(False)

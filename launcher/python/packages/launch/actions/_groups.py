@@ -1,0 +1,159 @@
+"""Actions that hold others, or that make them when they are visited."""
+
+from launch._entities import entities, entity
+from launch._places import of_function
+from launch._values import LaunchFileError, boolean, pairs, text
+from launch.action import Action
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.utilities import normalize_to_list_of_substitutions
+
+
+class GroupAction(Action):
+
+    def __init__(self, actions, *, scoped=True, forwarding=True, launch_configurations=None, **kwargs):
+        super().__init__(**kwargs)
+        self._actions = actions
+        self._scoped = boolean(scoped, 'scoped')
+        self._forwarding = boolean(forwarding, 'forwarding')
+        self._keep = pairs(dict(launch_configurations or {}).items(), 'launch_configurations')
+
+    def get_sub_entities(self):
+        return self._actions
+
+    def _tags(self):
+        keep = [entity('keep', self._place(), [('name', name), ('value', value)]) for name, value in self._keep]
+        attributes = [] if self._scoped == 'true' else [('scoped', self._scoped)]
+        attributes += [] if self._forwarding == 'true' else [('forwarding', self._forwarding)]
+        return [entity('group', self._place(), [*attributes, *self._when()],
+                       keep + entities(self._actions, self._place()))]
+
+
+class IncludeLaunchDescription(Action):
+
+    def __init__(self, launch_description_source, *, launch_arguments=None, **kwargs):
+        super().__init__(**kwargs)
+        if not isinstance(launch_description_source, LaunchDescriptionSource):
+            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
+        self._source = launch_description_source
+        self._arguments = pairs([] if launch_arguments is None else launch_arguments, 'launch_arguments')
+
+    @property
+    def launch_description_source(self):
+        return self._source
+
+    @property
+    def launch_arguments(self):
+        return self._arguments
+
+    def _tags(self):
+        place = self._place()
+        if self._source._description is not None:
+            arguments = [entity('let', place, [('name', name), ('value', value)]) for name, value in self._arguments]
+            return [entity('group', place, [('scoped', 'false'), *self._when()],
+                           arguments + entities(self._source._description))]
+        arguments = [entity('arg', place, [('name', name), ('value', value)]) for name, value in self._arguments]
+        return [entity('include', place, self._with_places([('file', self._source._path), *self._when()]), arguments)]
+
+
+class OpaqueFunction(Action):
+    """Calls function(context, *args, **kwargs) when it is visited; what it returns is visited in its place."""
+
+    def __init__(self, *, function, args=None, kwargs=None, **left_over_kwargs):
+        super().__init__(**left_over_kwargs)
+        if not callable(function):
+            raise LaunchFileError(f'function must be callable, got {type(function).__name__}')
+        self._function = function
+        self._args = list(args or [])
+        self._kwargs = dict(kwargs or {})
+
+    def execute(self, context):
+        return self._function(context, *self._args, **self._kwargs)
+
+    def _place_of_execute(self):
+        return of_function(self._function) or self._place()
+
+
+class OpaqueCoroutine(Action):
+
+    def __init__(self, **_kwargs):
+        raise LaunchFileError('this launcher runs no coroutines of launch files',
+                              'run the work as a process of its own: ExecuteProcess')
+
+
+class ForLoop(Action):
+    """Calls function(i) for i from 0 below length; what it returns is visited."""
+
+    def __init__(self, length, *, function=None, name=None, **kwargs):
+        super().__init__(**kwargs)
+        self._length = text(str(length) if isinstance(length, int) else length, 'length')
+        self._function = function
+
+    def execute(self, context):
+        return [self._function(index) for index in range(int(context._perform(self._length)))]
+
+
+class ForEach(Action):
+    """Calls function(**values) for each of the YAML mappings, separated by semicolons; visits what it returns."""
+
+    def __init__(self, input_values, *, function=None, **kwargs):
+        super().__init__(**kwargs)
+        self._values = text(input_values, 'input_values')
+        self._function = function
+
+    def execute(self, context):
+        import yaml
+        turns = [turn for turn in context._perform(self._values).split(';') if turn.strip()]
+        return [self._function(**yaml.safe_load(turn)) for turn in turns]
+
+
+class _Log(Action):
+    _level = None
+
+    def __init__(self, *, msg, level=None, **kwargs):
+        super().__init__(**kwargs)
+        self._msg = text(msg, 'msg')
+        self._given_level = level
+
+    @property
+    def msg(self):
+        return normalize_to_list_of_substitutions(self._msg)
+
+    def _tags(self):
+        attributes = self._with_places([('message', self._msg), *self._when()])
+        if self._level is not None:
+            return [entity(f'log_{self._level}', self._place(), attributes)]
+        level = self._given_level if self._given_level is not None else 'info'
+        return [entity('log', self._place(), [*attributes, ('level', text(level, 'level'))])]
+
+
+class Log(_Log):
+    pass
+
+
+class LogDebug(_Log):
+    _level = 'debug'
+
+
+class LogInfo(_Log):
+    _level = 'info'
+
+
+class LogWarning(_Log):
+    _level = 'warning'
+
+
+class LogError(_Log):
+    _level = 'error'
+
+
+class Shutdown(Action):
+
+    def __init__(self, *, reason='reason not given', **kwargs):
+        super().__init__(**kwargs)
+        self._reason = text(reason, 'reason')
+
+    def _tags(self):
+        return [entity('shutdown', self._place(), [('reason', self._reason), *self._when()])]
+
+

@@ -1,0 +1,146 @@
+"""Actions that run programs."""
+
+import os
+
+from launch._entities import entity
+from launch._values import LaunchFileError, boolean, number, pairs, reject, text
+from launch.action import Action
+from launch.descriptions import Executable
+
+_OUTPUT_FORMAT = '[{this.process_description.final_name}] {line}'
+
+
+_names_given = {}
+
+
+def name_of_process(action, what):
+    """A name by which event handlers and commands mean the processes of one action, and no others."""
+    if not isinstance(action, _Process):
+        raise LaunchFileError(f'{what} must be an action that runs a process, got {type(action).__name__}')
+    if action._spoken_of is None:
+        if action._was_read:
+            raise LaunchFileError(f'{what} has been visited already',
+                                  'make its event handlers before the description that holds it is returned')
+        file, line, *_ = action._place() or ('', 0)
+        name = f'{type(action).__name__} of {os.path.basename(file)}:{line}'
+        count = _names_given[name] = _names_given.get(name, 0) + 1
+        action._spoken_of = name if count == 1 else f'{name} ({count})'
+    return (action._spoken_of,)
+
+
+class _Process(Action):
+    """What programs and nodes have in common."""
+
+    _ARGUMENTS = ('name', 'cwd', 'env', 'additional_env', 'prefix', 'shell', 'sigterm_timeout', 'sigkill_timeout',
+                  'emulate_tty', 'output', 'output_format', 'log_cmd', 'cached_output', 'on_exit', 'respawn',
+                  'respawn_delay', 'respawn_max_retries', 'condition')
+    # What this launcher has besides, named as in XML.
+    _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
+                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit')
+
+    def _take(self, options, known=(), former=None):
+        """Keeps the options of the process; `known` are the arguments that the caller has taken."""
+        options_known = self._ARGUMENTS + self._EXTENSIONS
+        unknown = [name for name in options if name not in options_known]
+        reject(type(self), unknown, [*options_known, *known], former)
+        Action.__init__(self, condition=options.get('condition'))
+        if options.get('output_format', _OUTPUT_FORMAT) != _OUTPUT_FORMAT:
+            raise LaunchFileError('output_format is not supported: lines begin with the name of the process')
+        self._options = options
+        self._spoken_of = None
+        self._was_read = False
+
+    def _process_attributes(self):
+        options = self._options
+
+        def given(name, convert):
+            value = options.get(name)
+            return None if value is None else convert(value, name)
+
+        attributes = [('cwd', given('cwd', text)), ('launch-prefix', given('prefix', text)),
+                      ('respawn', given('respawn', boolean)), ('respawn_delay', given('respawn_delay', number)),
+                      ('respawn_max_retries', given('respawn_max_retries', number)), ('shell', given('shell', boolean)),
+                      ('emulate_tty', given('emulate_tty', boolean)),
+                      ('sigterm_timeout', given('sigterm_timeout', number)),
+                      ('sigkill_timeout', given('sigkill_timeout', number))]
+        for name in self._EXTENSIONS:
+            value = options.get(name)
+            if value is not None:
+                convert = boolean if isinstance(value, bool) else number
+                attributes.append((name, convert(value, name)))
+        if options.get('env') is not None:
+            attributes.append(('clean_env', 'true'))
+        return attributes + self._output() + self._on_exit() + self._when()
+
+    def _output(self):
+        output = self._options.get('output')
+        if output is None:
+            return []
+        if not isinstance(output, dict):
+            return [('output', text(output, 'output'))]
+        unknown = set(output) - {'stdout', 'stderr', 'both'}
+        if unknown:
+            raise LaunchFileError(f'output has no stream {sorted(unknown)[0]!r}', "it has 'stdout', 'stderr' and 'both'")
+
+        def targets(stream):
+            found = []
+            for given in (output.get('both', ()), output.get(stream, ())):
+                found += [given] if isinstance(given, str) else given
+            return ','.join(dict.fromkeys(found)) or 'none'
+
+        return [(stream, targets(stream)) for stream in ('stdout', 'stderr')]
+
+    def _on_exit(self):
+        return [('on_exit', 'shutdown')] if self._ends_launch() else []
+
+    def _ends_launch(self):
+        from launch.actions import Shutdown
+        action = self._options.get('on_exit')
+        if isinstance(action, (list, tuple)) and len(action) == 1:
+            action = action[0]
+        return type(action) is Shutdown and action.condition is None
+
+    def _with_handlers(self, tag, attributes, items):
+        """The process, and before it what shall happen when it ends."""
+        from launch.event_handlers import OnProcessExit
+        handlers = []
+        on_exit = self._options.get('on_exit')
+        if on_exit is not None and not self._ends_launch():
+            handler = OnProcessExit(target_action=self, on_exit=on_exit)
+            handler._made_at = self._made_at
+            handlers = handler._tags(self._place(), [])
+        self._was_read = True
+        return [*handlers, entity(tag, self._place(), self._with_places([*attributes, *self._process_attributes()]),
+                                  [*self._environment_items(), *items], process_name=self._spoken_of or '')]
+
+    def _environment_items(self):
+        place = self._place()
+        return [entity('env', place, [('name', name), ('value', value)])
+                for given in ('env', 'additional_env')
+                for name, value in pairs((self._options.get(given) or {}).items(), given)]
+
+
+class ExecuteLocal(_Process):
+
+    def __init__(self, *, process_description, **kwargs):
+        self._take({**process_description._options, **kwargs}, ['process_description'])
+        self._command = process_description._command
+        self.process_description = process_description
+
+    def _tags(self):
+        name = self._options.get('name')
+        return self._with_handlers(
+            'executable', [('cmd', self._command), ('name', None if name is None else text(name, 'name'))], [])
+
+
+class ExecuteProcess(ExecuteLocal):
+
+    def __init__(self, *, cmd, **kwargs):
+        of_executable = {name: kwargs.pop(name) for name in Executable._OPTIONS if name in kwargs}
+        super().__init__(process_description=Executable(cmd=cmd, **of_executable), **kwargs)
+
+    @property
+    def cmd(self):
+        return self._command
+
+

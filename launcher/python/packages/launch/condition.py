@@ -1,0 +1,30 @@
+"""Condition: whether an action is executed."""
+
+from launch._places import Located
+
+
+class Condition(Located):
+    """A predicate of the context. The classes for most uses are in launch.conditions."""
+
+    def __init__(self, *, predicate=None):
+        self._predicate = predicate
+
+    def evaluate(self, context):
+        if self._predicate is None:
+            raise NotImplementedError(f'{type(self).__name__} has no predicate')
+        return self._predicate(context)
+
+    def describe(self):
+        return f'{type(self).__name__}()'
+
+    # As an attribute of an action: `if` or `unless`, text, and its place.
+    def _attribute(self):
+        return ('if', self, self._place())
+
+    # The launcher takes it for a substitution that gives true or false.
+    def _part(self):
+        return None
+
+    def _perform(self):
+        from launch.launch_context import LaunchContext
+        return 'true' if self.evaluate(LaunchContext._of_launch()) else 'false'

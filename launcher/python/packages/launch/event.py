@@ -1,0 +1,6 @@
+"""Event: something that happens while the launch runs."""
+
+
+
+class Event:
+    name = 'launch.Event'

@@ -1,0 +1,26 @@
+"""Events that a launch file can emit, and what handlers are told."""
+
+from launch import _names
+from launch._entities import entity
+from launch._places import Located
+from launch._values import text
+from launch.event import Event
+from launch.events import process
+from launch.events.process import matches_action
+
+
+class Shutdown(Located, Event):
+    name = 'launch.events.Shutdown'
+
+    def __init__(self, *, reason='reason not given', due_to_sigint=False):
+        self.reason = reason
+        self.due_to_sigint = due_to_sigint
+        self._reason = text(reason, 'reason')
+
+    def _tags(self, place, when):
+        return [entity('shutdown', place, [('reason', self._reason), *when])]
+
+
+_names.one_class_modules(__name__)
+_names.same_module('launch.events.process', 'launch.events.matchers')
+__all__ = ['Shutdown', 'matches_action', 'process']

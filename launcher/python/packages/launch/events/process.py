@@ -1,0 +1,110 @@
+"""Events of processes: what handlers are told, and what can be asked of a process."""
+
+from launch import _names
+from launch._entities import entity
+from launch._places import Located
+from launch._values import LaunchFileError, text
+from launch.event import Event
+
+
+class ProcessEvent(Event):
+    """
+    What happened to a process.
+
+    `action` is the action that the handler was registered for, None for a handler of every process.
+    """
+
+    def __init__(self, action, values):
+        self.action = action
+        self.process_name = values['process']
+        self.pid = int(values['pid']) if values.get('pid') else None
+        self.cmd = getattr(action, '_command', None)
+        self.cwd = None
+        self.env = None
+
+
+class ProcessStarted(ProcessEvent):
+    name = 'launch.events.process.ProcessStarted'
+
+
+class ProcessExited(ProcessEvent):
+    """`returncode` is -N when signal N ended the process."""
+
+    name = 'launch.events.process.ProcessExited'
+
+    def __init__(self, action, values):
+        super().__init__(action, values)
+        self.returncode = int(values['exit_code'])
+
+
+class ProcessIO(ProcessEvent):
+    """One line, as bytes with its end."""
+
+    name = 'launch.events.process.ProcessIO'
+
+    def __init__(self, action, values):
+        super().__init__(action, values)
+        self.text = values['text'].encode(errors='surrogateescape') + b'\n'
+        self.from_stdout = values['stream'] == 'stdout'
+        self.from_stderr = not self.from_stdout
+        self.from_stdin = False
+        self.fd = 1 if self.from_stdout else 2
+
+
+class ProcessStdout(ProcessIO):
+    pass
+
+
+class ProcessStderr(ProcessIO):
+    pass
+
+
+class _ProcessTargetedEvent(Located, Event):
+
+    def __init__(self, *, process_matcher):
+        if not isinstance(process_matcher, _Matcher):
+            raise LaunchFileError('process_matcher must be one of this package\'s',
+                                  'write launch.events.matches_action(action)')
+        self.process_matcher = process_matcher
+        process_matcher._process()  # an action gets its name before it is read
+
+
+class ShutdownProcess(_ProcessTargetedEvent):
+
+    def _tags(self, place, when):
+        return [entity('stop', place, [('process', self.process_matcher._process()), *when])]
+
+
+class SignalProcess(_ProcessTargetedEvent):
+
+    def __init__(self, *, signal_number, process_matcher):
+        super().__init__(process_matcher=process_matcher)
+        self.signal = signal_number
+
+    def _tags(self, place, when):
+        number = self.signal if isinstance(self.signal, str) else str(int(self.signal))
+        return [entity('signal', place, [('process', self.process_matcher._process()), ('signal', number), *when])]
+
+
+class _Matcher(Located):
+    """Which process is meant."""
+
+    def __init__(self, process, action=None):
+        self._process = process
+        self._action = action
+
+
+def matches_action(target_action):
+    from launch.actions._processes import name_of_process
+    return _Matcher(lambda: name_of_process(target_action, 'the action to match'), target_action)
+
+
+def matches_name(name):
+    return _Matcher(lambda: text(name, 'name'))
+
+
+def matches_executable(executable):
+    return matches_name(executable)
+
+
+_names.one_class_modules(__name__)

@@ -1,0 +1,77 @@
+"""LaunchContext: the state of the launch while it is visited."""
+
+import types
+
+import _launch_engine
+from launch import _environment
+from launch._values import LaunchFileError
+
+
+class LaunchContext:
+    """
+    The launch's state: what an OpaqueFunction and the like are given.
+
+    One made by a launch file itself has configurations of its own and the launch's environment.
+    """
+
+    _launch = None
+
+    def __init__(self, *, argv=None, noninteractive=False):
+        self.argv = list(argv or [])
+        self.noninteractive = noninteractive
+        self.launch_configurations = {}
+        self._locals = {}
+        self._globals = {}
+
+    @classmethod
+    def _of_launch(cls):
+        if cls._launch is None:
+            import sys
+            cls._launch = cls(argv=sys.argv[2:])
+            cls._launch.launch_configurations = _environment.configurations
+        return cls._launch
+
+    @property
+    def environment(self):
+        return _environment.environment
+
+    @property
+    def is_shutdown(self):
+        return False
+
+    def perform_substitution(self, substitution):
+        return substitution.perform(self)
+
+    def extend_locals(self, extensions):
+        self._locals.update(extensions)
+
+    def extend_globals(self, extensions):
+        self._globals.update(extensions)
+
+    def get_locals_as_dict(self):
+        return {**self._globals, **self._event(), **self._locals}
+
+    def _event(self):
+        """The event that is being handled, for LocalSubstitution('event.…')."""
+        from launch.events import process
+        values = {name[len('event.'):]: value for name, value in self.launch_configurations.items()
+                  if name.startswith('event.')}
+        if 'process' not in values:
+            return {'event': types.SimpleNamespace(**values)} if values else {}
+        kind = (process.ProcessExited if 'exit_code' in values else
+                process.ProcessIO if 'text' in values else process.ProcessStarted)
+        return {'event': kind(None, values)}
+
+    @property
+    def locals(self):  # noqa: A003  ROS 2's name
+        return types.SimpleNamespace(**self.get_locals_as_dict())
+
+    def _perform(self, value):
+        if isinstance(self.launch_configurations, dict):
+            return _launch_engine.perform(value, self.launch_configurations)
+        return _launch_engine.perform(value)
+
+    def __getattr__(self, name):
+        if name[:2] == '__':
+            raise AttributeError(name)
+        raise LaunchFileError(f"this launcher's LaunchContext has no '{name}'")

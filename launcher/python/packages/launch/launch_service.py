@@ -1,0 +1,16 @@
+"""What runs launch descriptions: here, only the launcher itself."""
+
+from launch._values import LaunchFileError
+
+
+class LaunchService:
+
+    def __init__(self, *_args, **_kwargs):
+        raise LaunchFileError('a launch file can\'t run a LaunchService: it runs in one already',
+                              'include launch files with IncludeLaunchDescription')
+
+
+class LaunchIntrospector:
+
+    def __init__(self, *_args, **_kwargs):
+        raise LaunchFileError('there is no LaunchIntrospector here', 'launch --dry-run shows what would be done')

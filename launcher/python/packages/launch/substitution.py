@@ -1,0 +1,26 @@
+"""Substitution: text that is known when it is visited."""
+
+from launch._places import Located, of_function
+
+
+class Substitution(Located):
+    """To be derived from by launch files: perform() returns the text, describe() tells of it."""
+
+    def perform(self, context):
+        raise NotImplementedError(f'{type(self).__name__} has no perform()')
+
+    def describe(self):
+        return f'{type(self).__name__}()'
+
+    # The launcher's own substitutions return its name of them and their arguments; None: Python performs it.
+    def _part(self):
+        return None
+
+    def _perform(self):
+        from launch.launch_context import LaunchContext
+        from launch._values import LaunchFileError
+        result = self.perform(LaunchContext._of_launch())
+        if not isinstance(result, str):
+            raise LaunchFileError(f'{type(self).__name__}.perform() must return a str, got {type(result).__name__}',
+                                  '', of_function(type(self).perform))
+        return result

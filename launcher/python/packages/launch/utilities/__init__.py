@@ -1,0 +1,36 @@
+"""Functions that launch files and the packages of others use."""
+
+from collections.abc import Iterable
+
+from launch._values import text
+from launch.substitution import Substitution
+
+
+def normalize_to_list_of_substitutions(subs):
+    from launch.substitutions import TextSubstitution
+    return [part if isinstance(part, Substitution) else TextSubstitution(text=part)
+            for part in text(subs, 'a substitution')]
+
+
+def perform_substitutions(context, subs):
+    return ''.join(context.perform_substitution(part) for part in subs)
+
+
+def normalize_to_list_of_entities(entities):
+    return list(entities) if isinstance(entities, Iterable) else [entities]
+
+
+def is_a(obj, entity_type):
+    return isinstance(obj, entity_type)
+
+
+def is_a_subclass(obj, entity_type):
+    return isinstance(obj, type) and issubclass(obj, entity_type)
+
+
+def ensure_argument_type(argument, types, argument_name, caller=None):
+    types = tuple(types) if isinstance(types, Iterable) else (types,)
+    if not isinstance(argument, types):
+        names = ', '.join(getattr(known, '__name__', str(known)) for known in types)
+        raise TypeError(f"{caller + ': ' if caller else ''}expected '{argument_name}' to be one of [{names}], "
+                        f"got {type(argument).__name__}")

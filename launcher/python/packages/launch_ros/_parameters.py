@@ -1,0 +1,92 @@
+"""What nodes are given as `parameters`: files, mappings, and the two kinds of descriptions."""
+
+import os
+from collections.abc import Iterable, Mapping
+
+from launch._entities import entity
+from launch._values import LaunchFileError, boolean, name_of, text
+from launch.substitution import Substitution
+from launch.substitutions import _Builtin
+from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+_SCALARS = (bool, int, float)
+
+
+class _TypedText(_Builtin):
+    """A text that is typed when it is performed, even if it holds no substitution."""
+
+    _call = 'string-join'
+
+    def __init__(self, value):
+        self._take('', value)
+
+
+def parameter_items(parameters, place):
+    """The <param> items of a node."""
+    if parameters is None:
+        return []
+    if isinstance(parameters, (str, Mapping, Substitution)) or not isinstance(parameters, Iterable):
+        raise LaunchFileError(f'parameters must be a list, got {name_of(parameters)}', 'put it in [ ]')
+    items = []
+    for given in parameters:
+        if isinstance(given, Mapping):
+            items.append(entity('param', place, [('name', '')], [_item(name, value, place)
+                                                                 for name, value in given.items()]) if given else None)
+        elif isinstance(given, Parameter):
+            items.append(_item(given.name, given._value, given._place()))
+        elif isinstance(given, ParameterFile):
+            allowed = [('allow_substs', boolean(given._allow_substs, 'allow_substs'))] if given._allow_substs else []
+            items.append(entity('param', given._place(), [('from', given._path), *allowed]))
+        elif isinstance(given, (str, Substitution, os.PathLike)) or (
+                isinstance(given, Iterable) and not isinstance(given, bytes)):
+            items.append(entity('param', place, [('from', text(given, 'a parameter file'))]))
+        else:
+            raise LaunchFileError(f'parameters can hold files and mappings, got {name_of(given)}')
+    return [item for item in items if item is not None]
+
+
+def _item(name, value, place):
+    name = text(name, 'the name of a parameter')
+    if isinstance(value, Mapping):
+        return entity('param', place, [('name', name)], [_item(inner, item, place) for inner, item in value.items()])
+    type_ = None
+    if isinstance(value, ParameterValue):
+        place, type_, value = value._place(), value._type, value.value
+    return entity('param', place, [('name', name), ('value', parameter_value(value)), ('type', type_)])
+
+
+def parameter_value(value):
+    """A scalar, a list of scalars, or a text: of a str it stays one, of substitutions it is typed when performed."""
+    if isinstance(value, (str, *_SCALARS)):
+        return value
+    if isinstance(value, (Substitution, os.PathLike)):
+        return text(value, 'a parameter')
+    if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)):
+        return _list(list(value))
+    raise LaunchFileError(f'a parameter can\'t be a {name_of(value)}',
+                          'use a bool, an int, a float, a str, a substitution or a list of them')
+
+
+def _list(values):
+    # A substitution among texts: all of them are pasted together.
+    if any(isinstance(value, Substitution) for value in values):
+        return text(values, 'a parameter')
+    if any(isinstance(value, float) for value in values) and all(type(value) in (int, float) for value in values):
+        return [float(value) for value in values]
+    return [value if isinstance(value, (str, *_SCALARS)) else (_TypedText(value),) for value in values]
+
+
+def as_yaml(value):
+    """The text that YAML rules read as the value; substitutions are left as they are."""
+    value = parameter_value(value)
+    if isinstance(value, bool):
+        return 'true' if value else 'false'
+    if isinstance(value, str):
+        return "'" + value.replace("'", "''") + "'"
+    if isinstance(value, list):
+        parts = ['[']
+        for item in value:
+            parts += [', '] if len(parts) > 1 else []
+            parts += text(as_yaml(item) if not isinstance(item, tuple) else item, 'an item')
+        return (*parts, ']')
+    return repr(value) if isinstance(value, (int, float)) else value

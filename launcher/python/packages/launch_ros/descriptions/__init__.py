@@ -1,0 +1,50 @@
+"""Descriptions of nodes that containers load, and of parameters."""
+
+from launch import _names
+from launch._entities import entity
+from launch._places import Located
+from launch._values import LaunchFileError, boolean, pairs, text
+from launch.condition import Condition
+from launch_ros._parameters import as_yaml, parameter_items
+from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+
+class ComposableNode(Located):
+    _tag = 'composable_node'
+
+    def __init__(self, *, package, plugin, name=None, namespace=None, parameters=None, remappings=None,
+                 extra_arguments=None, condition=None):
+        if condition is not None and not isinstance(condition, Condition):
+            raise LaunchFileError(f'condition must be a Condition, got {type(condition).__name__}')
+        self._attributes = [('pkg', text(package, 'package')), ('plugin', text(plugin, 'plugin')),
+                            ('name', '' if name is None else text(name, 'name')),
+                            ('namespace', None if namespace is None else text(namespace, 'namespace')),
+                            None if condition is None else condition._attribute()]
+        self._parameters = parameters
+        self._remappings = pairs(remappings or [], 'remappings')
+        self._extra = extra_arguments
+
+    @property
+    def condition(self):
+        return None
+
+    def _item(self):
+        place = self._place()
+        children = parameter_items(self._parameters, place)
+        children += [entity('remap', place, [('from', from_), ('to', to)]) for from_, to in self._remappings]
+        for mapping in self._extra or []:
+            children += [entity('extra_arg', place, [('name', text(name, 'a name')), ('value', as_yaml(value))])
+                         for name, value in mapping.items()]
+        return entity(self._tag, place, [pair for pair in self._attributes if pair is not None], children)
+
+
+class ComposableLifecycleNode(ComposableNode):
+    _tag = 'composable_lifecycle_node'
+
+    def __init__(self, *, autostart=False, **kwargs):
+        super().__init__(**kwargs)
+        self._attributes.append(('autostart', boolean(autostart, 'autostart')))
+
+
+_names.one_class_modules(__name__)
+__all__ = ['ComposableLifecycleNode', 'ComposableNode', 'Parameter', 'ParameterFile', 'ParameterValue']

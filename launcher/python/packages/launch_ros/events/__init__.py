@@ -1,0 +1,6 @@
+"""Events of ROS nodes."""
+
+from launch_ros.events import lifecycle
+
+matches_node_name = lifecycle.matches_node_name
+__all__ = ['lifecycle', 'matches_node_name']

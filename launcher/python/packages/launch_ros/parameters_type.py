@@ -1,0 +1,9 @@
+"""Type hints."""
+
+from typing import Any
+
+SomeParameters = Any
+SomeParametersDict = Any
+SomeParameterValue = Any
+Parameters = Any
+ParametersDict = Any

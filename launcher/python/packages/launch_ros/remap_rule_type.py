@@ -1,0 +1,6 @@
+"""Type hints."""
+
+from typing import Any
+
+SomeRemapRule = Any
+SomeRemapRules = Any

@@ -1,0 +1,7 @@
+"""Names of ROS 2's package launch_yaml. The format itself is the launcher's own."""
+
+from launch import _names
+from launch.launch_description_sources import YAMLLaunchDescriptionSource
+
+_names.same_module('launch.launch_description_sources', __name__ + '.launch_description_sources')
+__all__ = ['YAMLLaunchDescriptionSource']

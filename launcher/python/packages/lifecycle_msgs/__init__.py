@@ -1,0 +1,1 @@
+"""The numbers of states and transitions, for launch files."""

@@ -1,0 +1,58 @@
+"""Trace: records the run with LTTng, from before the first process starts until the last one has ended."""
+
+from collections.abc import Mapping
+
+from launch._entities import entity
+from launch._values import LaunchFileError, boolean, number, text, words
+from launch.action import Action
+from tracetools_trace.tools import names
+
+
+class Trace(Action):
+
+    def __init__(self, *, session_name, append_timestamp=False, base_path=None, append_trace=False, events_ust=None,
+                 events_kernel=None, syscalls=None, context_fields=None, subbuffer_size_ust=None,
+                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, **kwargs):
+        options = {'condition': kwargs.pop('condition', None)}
+        # What is left in kwargs are further attributes of <trace>, with underscores.
+        super().__init__(**options)
+        if isinstance(context_fields, Mapping):
+            userspace, kernel = (context_fields.get(domain) for domain in (names.DOMAIN_TYPE_USERSPACE,
+                                                                           names.DOMAIN_TYPE_KERNEL))
+            if userspace is not None and kernel is not None and list(userspace) != list(kernel) and (
+                    events_kernel or syscalls):
+                raise LaunchFileError('context fields that differ between userspace and kernel are not supported')
+            context_fields = userspace if userspace is not None else kernel
+
+        def given(values, what):
+            return None if values is None else words([values] if isinstance(values, str) else values, what)
+
+        def asked(value, what):
+            return None if value is False else boolean(value, what)
+
+        self._attributes = [
+            ('session-name', text(session_name, 'session_name')),
+            ('append-timestamp', asked(append_timestamp, 'append_timestamp')),
+            ('base-path', None if base_path is None else text(base_path, 'base_path')),
+            ('append-trace', asked(append_trace, 'append_trace')),
+            ('events-ust', given(events_ust, 'events_ust')), ('events-kernel', given(events_kernel, 'events_kernel')),
+            ('syscalls', given(syscalls, 'syscalls')), ('context-fields', given(context_fields, 'context_fields')),
+            ('subbuffer-size-ust', None if subbuffer_size_ust is None else number(subbuffer_size_ust,
+                                                                                  'subbuffer_size_ust')),
+            ('subbuffer-size-kernel', None if subbuffer_size_kernel is None else number(subbuffer_size_kernel,
+                                                                                        'subbuffer_size_kernel')),
+            ('snapshot-mode', asked(snapshot_mode, 'snapshot_mode')),
+            ('dual-session', asked(dual_session, 'dual_session'))]
+        for name, value in kwargs.items():
+            if isinstance(value, bool):
+                value = boolean(value, name)
+            elif isinstance(value, (int, float)):
+                value = number(value, name)
+            elif isinstance(value, (list, tuple)):
+                value = words(value, name)
+            else:
+                value = text(value, name)
+            self._attributes.append((name.replace('_', '-'), value))
+
+    def _tags(self):
+        return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]))]

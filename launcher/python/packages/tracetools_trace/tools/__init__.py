@@ -1,0 +1,5 @@
+"""Names of events and fields of traces."""
+
+from tracetools_trace.tools import names, tracepoints
+
+__all__ = ['names', 'tracepoints']

@@ -1,0 +1,27 @@
+// Turns Python's exceptions into errors with a place.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "launcher/python/engine_module.hpp"
+#include "launcher/python/python_runtime.hpp"
+
+namespace launch::python {
+
+// Throws Error for a Python exception.
+[[noreturn]] void throw_failure(pybind11::error_already_set& error);
+
+// Runs a call of Python with `host` as the launch that it sees. Throws Error.
+template <typename Call>
+auto run_python(Host& host, Call call) {
+  const CurrentHost current(host);
+  try {
+    return call();
+  } catch (pybind11::error_already_set& error) {
+    throw_failure(error);
+  } catch (const pybind11::cast_error& error) {
+    throw Error(error.what(), {}, {}, {}, nullptr);
+  }
+}
+
+}  // namespace launch::python

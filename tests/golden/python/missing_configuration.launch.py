@@ -1,0 +1,11 @@
+from launch import LaunchDescription
+from launch.actions import *  # noqa: F403
+from launch.substitutions import *  # noqa: F403
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('mode', default_value='sim'),
+        LogInfo(msg=['mode: ', LaunchConfiguration('mod')]),
+    ])

@@ -1,0 +1,5 @@
+import launch.parsing
+
+
+def generate_launch_description():
+    return launch.parsing

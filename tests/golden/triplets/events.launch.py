@@ -1,0 +1,31 @@
+import signal
+
+from launch import LaunchDescription
+from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
+from launch.events import matches_action
+from launch.events.process import ShutdownProcess, SignalProcess
+from launch_ros.actions import LifecycleTransition, Node
+from lifecycle_msgs.msg import Transition
+
+
+def generate_launch_description():
+    first = ExecuteProcess(cmd=['echo', 'ready'], name='first')
+    second = ExecuteProcess(cmd=['second'], output={'stdout': ['screen', 'own_log']}, env={'PATH': '/bin'},
+                            required=True, nice=5)
+    return LaunchDescription([
+        first,
+        second,
+        RegisterEventHandler(OnProcessStart(target_action=first, on_start=[LogInfo(msg='started')])),
+        RegisterEventHandler(OnProcessExit(
+            target_action=first, handle_once=True,
+            on_exit=[ExecuteProcess(cmd=['third']), LogInfo(msg='over')])),
+        RegisterEventHandler(OnProcessExit(on_exit=[
+            EmitEvent(event=ShutdownProcess(process_matcher=matches_action(second))),
+            EmitEvent(event=SignalProcess(process_matcher=matches_action(second), signal_number=signal.SIGUSR1)),
+        ])),
+        RegisterEventHandler(OnShutdown(on_shutdown=LogInfo(msg='good bye'))),
+        Node(package='demo_nodes', executable='talker', name='managed', namespace='/left'),
+        LifecycleTransition(lifecycle_node_names=['/left/managed'], transition_ids=[
+            Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]),
+    ])

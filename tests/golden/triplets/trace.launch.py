@@ -1,0 +1,18 @@
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+from tracetools_launch.action import Trace
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('name', default_value='run'),
+        Trace(
+            session_name=LaunchConfiguration('name'), base_path='/traces', append_trace=True,
+            events_ust=['ros2:*', 'dds:* except dds:b'], events_kernel=['sched_switch'], syscalls=['open'],
+            context_fields=['vpid'], subbuffer_size_ust=65536, subbuffer_size_kernel=262144, subbuffer_count_ust=4,
+            fail_on_loss=True),
+        Trace(session_name='black_box', snapshot_mode=True, base_path='/traces'),
+        Node(package='demo_nodes', executable='talker'),
+    ])
