@@ -143,6 +143,11 @@ void WaitSetEntities::add_subscription(const std::shared_ptr<SubscriptionBase>& 
       add_waitable(handler, subscription);
     }
   }
+  if (mask.include_intra_process_waitable) {
+    if (const auto intra_process = subscription->get_intra_process_waitable()) {
+      add_waitable(intra_process, subscription);
+    }
+  }
 }
 
 void WaitSetEntities::remove_subscription(const std::shared_ptr<SubscriptionBase>& subscription,
@@ -156,6 +161,11 @@ void WaitSetEntities::remove_subscription(const std::shared_ptr<SubscriptionBase
   if (mask.include_events) {
     for (const auto& [type, handler] : subscription->get_event_handlers()) {
       remove_waitable(handler);
+    }
+  }
+  if (mask.include_intra_process_waitable) {
+    if (const auto intra_process = subscription->get_intra_process_waitable()) {
+      remove_waitable(intra_process);
     }
   }
 }

@@ -193,6 +193,30 @@ TEST_F(WaitSetTest, EventsOfASubscriptionAreWaitedForUnlessTheMaskLeavesThemOut)
   EXPECT_EQ(wait_set.wait(milliseconds(0)).kind(), WaitResultKind::Empty);
 }
 
+TEST_F(WaitSetTest, MessagesWithinTheProcessAreWaitedForUnlessTheMaskLeavesThemOut) {
+  auto node = std::make_shared<rclcpp::Node>("intra", rclcpp::NodeOptions().use_intra_process_comms(true));
+  auto publisher = node->create_publisher<UInt64>("a", 10);
+  uint64_t received = 0;
+  auto subscription =
+      node->create_subscription<UInt64>("a", 10, [&](const UInt64& message) { received = message.data; });
+  rclcpp::WaitSet wait_set;
+  wait_set.add_subscription(subscription);
+  publisher->publish(number(4));
+  auto result = wait_set.wait(kPatience);
+  ASSERT_EQ(result.kind(), WaitResultKind::Ready);
+  const auto waitable = result.next_ready_waitable();
+  ASSERT_EQ(waitable, subscription->get_intra_process_waitable());
+  waitable->execute(waitable->take_data());
+  EXPECT_EQ(received, 4u);
+
+  wait_set.remove_subscription(subscription);
+  rclcpp::SubscriptionWaitSetMask mask;
+  mask.include_intra_process_waitable = false;
+  wait_set.add_subscription(subscription, mask);
+  publisher->publish(number(5));
+  EXPECT_EQ(wait_set.wait(milliseconds(0)).kind(), WaitResultKind::Timeout);
+}
+
 TEST_F(WaitSetTest, AThreadSafeOneTakesNoteOfNewEntitiesWhileItWaits) {
   rclcpp::ThreadSafeWaitSet wait_set;
   auto guard_condition = std::make_shared<rclcpp::GuardCondition>();
