@@ -19,6 +19,10 @@ namespace {
 std::string as_id(std::string_view text) {
   std::string result = "\"";
   for (const char character : text) {
+    if (character == '\n') {
+      result += "\\n";
+      continue;
+    }
     if (character == '"' || character == '\\') {
       result += '\\';
     }

@@ -121,6 +121,8 @@ void add_attributes(Json& schema, const std::vector<AttributeSpec>& attributes) 
       property["type"] = {"boolean", "string"};
     } else if (attribute.type == AttributeType::kFloat || attribute.type == AttributeType::kInteger) {
       property["type"] = {"number", "string"};
+    } else if (attribute.type == AttributeType::kWords) {
+      property["type"] = {"string", "array"};
     } else if (attribute.type != AttributeType::kParameter) {
       property["type"] = "string";
     }
@@ -204,9 +206,10 @@ std::string json_schema(const Registry& registry) {
   root["type"] = "object";
   root["required"] = {"launch"};
   root["additionalProperties"] = false;
-  root["properties"]["launch"] = {
-      {"anyOf",
-       Json::array({{{"type", "array"}, {"items", {{"$ref", "#/definitions/action"}}}}, {{"type", "object"}}})}};
+  // The root may be a mapping, too, with its attributes and `children`.
+  root["properties"]["launch"] = {{"if", {{"type", "array"}}},
+                                  {"then", {{"items", {{"$ref", "#/definitions/action"}}}}},
+                                  {"else", {{"type", "object"}}}};
   root["definitions"] = std::move(definitions);
   return root.dump(2) + "\n";
 }

@@ -18,7 +18,7 @@ class WithoutRunning : public testing::Test {
  protected:
   CommandResult launch(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), LAUNCH_PROGRAM);
-    return run_command({arguments, {}, sandbox_.directory()});
+    return run_command(Command{arguments, {}, sandbox_.directory()});
   }
 
   std::string file(const std::string& name, const std::string& text) {
@@ -51,10 +51,11 @@ TEST_F(WithoutRunning, CheckFindsAllErrorsOfAVisit) {
                 "      |                                ^~~~~\n"
                 "      = help: did you mean 'talker'?\n" +
                 path +
-                ":7:38: warning: launch configuration 'missing' does not exist\n"
+                ":7:35: warning: launch configuration 'missing' does not exist\n"
                 "    7 |   <group if=\"false\"><log message=\"$(var missing)\"/></group>\n"
                 "      |                                   ^~~~~~~~~~~~~~\n"
-                "      = help: a condition leaves this out with the arguments given\n" +
+                "      = help: declare it with 'arg', set it with 'let', or give a default: $(var missing DEFAULT); a "
+                "condition leaves this out with the arguments given\n" +
                 path +
                 ":2:4: warning: argument 'unread' is never read\n"
                 "    2 |   <arg name=\"unread\" default=\"1\"/>\n"
@@ -87,7 +88,7 @@ TEST_F(WithoutRunning, CheckTellsAsJsonAndSarif) {
   const Json list = Json::parse(json.out);
   ASSERT_GE(list.size(), 1u) << json.out;
   EXPECT_EQ(list[0]["severity"], "error");
-  EXPECT_EQ(list[0]["message"], "unknown attribute 'mesage' of <log>");
+  EXPECT_EQ(list[0]["message"], "unexpected attribute 'mesage' in 'log'");
   EXPECT_EQ(list[0]["help"], "did you mean 'message'?");
   EXPECT_EQ(list[0]["file"], inner);
   EXPECT_EQ(list[0]["line"], 2);
@@ -100,7 +101,7 @@ TEST_F(WithoutRunning, CheckTellsAsJsonAndSarif) {
   EXPECT_EQ(log["version"], "2.1.0");
   const Json& first = log["runs"][0]["results"][0];
   EXPECT_EQ(first["level"], "error");
-  EXPECT_EQ(first["message"]["text"], "unknown attribute 'mesage' of <log> (did you mean 'message'?)");
+  EXPECT_EQ(first["message"]["text"], "unexpected attribute 'mesage' in 'log' (did you mean 'message'?)");
   EXPECT_EQ(first["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "file://" + inner);
   EXPECT_EQ(first["locations"][0]["physicalLocation"]["region"]["startLine"], 2);
   EXPECT_EQ(first["relatedLocations"][0]["physicalLocation"]["artifactLocation"]["uri"], "file://" + outer);
@@ -123,14 +124,14 @@ TEST_F(WithoutRunning, CheckSaysWhatAFileNeedsToBeChecked) {
 }
 
 TEST_F(WithoutRunning, StrictCheckRefusesExtensions) {
-  const std::string path = file("a.launch.xml", "<launch><trace fail-on-loss=\"true\"/></launch>\n");
+  const std::string path = file("a.launch.xml", "<launch><trace session-name=\"s\" fail-on-loss=\"true\"/></launch>\n");
   EXPECT_EQ(launch({"check", path}).out, "1 file: 0 errors, 0 warnings\n");
   const CommandResult strict = launch({"check", "--strict-ros2", path});
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_EQ(strict.out, path +
-                            ":1:17: error: attribute 'fail-on-loss' of <trace> is not known to ros2 launch\n"
-                            "    1 | <launch><trace fail-on-loss=\"true\"/></launch>\n"
-                            "      |                ^~~~~~~~~~~~\n"
+                            ":1:33: error: attribute 'fail-on-loss' of <trace> is not known to ros2 launch\n"
+                            "    1 | <launch><trace session-name=\"s\" fail-on-loss=\"true\"/></launch>\n"
+                            "      |                                 ^~~~~~~~~~~~\n"
                             "1 file: 1 error, 0 warnings\n");
 }
 
@@ -187,9 +188,9 @@ TEST_F(WithoutRunning, SeveralFilesAreOneLaunch) {
 TEST_F(WithoutRunning, StandardInputIsALaunchFile) {
   const std::string command =
       "echo '<launch><log message=\"in $(dirname)\"/><log mesage=\"\"/></launch>' | '" LAUNCH_PROGRAM "' --dry-run -";
-  const CommandResult result = run_command({{"/bin/sh", "-c", command}, {}, sandbox_.directory()});
+  const CommandResult result = run_command(Command{{"/bin/sh", "-c", command}, {}, sandbox_.directory()});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, StartsWith("standard input:1:46: error: unknown attribute 'mesage' of <log>\n"));
+  EXPECT_THAT(result.err, StartsWith("standard input:1:44: error: unexpected attribute 'mesage' in 'log'\n"));
 }
 
 TEST_F(WithoutRunning, DryRunAsAScriptRunsTheProcesses) {
@@ -197,13 +198,13 @@ TEST_F(WithoutRunning, DryRunAsAScriptRunsTheProcesses) {
   <set_env name="GREETING" value="it's"/>
   <unset_env name="UNWANTED"/>
   <executable cmd="/bin/sh -c 'echo $0 $GREETING ${UNWANTED-gone}; pwd' &quot;two words&quot;" cwd="/"/>
-  <executable cmd="echo $((1 + 1))" shell="true"/>
+  <executable cmd="echo \$((1 + 1))" shell="true"/>
 </launch>
 )xml");
-  CommandResult script = run_command({{LAUNCH_PROGRAM, "--dry-run=shell", path}, {{"UNWANTED", "there"}}});
+  CommandResult script = run_command(Command{{LAUNCH_PROGRAM, "--dry-run=shell", path}, {{"UNWANTED", "there"}}});
   EXPECT_EQ(script.exit_code, 0) << script.err;
   const std::string saved = file("run.sh", script.out);
-  const CommandResult result = run_command({{"/bin/sh", saved}, {{"UNWANTED", "there"}}});
+  const CommandResult result = run_command(Command{{"/bin/sh", saved}, {{"UNWANTED", "there"}}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("two words it's gone\n/\n"));
   EXPECT_THAT(result.out, HasSubstr("2\n"));
@@ -217,7 +218,7 @@ TEST_F(WithoutRunning, DryRunAsAScriptWritesParameterFiles) {
   const CommandResult script = launch({"--dry-run=shell", path});
   EXPECT_THAT(script.out, HasSubstr("rate: 20\n"));
   EXPECT_THAT(script.out, HasSubstr("trap 'rm -rf \"$parameters\"' EXIT\n"));
-  const CommandResult result = run_command({{"/bin/sh", file("run.sh", script.out)}});
+  const CommandResult result = run_command(Command{{"/bin/sh", file("run.sh", script.out)}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("--params-file"));
 }
@@ -253,7 +254,7 @@ TEST_F(WithoutRunning, GraphHasNodesFilesNamespacesAndRemaps) {
                 "\" -> \"process 0\" [color=gray];\n"
                 "}\n");
   const CommandResult no_dot =
-      run_command({{LAUNCH_PROGRAM, "graph", "--format", "svg", path}, {{"PATH", "/nowhere"}}});
+      run_command(Command{{LAUNCH_PROGRAM, "graph", "--format", "svg", path}, {{"PATH", "/nowhere"}}});
   EXPECT_EQ(no_dot.exit_code, 1);
   EXPECT_EQ(no_dot.err,
             "error: the graph can't be drawn: Graphviz's dot can't be run\n"
@@ -275,7 +276,7 @@ TEST_F(WithoutRunning, GraphIsDrawnByDot) {
 TEST_F(WithoutRunning, SchemasAcceptTheExamplesAndRefuseErrors) {
   const std::string xsd = file("launch.xsd", launch({"schema", "xsd"}).out);
   const std::string wrong = file("wrong.launch.xml", "<launch><node pkg=\"p\" exce=\"e\"/></launch>\n");
-  const CommandResult refused = run_command({{"xmllint", "--noout", "--schema", xsd, wrong}});
+  const CommandResult refused = run_command(Command{{"xmllint", "--noout", "--schema", xsd, wrong}});
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_THAT(refused.err, HasSubstr("The attribute 'exce' is not allowed"));
 
@@ -286,17 +287,17 @@ TEST_F(WithoutRunning, SchemasAcceptTheExamplesAndRefuseErrors) {
                                     "jsonschema.Draft7Validator.check_schema(schema)\n"
                                     "jsonschema.validate(yaml.safe_load(open(sys.argv[2])), schema)\n");
   const std::string wrong_yaml = file("wrong.launch.yaml", "launch:\n  - node: {pkg: p, exce: e}\n");
-  const CommandResult refused_yaml = run_command({{"/usr/bin/python3", validate, json, wrong_yaml}});
+  const CommandResult refused_yaml = run_command(Command{{"/usr/bin/python3", validate, json, wrong_yaml}});
   EXPECT_NE(refused_yaml.exit_code, 0);
   EXPECT_THAT(refused_yaml.err, HasSubstr("'exce' was unexpected"));
 
   for (const auto& entry : std::filesystem::directory_iterator(EXAMPLES_DIRECTORY)) {
     const std::string path = entry.path().string();
     if (path.ends_with(".launch.xml")) {
-      const CommandResult result = run_command({{"xmllint", "--noout", "--schema", xsd, path}});
+      const CommandResult result = run_command(Command{{"xmllint", "--noout", "--schema", xsd, path}});
       EXPECT_EQ(result.exit_code, 0) << result.err;
     } else if (path.ends_with(".launch.yaml")) {
-      const CommandResult result = run_command({{"/usr/bin/python3", validate, json, path}});
+      const CommandResult result = run_command(Command{{"/usr/bin/python3", validate, json, path}});
       EXPECT_EQ(result.exit_code, 0) << path << result.err;
     }
   }
@@ -334,7 +335,7 @@ TEST_F(WithoutRunning, BashCompletesArguments) {
                             "echo \"${COMPREPLY[@]}\"\n"
                             "COMP_LINE='launch launch_examples 0'; COMP_POINT=${#COMP_LINE}; _launch\n"
                             "echo \"${#COMPREPLY[@]} ${COMPREPLY[0]}\"\n");
-  const CommandResult result = run_command({{"/bin/bash", script}});
+  const CommandResult result = run_command(Command{{"/bin/bash", script}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, StartsWith("count:=\n"));
   EXPECT_THAT(result.out, HasSubstr(" 01_ping_pong.launch.xml\n"));

@@ -47,7 +47,7 @@ TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
   EXPECT_EQ(launch({"file.xml", "x:="}).err,
             "launch: error: malformed launch argument 'x:=', expected format '<name>:=<value>'\n");
   EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err,
-            "launch: error: --dry-run=xml is unknown, expected text or json\n");
+            "launch: error: --dry-run=xml is unknown, expected text, json or shell\n");
   EXPECT_EQ(launch({"--no-such-option", "file.xml"}).exit_code, 2);
 }
 

@@ -140,11 +140,28 @@ bool RunningCommand::wait_for_output(const std::string& text, milliseconds timeo
 }
 
 void RunningCommand::write(const std::string& text) {
-  std::size_t written = 0;
-  while (written < text.size()) {
+  // A program that has ended reads no more: no reason to end as well.
+  sigset_t pipe;
+  sigset_t before;
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &pipe, &before);
+  int failure = 0;
+  for (std::size_t written = 0; written < text.size() && failure == 0;) {
     const ssize_t length = ::write(in_, text.data() + written, text.size() - written);
-    if (length < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "write to the command");
-    if (length > 0) written += static_cast<std::size_t>(length);
+    if (length >= 0) {
+      written += static_cast<std::size_t>(length);
+    } else if (errno != EINTR) {
+      failure = errno;
+    }
+  }
+  if (failure == EPIPE) {
+    const timespec at_once{};
+    sigtimedwait(&pipe, nullptr, &at_once);
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (failure != 0 && failure != EPIPE) {
+    throw std::system_error(failure, std::generic_category(), "write to the command");
   }
 }
 

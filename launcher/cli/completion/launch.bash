@@ -4,7 +4,7 @@ _launch() {
   read -ra words <<<"$line"
   [[ $line == *[[:space:]] ]] && words+=("")
   current=${words[${#words[@]} - 1]}
-  mapfile -t COMPREPLY < <("${words[0]}" complete "${words[@]:1}" 2>/dev/null)
+  mapfile -t COMPREPLY <<<"$("${words[0]}" complete "${words[@]:1}" 2>/dev/null)"
   # bash breaks words at ':' and '=', and wants only what comes after the last of them.
   prefix=${current%"${current##*[:=]}"}
   COMPREPLY=("${COMPREPLY[@]#"$prefix"}")
