@@ -5,6 +5,7 @@ _launch() {
   [[ $line == *[[:space:]] ]] && words+=("")
   current=${words[${#words[@]} - 1]}
   mapfile -t COMPREPLY <<<"$("${words[0]}" complete "${words[@]:1}" 2>/dev/null)"
+  [[ -n ${COMPREPLY[0]} ]] || COMPREPLY=()
   # bash breaks words at ':' and '=', and wants only what comes after the last of them.
   prefix=${current%"${current##*[:=]}"}
   COMPREPLY=("${COMPREPLY[@]#"$prefix"}")
