@@ -52,8 +52,7 @@ class IncludeLaunchDescription : public Action {
       return;
     }
     const std::int64_t begin = monotonic_time();
-    const auto included =
-        load_launch_description(path, context.registry(), context.scope(), declaration_.file.where());
+    const auto included = load_launch_description(path, context.registry(), context.scope(), declaration_.file.where());
 
     std::vector<std::string> given;
     for (const auto& [name, value] : declaration_.arguments) {

@@ -29,8 +29,7 @@ std::shared_ptr<const LaunchDescription> load_launch_description(const std::stri
 
 // The same for text that is already read.
 std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_ptr<const SourceFile> file,
-                                                                  const Registry& registry,
-                                                                  const Scope& scope = {});
+                                                                  const Registry& registry, const Scope& scope = {});
 
 // One description that visits several, one after another in one scope.
 std::shared_ptr<const LaunchDescription> join_launch_descriptions(

@@ -10,16 +10,16 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
-typedef int (*register_probe)(const char *provider, const char *event, void (*probe)(void), void *data,
-                              const char *signature);
+typedef int (*register_probe)(const char* provider, const char* event, void (*probe)(void), void* data,
+                              const char* signature);
 
 static void (*_Atomic dump_state)(void);
 
 /* Once for each session that starts. */
-static void on_lttng_ust_statedump_start(void *data, void *session) {
+static void on_lttng_ust_statedump_start(void* data, void* session) {
   (void)data;
   (void)session;
-  atomic_load(&dump_state)();
+  atomic_load (&dump_state)();
 }
 
 int tracetools_provider_on_state_dump(void (*dump)(void)) {

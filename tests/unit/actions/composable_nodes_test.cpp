@@ -127,12 +127,13 @@ TEST(PythonIncludes, ThatAreMissingAreNotedByAPlanAndRefusedByARun) {
   EXPECT_EQ(planned.error, "");
   EXPECT_THAT(planned.plan.python_includes, ElementsAre("/nowhere/x.launch.py"));
   EXPECT_THAT(planned.plan.logs, ElementsAre("1"));
-  EXPECT_EQ(run_error(text),
-            "/test/system.launch.xml:2:16: error: can't read launch file '/nowhere/x.launch.py': No such file or directory\n"
-            "    2 | " +
-                text +
-                "\n"
-                "      |                ^~~~~~~~~~~~~~~~~~~~");
+  EXPECT_EQ(
+      run_error(text),
+      "/test/system.launch.xml:2:16: error: can't read launch file '/nowhere/x.launch.py': No such file or directory\n"
+      "    2 | " +
+          text +
+          "\n"
+          "      |                ^~~~~~~~~~~~~~~~~~~~");
 }
 
 }  // namespace

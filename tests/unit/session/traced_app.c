@@ -1,7 +1,7 @@
 // Usage: traced_app COUNT BYTES [abort]
 // Fires one ros2:rcl_init and COUNT events ros2:rclcpp_callback_register with a symbol of BYTES characters and says
-// "fired". For every line on stdin it fires COUNT events more and says so again; it ends when stdin does. With `abort` it
-// dies of SIGABRT instead.
+// "fired". For every line on stdin it fires COUNT events more and says so again; it ends when stdin does. With `abort`
+// it dies of SIGABRT instead.
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #include <stdio.h>
