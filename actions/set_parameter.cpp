@@ -35,7 +35,8 @@ class SetParametersFromFile : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     // Whether there is such a file matters once a node is given it.
-    const std::filesystem::path path = std::filesystem::absolute(filename_.perform(context.scope()));
+    const std::string name = filename_.perform(context.scope());
+    const std::filesystem::path path = name.empty() ? "" : std::filesystem::absolute(name);
     context.scope().global_parameters.push_back(ParameterFilePath{path.lexically_normal().string(), filename_.where()});
   }
 

@@ -89,6 +89,10 @@ TEST(RosScope, AMissingParameterFileMattersOnlyToNodes) {
             "/test/system.launch.xml:2:37: error: parameter file path is not a file: /nowhere.yaml\n"
             "    2 | <set_parameters_from_file filename=\"/nowhere.yaml\"/><node exec=\"n\"/>\n"
             "      |                                     ^~~~~~~~~~~~~");
+  const std::string empty = R"xml(<set_parameters_from_file filename="$(env NOT_SET '')"/>)xml";
+  EXPECT_EQ(plan_actions(empty).error, "");
+  EXPECT_THAT(plan_actions(empty + "<node exec=\"n\"/>").error,
+              HasSubstr("error: parameter file path is not a file: \n"));
 }
 
 TEST(RosScope, LogDirectoryIsJoinedToTheCurrentOne) {
