@@ -59,16 +59,19 @@ class KernelTrace : public testing::Test {
     return -1;
   }
 
+  // The kernel has its instances once for all sandboxes.
+  const std::string session_ = "kernel_test_" + std::to_string(getpid());
   Sandbox sandbox_;
 };
 
 TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) {
   const CommandResult result = launch(R"xml(
-    <trace session-name="run" events-kernel="sched_switch sched_process_exec" syscalls="exit_group"/>
+    <trace session-name=")xml" + session_ +
+                                      R"xml(" events-kernel="sched_switch sched_process_exec" syscalls="exit_group"/>
     <executable cmd="sh -c ')xml" TRACED_APP R"xml( 3 10 &lt;/dev/null'"/>)xml");
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("they are recorded through tracefs instead"));
-  const fs::path directory = sandbox_.trace_directory() / "run";
+  const fs::path directory = sandbox_.trace_directory() / session_;
   EXPECT_FALSE(fs::exists(directory / "kernel-recorder.pid"));
   EXPECT_THAT(read_file(directory / "verdict.json"), HasSubstr("\"domain\": \"kernel\""));
 
@@ -93,13 +96,15 @@ TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) 
 }
 
 TEST_F(KernelTrace, UnknownEventsAreAnErrorAtTheTraceAndLeaveNothing) {
-  const CommandResult result = launch(R"xml(<trace session-name="run" events-kernel="sched_swich"/>)xml");
+  const CommandResult result = launch("<trace session-name=\"" + session_ + "\" events-kernel=\"sched_swich\"/>");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err,
               HasSubstr(":2:2: error: tracing setup failed: kernel events cannot be recorded: the kernel has "
                         "no event 'sched_swich'"));
   EXPECT_THAT(run_command({"lttng", "list"}).out, HasSubstr("Currently no available recording session"));
-  EXPECT_EQ(run_command({"unshare", "-m", "sh", "-c", std::string(kSeeTracefs) + " | grep ^launch-run$"}).out, "");
+  EXPECT_EQ(
+      run_command({"unshare", "-m", "sh", "-c", std::string(kSeeTracefs) + " | grep ^launch-" + session_ + "$"}).out,
+      "");
 }
 
 TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
@@ -111,13 +116,13 @@ TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
 }
 
 TEST_F(KernelTrace, RecordsFromACommandUntilAnotherStopsIt) {
-  ASSERT_EQ(run_command({LAUNCH_PROGRAM, "trace", "start", "run", "-k", "sched_process_exec"}).exit_code, 0);
+  ASSERT_EQ(run_command({LAUNCH_PROGRAM, "trace", "start", session_, "-k", "sched_process_exec"}).exit_code, 0);
   run_command({"true"});
-  const CommandResult stopped = run_command({LAUNCH_PROGRAM, "trace", "stop", "run"});
+  const CommandResult stopped = run_command({LAUNCH_PROGRAM, "trace", "stop", session_});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   std::size_t found = 0;
-  EXPECT_GT(number_in(lines_of(sandbox_.trace_directory() / "run"), {"sched_process_exec: ", "/true\""}, "tid", found),
-            0);
+  EXPECT_GT(
+      number_in(lines_of(sandbox_.trace_directory() / session_), {"sched_process_exec: ", "/true\""}, "tid", found), 0);
 }
 
 }  // namespace
