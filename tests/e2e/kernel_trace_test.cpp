@@ -102,9 +102,10 @@ TEST_F(KernelTrace, UnknownEventsAreAnErrorAtTheTraceAndLeaveNothing) {
               HasSubstr(":2:2: error: tracing setup failed: kernel events cannot be recorded: the kernel has "
                         "no event 'sched_swich'"));
   EXPECT_THAT(run_command({"lttng", "list"}).out, HasSubstr("Currently no available recording session"));
-  EXPECT_EQ(
-      run_command({"unshare", "-m", "sh", "-c", std::string(kSeeTracefs) + " | grep ^launch-" + session_ + "$"}).out,
-      "");
+  EXPECT_EQ(run_command(
+                {"unshare", "-m", "sh", "-c", "{ " + std::string(kSeeTracefs) + "; } | grep ^launch-" + session_ + "$"})
+                .out,
+            "");
 }
 
 TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
