@@ -112,12 +112,8 @@ class Drawing {
   // Files are told apart by their path; one that is included from several places has several arrows to it.
   std::string add_file(const SourceFile& file) {
     const std::string id = "file " + file.path();
-    const bool is_new =
-        files_
-            .emplace(file.path(), fmt::format("  {} [shape=note, color=gray, label={}];\n", as_id(id),
-                                              as_id(std::filesystem::path(file.path()).filename().string())))
-            .second;
-    static_cast<void>(is_new);
+    const std::string name = std::filesystem::path(file.path()).filename().string();
+    files_.emplace(file.path(), fmt::format("  {} [shape=note, color=gray, label={}];\n", as_id(id), as_id(name)));
     if (const SourceRange& from = file.included_from(); from) {
       const std::string includer = add_file(*from.file);
       if (includes_.emplace(includer, id).second) {
