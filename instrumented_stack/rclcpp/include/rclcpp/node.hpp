@@ -124,6 +124,20 @@ class Node : public std::enable_shared_from_this<Node> {
     return rclcpp::create_service<ServiceT>(node_base_, node_services_, extend_name(service_name),
                                             std::forward<CallbackT>(callback), qos, std::move(group));
   }
+  // The older forms, with a profile of the middleware.
+  template <typename ServiceT, typename CallbackT>
+  [[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Service<ServiceT>::SharedPtr create_service(
+      const std::string& service_name, CallbackT&& callback, const rmw_qos_profile_t& qos_profile,
+      CallbackGroup::SharedPtr group = nullptr) {
+    return create_service<ServiceT>(service_name, std::forward<CallbackT>(callback),
+                                    QoS(QoSInitialization::from_rmw(qos_profile), qos_profile), std::move(group));
+  }
+  template <typename ServiceT>
+  [[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Client<ServiceT>::SharedPtr create_client(
+      const std::string& service_name, const rmw_qos_profile_t& qos_profile, CallbackGroup::SharedPtr group = nullptr) {
+    return create_client<ServiceT>(service_name, QoS(QoSInitialization::from_rmw(qos_profile), qos_profile),
+                                   std::move(group));
+  }
   template <typename ServiceT>
   typename Client<ServiceT>::SharedPtr create_client(const std::string& service_name, const QoS& qos = ServicesQoS(),
                                                      CallbackGroup::SharedPtr group = nullptr) {
