@@ -32,7 +32,11 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
       node_type_descriptions_(std::make_shared<node_interfaces::NodeTypeDescriptionsInterface>(
           node_base_, node_parameters_, node_services_)),
       time_source_(std::make_unique<node_interfaces::TimeSource>(*this)),
-      effective_namespace_(node_base_->get_namespace()) {}
+      effective_namespace_(node_base_->get_namespace()) {
+  if (options.enable_logger_service()) {
+    node_logging_->create_logger_services(node_services_);
+  }
+}
 
 Node::Node(Node& other, const std::string& sub_namespace)
     : parent_(other.shared_from_this()),
