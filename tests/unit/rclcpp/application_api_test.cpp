@@ -69,6 +69,14 @@ TEST_F(Application, MayGiveServicesAProfileOfTheMiddleware) {
   EXPECT_TRUE(future.get()->success);
 }
 
+// As in the constructor of a node, where there is no shared pointer to it yet.
+TEST_F(Application, ReadsParametersOfItsOwnThroughAPlainPointer) {
+  node_->declare_parameter("speed", 1.5);
+  rclcpp::SyncParametersClient client(node_.get());
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  EXPECT_EQ(client.get_parameter<double>("speed"), 1.5);
+}
+
 TEST_F(Application, LetsOthersChangeItsLogLevels) {
   using rcl_interfaces::srv::GetLoggerLevels;
   using rcl_interfaces::srv::SetLoggerLevels;
