@@ -1,5 +1,5 @@
-// What the tracepoints between publish() and the callback cost. Answers each period on stdin, int64 nanoseconds, with
-// the PathCosts on stdout.
+// What the tracepoints between publish() and the callback cost. Answers each PathRequest on stdin with the PathCosts on
+// stdout.
 #include <tracetools/tracetools.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCalls = 2000;
 constexpr int kRepetitions = 7;
-constexpr int kPacedRepetitions = 500;
+constexpr int kPacedRepetitions = 250;
 
 const void* const kPointer = &kCalls;
 
@@ -38,9 +38,15 @@ double cost_in_a_loop(void (*event)()) {
   return median(costs);
 }
 
-double cost_after_sleep(void (*events)(), std::int64_t period) {
+// A message is copied by whoever sends or takes it, and pushes as much out of the caches as it needs.
+double cost_at_pace(void (*events)(), const latency::PathRequest& request) {
+  const std::vector<char> message(request.bytes, 'm');
+  std::vector<char> copy(request.bytes);
   std::vector<double> costs;
-  latency::at_pace(kPacedRepetitions, period, [&](std::uint64_t) { costs.push_back(time_of(events, 1)); });
+  latency::at_pace(kPacedRepetitions, request.period, [&](std::uint64_t) {
+    std::copy(message.begin(), message.end(), copy.begin());
+    costs.push_back(time_of(events, 1));
+  });
   return median(costs);
 }
 
@@ -65,7 +71,7 @@ void call_all() {
   }
 }
 
-latency::PathCosts costs_of_path(std::int64_t period) {
+latency::PathCosts costs_of_path(const latency::PathRequest& request) {
   latency::PathCosts costs{};
   for (void (*event)() : kOfPublisher) {
     costs.in_a_loop += cost_in_a_loop(event);
@@ -73,16 +79,16 @@ latency::PathCosts costs_of_path(std::int64_t period) {
   for (void (*event)() : kOfSubscriber) {
     costs.in_a_loop += cost_in_a_loop(event);
   }
-  costs.at_pace = cost_after_sleep(call_all<kOfPublisher>, period) + cost_after_sleep(call_all<kOfSubscriber>, period);
+  costs.at_pace = cost_at_pace(call_all<kOfPublisher>, request) + cost_at_pace(call_all<kOfSubscriber>, request);
   return costs;
 }
 
 }  // namespace
 
 int main() {
-  std::int64_t period = 0;
-  while (read(STDIN_FILENO, &period, sizeof period) == sizeof period) {
-    const latency::PathCosts costs = costs_of_path(period);
+  latency::PathRequest request{};
+  while (read(STDIN_FILENO, &request, sizeof request) == sizeof request) {
+    const latency::PathCosts costs = costs_of_path(request);
     if (write(STDOUT_FILENO, &costs, sizeof costs) != sizeof costs) {
       return 1;
     }

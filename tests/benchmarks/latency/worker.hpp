@@ -27,8 +27,12 @@ struct Batch {
 };
 
 // What the tracepoints on the way of a message cost, in microseconds: the sum of the costs of each in a loop of its
-// own, where all they touch is in the caches; and when they are called once a period, those of the publisher one after
-// another, and those of the subscriber.
+// own, where all they touch is in the caches; and when they are called once a period, after a copy of as many bytes as
+// the message has, those of the publisher one after another, and those of the subscriber.
+struct PathRequest {
+  std::int64_t period;  // nanoseconds
+  std::uint64_t bytes;
+};
 struct PathCosts {
   double in_a_loop;
   double at_pace;
