@@ -170,9 +170,9 @@ TEST(Ros2Analysis, GivesTheHandleOfAnEndedObjectToNobody) {
   const Ros2Results results = feed.results();
 
   ASSERT_EQ(results.callbacks.size(), 2u);
-  EXPECT_EQ(results.callbacks[0].owner, Owner::kTimer);
+  EXPECT_EQ(results.callbacks[0].owner, Owner::kUnknown);
   EXPECT_EQ(results.callbacks[0].durations.count, 1u);
-  EXPECT_EQ(results.callbacks[1].owner, Owner::kUnknown);
+  EXPECT_EQ(results.callbacks[1].owner, Owner::kTimer);
   EXPECT_EQ(results.callbacks[1].durations.count, 1u);
   EXPECT_EQ(topic(results, "/topic").published, 1u);
   EXPECT_EQ(results.unknown_messages, 1u);
