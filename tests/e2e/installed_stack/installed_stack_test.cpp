@@ -85,7 +85,8 @@ TEST_F(InstalledStack, BuildsAmentPackagesUnchanged) {
       run({(driver / "lib/arm_driver/arm_node").string(), "--ros-args", "-r", "__ns:=/left"}).out,
       "/left/arm\n{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"shoulder\"}, torques: [3.00000, 1.50000]}\n");
   EXPECT_EQ(test_support::read_file(driver / "share/ament_index/resource_index/rclcpp_components/arm_driver"),
-            "arm_driver::ArmComponent;lib/libarm_component.so\n");
+            "arm_driver::ArmComponent;lib/libarm_component.so\narm_driver::SelfTest;lib/libarm_component.so\n");
+  EXPECT_EQ(run({(driver / "lib/arm_driver/self_test").string()}).out, "the arm is there\n");
   for (const char* file : {"share/ament_index/resource_index/packages/arm_driver", "share/arm_driver/package.xml",
                            "share/arm_driver/msg/Effort.msg", "include/arm_driver/arm_driver/arm_model.hpp",
                            "include/arm_driver/arm_driver/version.h"}) {
