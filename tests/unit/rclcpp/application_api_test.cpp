@@ -163,7 +163,8 @@ TEST(Qos, TellsWhetherTwoProfilesMatch) {
   const auto result = rclcpp::qos_check_compatible(rclcpp::QoS(1).best_effort(), rclcpp::QoS(1).reliable());
   EXPECT_EQ(result.compatibility, rclcpp::QoSCompatibility::Error);
   EXPECT_EQ(result.reason, "ERROR: best effort publisher and reliable subscription;");
-  EXPECT_EQ(rclcpp::qos_check_compatible(rclcpp::QoS(1), rclcpp::QoS(1)).compatibility, rclcpp::QoSCompatibility::Ok);
+  const rclcpp::QoS all_said = rclcpp::QoS(1).liveliness(rclcpp::LivelinessPolicy::Automatic);
+  EXPECT_EQ(rclcpp::qos_check_compatible(all_said, all_said).compatibility, rclcpp::QoSCompatibility::Ok);
 }
 
 static_assert(RCLCPP_VERSION_GTE(28, 0, 0) && RCLCPP_VERSION_GTE(27, 9, 9) && !RCLCPP_VERSION_GTE(28, 2, 0));
