@@ -15,6 +15,7 @@
 #include "tracing/session/context_check.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/installed_program.hpp"
+#include "tracing/session/kernel_checks.hpp"
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
@@ -183,12 +184,16 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
   std::string why;
   try {
     check_kernel_tracer();
-    return {};
   } catch (const TraceError& error) {
     // Snapshots and relay daemons are LTTng's own.
     if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.records_snapshots() || config.over_network())
       throw;
     why = error.what();
+  }
+  if (why.empty()) {
+    check_kernel_names(channels, kernel_event_names(), syscall_names());
+    check_kernel_context_fields(channels, kernel_modules_version());
+    return {};
   }
   std::vector<ChannelPlan> kernel;
   for (const ChannelPlan& channel : channels) {
