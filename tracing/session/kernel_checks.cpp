@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <fnmatch.h>
+#include <lttng/lttng-error.h>
 #include <lttng/lttng.h>
 
 #include <algorithm>
@@ -48,6 +49,12 @@ void check_kernel_tracer() {
   const int count = lttng_list_tracepoints(handle.get(), &tracepoints);
   std::free(tracepoints);
   if (count >= 0) return;
+  if (count == -LTTNG_ERR_NEED_ROOT_SESSIOND) {
+    throw TraceError(
+        "kernel events cannot be recorded: root's session daemon alone records them, and this user has none",
+        "run as root; or let root start lttng-sessiond, join the group `tracing` (sudo usermod -aG tracing "
+        "USER), and log in again");
+  }
   throw TraceError(fmt::format("kernel events cannot be recorded: {}", lttng_strerror(count)),
                    "install the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as root or as a member "
                    "of the group `tracing`; or trace without events-kernel and syscalls");

@@ -25,6 +25,7 @@
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/tracer.hpp"
+#include "tracing/session/unreachable_processes.hpp"
 #include "tracing/session/verdict.hpp"
 
 namespace tracing {
@@ -162,6 +163,7 @@ class LttngTracer : public Tracer {
   std::vector<SessionSummary> sessions() override { return list_sessions(); }
   SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
   TraceableEvents traceable_events() override { return list_traceable_events(); }
+  std::vector<std::string> unreachable_processes() override { return unreachable_process_warnings(); }
   void save(const std::string& lttng_session_name, const std::string& directory) override {
     save_session(lttng_session_name, directory);
   }
@@ -199,13 +201,13 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
   for (const ChannelPlan& channel : channels) {
     if (channel.domain == LTTNG_DOMAIN_KERNEL) kernel.push_back(channel);
   }
+  check_kernel_recorder_fields(kernel);
   std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
   if (channels.empty()) {
     throw TraceError("kernel events are recorded through tracefs, and only beside userspace events",
                      "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
   }
-  warnings.push_back(
-      fmt::format("{}; they are recorded through tracefs instead, with the thread as only context", why));
+  warnings.push_back(fmt::format("{}; they are recorded through tracefs instead", why));
   return kernel;
 }
 
@@ -287,10 +289,12 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
 void LttngTracer::pause(const std::string& name) {
   // Waits for the data: whoever pauses wants to look at the trace.
   check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
+  if (const auto session = find_session(name)) pause_kernel_recorder(session->path);
 }
 
 void LttngTracer::resume(const std::string& name) {
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
+  if (const auto session = find_session(name)) resume_kernel_recorder(session->path);
 }
 
 void LttngTracer::record_snapshot(const std::string& name) {

@@ -104,10 +104,13 @@ std::vector<SessionSummary> list_sessions() {
   const std::unique_ptr<lttng_session, Free> sessions(listed);
   std::vector<SessionSummary> summaries;
   for (int i = 0; i < count; ++i) {
+    std::uint64_t created = 0;
+    lttng_session_get_creation_time(&listed[i], &created);
     summaries.push_back({.name = listed[i].name,
                          .path = listed[i].path,
                          .active = listed[i].enabled != 0,
-                         .snapshot = listed[i].snapshot_mode != 0});
+                         .snapshot = listed[i].snapshot_mode != 0,
+                         .created = static_cast<std::int64_t>(created)});
   }
   return summaries;
 }
