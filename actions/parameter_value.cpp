@@ -16,6 +16,7 @@ namespace launch {
 
 namespace {
 
+constexpr const char* kOtherType = "leave the type out to have the value typed as YAML";
 constexpr const char* kNoParameterType = "use a bool, an int, a float, a string, or a list of one of them";
 
 struct NamedType {
@@ -209,7 +210,8 @@ ParameterValueSource::ParameterValueSource(const Value& value, const std::string
     names.emplace_back(candidate.name);
   }
   if (named == nullptr) {
-    throw LaunchError(fmt::format("got invalid type identifier '{}'", type), type_where, did_you_mean(type, names));
+    throw LaunchError(fmt::format("got invalid type identifier '{}'", type), type_where,
+                      "str, bool, int, float, list_of_str, list_of_bool, list_of_int, list_of_float or yaml");
   }
   type_ = named->type;
   type_is_list_ = named->list;
@@ -314,7 +316,8 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   if (!is_text) {
     ParameterScalar value = to_parameter(scalar, where);
     if (type_ != ParameterType::kAny && !has_type(type_, value)) {
-      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), scalar.text.text()), where);
+      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), scalar.text.text()), where,
+                        kOtherType);
     }
     return value;
   }
@@ -329,7 +332,7 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   }
   std::optional<ParameterScalar> value = convert(type_, text);
   if (!value) {
-    throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where);
+    throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where, kOtherType);
   }
   return std::move(*value);
 }
@@ -338,7 +341,7 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
   if (type_ != ParameterType::kAny) {
     std::optional<ParameterScalar> value = convert(type_, text);
     if (!value) {
-      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where);
+      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where, kOtherType);
     }
     return std::move(*value);
   }
@@ -351,7 +354,7 @@ ParameterValue ParameterValueSource::typed_list(const std::string& text, const S
   const auto* const items = std::get_if<std::vector<ParameterScalar>>(&value);
   if (items == nullptr || !std::all_of(items->begin(), items->end(),
                                        [this](const ParameterScalar& item) { return has_type(type_, item); })) {
-    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where);
+    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where, kOtherType);
   }
   return value;
 }

@@ -1,9 +1,11 @@
 #include "launcher/core/action_parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "launcher/core/former_names.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
 namespace launch {
@@ -93,6 +95,18 @@ std::vector<Template> words_of_list(const Entity& entity, const Attribute& attri
   return words;
 }
 
+constexpr std::size_t kMostNames = 8;  // in a line of help
+
+// What to do about a name that is not among the known ones.
+std::string help_for_name(const std::string& name, const std::vector<std::string>& known, const std::string& former,
+                          std::string_view what) {
+  std::string help = former.empty() ? did_you_mean(name, known) : former;
+  if (help.empty() && !known.empty() && known.size() <= kMostNames) {
+    help = fmt::format("{} {}", what, fmt::join(known, ", "));
+  }
+  return help.empty() ? "`launch reference` tells what there is" : help;
+}
+
 }  // namespace
 
 template <typename Step>
@@ -134,7 +148,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
       tags.push_back(tag);
     }
     errors_.push_back({Severity::kError, fmt::format("unrecognized entity of the type '{}'", entity.type_name),
-                       entity.where, did_you_mean(entity.type_name, tags)});
+                       entity.where, help_for_name(entity.type_name, tags, help_for_former_tag(entity.type_name), "")});
     return nullptr;
   }
 
@@ -179,7 +193,12 @@ void ActionParser::report_unknown_child(const Entity& parent, const Entity& chil
   const std::string message =
       actions ? fmt::format("unrecognized entity of the type '{}'", child.type_name)
               : fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name);
-  errors_.push_back({Severity::kError, message, child.where, did_you_mean(child.type_name, known)});
+  const bool misplaced = !actions && registry_.find(child.type_name) != nullptr;
+  errors_.push_back(
+      {Severity::kError, message, child.where,
+       misplaced ? fmt::format("'{}' is an action: put it before or behind '{}'", child.type_name, parent.type_name)
+                 : help_for_name(child.type_name, known, actions ? help_for_former_tag(child.type_name) : "",
+                                 fmt::format("'{}' can hold", parent.type_name))});
 }
 
 void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs,
@@ -204,7 +223,10 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
           {Severity::kError,
            is_item ? fmt::format("expected '{}' of '{}' to be a list of mappings", attribute.name, entity.type_name)
                    : fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
-           attribute.name_where, is_item ? "leave it out when there is none" : did_you_mean(attribute.name, known)});
+           attribute.name_where,
+           is_item ? "leave it out when there is none"
+                   : help_for_name(attribute.name, known, help_for_former_attribute(entity.type_name, attribute.name),
+                                   fmt::format("'{}' has", entity.type_name))});
       continue;
     }
     collect([&] {

@@ -33,7 +33,7 @@ std::vector<std::string> names() {
 json comparable(json value) {
   if (value.is_object()) {
     value.erase("source");
-    for (const char* const key : {"event", "command"}) {
+    for (const char* const key : {"event", "command", "until"}) {
       if (value.contains(key)) {
         value[key] = std::regex_replace(value[key].get<std::string>(), std::regex("'[^']*'"), "a process");
       }
