@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "launcher/cli/graph.hpp"
+#include "launcher/cli/xml_text.hpp"
 
 namespace launch {
 
@@ -27,29 +28,6 @@ struct Rectangle {
   double right() const { return x + width; }
   double middle() const { return y + height / 2; }
 };
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += character;
-    }
-  }
-  return result;
-}
 
 double width_of(const LaunchGraph::Box& box) {
   std::size_t longest = 0;
@@ -104,7 +82,7 @@ class Picture {
     for (std::size_t i = 0; i < box.lines.size(); ++i) {
       boxes_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\"{}>{}</text>\n", place.x + kPadding,
                             place.y + kPadding + kLine * static_cast<double>(i) + kText - 3,
-                            i == 0 ? "" : " fill=\"#777\"", escaped(box.lines[i]));
+                            i == 0 ? "" : " fill=\"#777\"", as_xml_text(box.lines[i]));
     }
     next_ += place.height + kGap;
     note_extent(place);
@@ -164,7 +142,7 @@ class Picture {
         backgrounds_ += fmt::format(
             "<rect class=\"namespace\" x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"/>\n"
             "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n",
-            frame.x, frame.y, frame.width, frame.height, frame.x + kGap, frame.y + kLine, escaped(name_space));
+            frame.x, frame.y, frame.width, frame.height, frame.x + kGap, frame.y + kLine, as_xml_text(name_space));
         note_extent(frame);
         next_ += kGap;
       }
@@ -203,7 +181,7 @@ class Picture {
                               a.middle(), half, b.middle(), b.x, b.middle());
         if (!edge.label.empty()) {
           edges_ += fmt::format("<text class=\"note\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", b.x - 70, b.middle() - 3,
-                                escaped(edge.label));
+                                as_xml_text(edge.label));
         }
         break;
       }

@@ -200,7 +200,7 @@ class SimpleYaml {
                (colon + 1 == text_.size() || text_[colon + 1] == ' ' || text_[colon + 1] == '\n'))) {
         ++colon;
       }
-      if (text_[colon - 1] == ' ') {
+      if (colon == position_ || text_[colon - 1] == ' ') {
         throw GiveUp();
       }
       node = plain(colon);
