@@ -119,6 +119,10 @@ std::string_view type_text_of(ParameterType type) {
   }
 }
 
+std::string type_with_article(ParameterType type) {
+  return fmt::format("{} {}", type == ParameterType::kInt ? "an" : "a", type_text_of(type));
+}
+
 bool has_type(ParameterType type, const ParameterScalar& scalar) {
   return (type == ParameterType::kBool && std::holds_alternative<bool>(scalar)) ||
          (type == ParameterType::kInt && std::holds_alternative<std::int64_t>(scalar)) ||
@@ -221,7 +225,7 @@ void ParameterValueSource::take_value(const Value& value) {
 
 void ParameterValueSource::take_items(const std::vector<Value>& values) {
   if (type_ != ParameterType::kAny && !type_is_list_) {
-    throw LaunchError(fmt::format("expected a {}, got a list", type_text_of(type_)), where_,
+    throw LaunchError(fmt::format("expected {}, got a list", type_with_article(type_)), where_,
                       fmt::format("use list_of_{}", type_text_of(type_)));
   }
   is_list_ = true;
@@ -254,7 +258,7 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   if (!is_text) {
     ParameterScalar value = to_parameter(scalar, where);
     if (type_ != ParameterType::kAny && !has_type(type_, value)) {
-      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), scalar.text.text()), where,
+      throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), scalar.text.text()), where,
                         kOtherType);
     }
     return value;
@@ -270,7 +274,7 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   }
   std::optional<ParameterScalar> value = convert(type_, text);
   if (!value) {
-    throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where, kOtherType);
+    throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType);
   }
   return std::move(*value);
 }
@@ -279,7 +283,7 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
   if (type_ != ParameterType::kAny) {
     std::optional<ParameterScalar> value = convert(type_, text);
     if (!value) {
-      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where, kOtherType);
+      throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType);
     }
     return std::move(*value);
   }

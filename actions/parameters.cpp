@@ -92,7 +92,8 @@ void Parameters::perform_tree(const Tree& tree, const std::string& prefix, Scope
 LocatedText Parameters::performed_file(const std::string& path, Scope& scope) const {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(), kRelativePath);
+    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(),
+                      help_for_missing_file(path));
   }
   const auto file = SourceFile::read(path, file_->where());
   const SourceRange whole{file, 0, static_cast<std::uint32_t>(file->text().size())};

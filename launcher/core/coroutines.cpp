@@ -36,8 +36,7 @@ void Coroutines::cancel() {
 }
 
 void Coroutines::step() {
-  const EventLoop::SourcePtr timer = std::move(timer_);  // both outlive their callbacks
-  const EventLoop::SourcePtr wake_up = std::move(wake_up_);
+  const EventLoop::SourcePtr timer = std::move(timer_);  // outlives its callback
   std::optional<LaunchError> failure;
   python::Pause pause;
   try {
@@ -52,8 +51,10 @@ void Coroutines::step() {
     pause = {.running = running_ - 1, .descriptor = -1, .seconds = 0};
   }
   running_ = pause.running;
-  if (running_ != 0) {
-    if (pause.descriptor >= 0) {
+  if (running_ == 0) {
+    wake_up_.reset();
+  } else {
+    if (!wake_up_ && pause.descriptor >= 0) {
       wake_up_ = loop_.on_readable(pause.descriptor, [this] { step(); });
     }
     if (pause.seconds) {

@@ -90,7 +90,9 @@ std::string file_content(const SubstitutionCall& call) {
   std::ostringstream content;
   if (!file || !(content << file.rdbuf())) {
     call.fail(fmt::format("file not found: '{}'", path),
-              "a relative path is relative to the launcher's working directory; use $(dirname)/…");
+              path.starts_with('/')
+                  ? ""
+                  : "a relative path is relative to the launcher's working directory; use $(dirname)/…");
   }
   return std::move(content).str();
 }

@@ -102,7 +102,7 @@ class GoldenErrors(unittest.TestCase):
                 self.assertRegex(text, r'^[^\n]+:\d+:\d+: error: [^\n]+\n +\d+ \| ')
                 self.assertIn('^', text)
                 # What to do about it, unless the cause names all that is right.
-                self.assertRegex(text, r'= help: |expected |Valid options|is not a valid package name')
+                self.assertRegex(text, r'= help: |expected |can be |Valid options|is not a valid package name|No such file|not found: |is not a file')
 
     def test_the_page_shows_them(self):
         made = page()

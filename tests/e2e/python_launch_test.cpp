@@ -224,12 +224,11 @@ from launch.logging import get_logger
 
 
 def generate_launch_description():
-    heard = {}
+    heard = {'event': asyncio.Event()}
 
     async def watch(context, name, end=False):
         log = get_logger('coroutine')
         log.info(f'{name} {context.launch_configurations["x"]} begins')
-        heard['event'] = asyncio.Event()
         await heard['event'].wait()
         process = await asyncio.create_subprocess_exec('echo', 'from a child', stdout=asyncio.subprocess.PIPE)
         text = (await process.communicate())[0].decode().strip()

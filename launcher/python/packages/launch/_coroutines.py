@@ -29,6 +29,15 @@ class _Selector(selectors.DefaultSelector):
         return events
 
 
+class _Loop(asyncio.SelectorEventLoop):
+
+    def call_soon(self, callback, *args, context=None):
+        if self.is_running():
+            return super().call_soon(callback, *args, context=context)
+        # An event handler has something for a coroutine: the launcher must hear that a step is due.
+        return self.call_soon_threadsafe(callback, *args, context=context)
+
+
 _selector = None
 _tasks = {}  # with the objects that they were made by
 
@@ -38,7 +47,7 @@ def loop():
     global _selector
     if _selector is None:
         _selector = _Selector()
-        _selector.loop = asyncio.SelectorEventLoop(_selector)
+        _selector.loop = _Loop(_selector)
         asyncio.set_event_loop(_selector.loop)
     return _selector.loop
 
