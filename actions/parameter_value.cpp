@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/substitution/boolean.hpp"
@@ -143,15 +144,9 @@ void require_uniform(const std::vector<ParameterScalar>& items, const char* mess
 ParameterValueSource::ParameterValueSource(const Value& value, const std::string& type,
                                            const std::optional<std::string>& separator, const SourceRange& type_where)
     : where_(value.where) {
-  const NamedType* named = nullptr;
-  std::vector<std::string> names;
-  for (const NamedType& candidate : kTypes) {
-    if (candidate.name == type) {
-      named = &candidate;
-    }
-    names.emplace_back(candidate.name);
-  }
-  if (named == nullptr) {
+  const NamedType* const named = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                              [&](const NamedType& candidate) { return candidate.name == type; });
+  if (named == std::end(kTypes)) {
     throw LaunchError(fmt::format("got invalid type identifier '{}'", type), type_where,
                       "str, bool, int, float, list_of_str, list_of_bool, list_of_int, list_of_float or yaml");
   }
