@@ -11,6 +11,7 @@ namespace launch {
 namespace {
 
 constexpr std::size_t kMaximumDepth = 50;
+constexpr std::size_t kUsualKeys = 4;     // of a mapping: what is reserved
 constexpr std::size_t kMaximumKey = 500;  // YAML ends the search for the ':' of a key somewhere behind
 
 // Thrown for what is out of the ordinary; caught in this file.
@@ -109,6 +110,7 @@ class SimpleYaml {
 
   YamlNode mapping(std::size_t indentation, std::size_t depth) {
     YamlNode node = collection(YamlNode::Kind::kMapping);
+    node.entries.reserve(kUsualKeys);
     while (position_ < text_.size() && column_ == indentation && !at_dash()) {
       if (!is_key()) {
         throw GiveUp();
