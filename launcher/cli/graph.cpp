@@ -52,7 +52,8 @@ class GraphBuilder {
         const std::string id = add_node(
             joined(component.name_space, component.name), component.name_space.empty() ? "/" : component.name_space,
             fmt::format("{} in {}", component.plugin, request.target), component.origin, component.remaps);
-        graph_.edges.push_back({joined("", request.target), id, Relation::kLoads, "loads"});
+        const std::string& target = request.target;
+        graph_.edges.push_back({target.starts_with('/') ? target : "/" + target, id, Relation::kLoads, "loads"});
       }
     }
     for (const std::string& topic : topics_) {
