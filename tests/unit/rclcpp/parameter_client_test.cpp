@@ -1,6 +1,5 @@
 // Parameters of one node, read and changed from another.
 #include <thread>
-#include <type_description_interfaces/srv/get_type_description.hpp>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
 
@@ -54,19 +53,6 @@ TEST_F(ParameterClient, RefusalsSayWhy) {
             "parameter 'height' cannot be set because it was not declared");
   EXPECT_FALSE(client.set_parameters_atomically({rclcpp::Parameter("speed", "fast")}).successful);
   EXPECT_EQ(owner_->get_parameter("speed").as_double(), 1.5);
-}
-
-TEST_F(ParameterClient, TypeDescriptionServiceSaysThatThereIsNone) {
-  using type_description_interfaces::srv::GetTypeDescription;
-  const auto client = asker_->create_client<GetTypeDescription>("/ns/owner/get_type_description");
-  ASSERT_TRUE(client->wait_for_service(kPatience));
-  auto request = std::make_shared<GetTypeDescription::Request>();
-  request->type_name = "std_msgs/msg/String";
-  auto future = client->async_send_request(request);
-  ASSERT_EQ(rclcpp::spin_until_future_complete(asker_, future, kPatience), rclcpp::FutureReturnCode::SUCCESS);
-  const auto response = future.get();
-  EXPECT_FALSE(response->successful);
-  EXPECT_EQ(response->failure_reason, "this node has no description of type 'std_msgs/msg/String'");
 }
 
 TEST_F(RosTest, NodeHasNoParameterServicesWhenItIsToldSo) {
