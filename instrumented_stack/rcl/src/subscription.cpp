@@ -60,6 +60,7 @@ rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node
   const rosidl_type_description_t* type = rmw_message_type_description(type_support);
   (void)rcl_node_type_cache_register_type(node, type);
   subscription->impl = new rcl_subscription_impl_s{*options, actual_qos, handle, type};
+  subscription->impl->options.rmw_subscription_options.content_filter_options = nullptr;  // of the caller
   TRACETOOLS_TRACEPOINT(rcl_subscription_init, static_cast<const void*>(subscription), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -171,10 +172,6 @@ bool rcl_subscription_is_valid(const rcl_subscription_t* subscription) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(subscription, "the subscription is null", return false);
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(subscription->impl, "the subscription is not initialized", return false);
   return true;
-}
-
-bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription) {
-  return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->is_cft_enabled;
 }
 
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription) {

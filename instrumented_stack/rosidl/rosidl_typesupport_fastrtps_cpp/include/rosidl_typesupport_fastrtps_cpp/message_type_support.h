@@ -39,6 +39,9 @@ typedef struct message_type_support_callbacks_t {
   size_t (*max_serialized_size)(char& bounds_info);
   /// Null for a type of which only the name is known.
   const rosidl_type_description_t* description_;
+  /// A new message with its defaults, to be given to destroy_message. Throws std::bad_alloc.
+  void* (*create_message)(void);
+  void (*destroy_message)(void* untyped_ros_message);
 } message_type_support_callbacks_t;
 
 #endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__MESSAGE_TYPE_SUPPORT_H_
