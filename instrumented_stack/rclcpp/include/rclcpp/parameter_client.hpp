@@ -122,6 +122,10 @@ class SyncParametersClient {
   explicit SyncParametersClient(const std::shared_ptr<NodeT>& node, const std::string& remote_node_name = "",
                                 const QoS& qos = ParametersQoS())
       : SyncParametersClient(own_executor(*node), node, remote_node_name, qos) {}
+  // As constructors of nodes need it.
+  template <typename NodeT>
+  explicit SyncParametersClient(NodeT* node, const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
+      : executor_(own_executor(*node)), client_(node, remote_node_name, qos) {}
   template <typename NodeT>
   SyncParametersClient(Executor::SharedPtr executor, const std::shared_ptr<NodeT>& node,
                        const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
