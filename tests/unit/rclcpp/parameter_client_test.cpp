@@ -55,6 +55,23 @@ TEST_F(ParameterClient, RefusalsSayWhy) {
   EXPECT_EQ(owner_->get_parameter("speed").as_double(), 1.5);
 }
 
+TEST_F(ParameterClient, HearsOfChanges) {
+  rclcpp::AsyncParametersClient client(asker_, "/ns/owner");
+  std::vector<std::string> changed;
+  const auto subscription = client.on_parameter_event([&](const rcl_interfaces::msg::ParameterEvent& event) {
+    for (const auto& parameter : event.changed_parameters) {
+      changed.push_back(event.node + ": " + parameter.name);
+    }
+  });
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  rclcpp::executors::SingleThreadedExecutor executor;
+  executor.add_node(asker_);
+  ASSERT_TRUE(spin_until(executor, [&] { return subscription->get_publisher_count() == 2; }));
+  client.set_parameters({rclcpp::Parameter("speed", 2.5)});
+  ASSERT_TRUE(spin_until(executor, [&] { return !changed.empty(); }));
+  EXPECT_EQ(changed, std::vector<std::string>{"/ns/owner: speed"});
+}
+
 TEST_F(RosTest, NodeHasNoParameterServicesWhenItIsToldSo) {
   const rclcpp::Node with("with");
   const rclcpp::Node without("without", rclcpp::NodeOptions().start_parameter_services(false).append_parameter_override(

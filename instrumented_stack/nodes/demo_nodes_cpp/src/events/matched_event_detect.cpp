@@ -57,7 +57,7 @@ class MatchedEventDetectNode : public rclcpp::Node {
 template <typename CreateT>
 void come_and_go(rclcpp::Executor& executor, const MatchedEventDetectNode& detector, const rclcpp::Node& node,
                  const char* what, CreateT create) {
-  const auto wait_for_event = [&executor, &detector, before = detector.events()]() mutable {
+  auto wait_for_event = [&executor, &detector, before = detector.events()]() mutable {
     while (rclcpp::ok() && detector.events() == before) {
       executor.spin_once();
     }
