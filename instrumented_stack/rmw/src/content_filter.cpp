@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "dds_type_object.hpp"
-#include "message_type.hpp"
 
 namespace fdds = eprosima::fastdds::dds;
 
@@ -39,7 +38,7 @@ fdds::ContentFilteredTopic& create_filtered_topic(fdds::Topic& topic, const mess
     throw std::runtime_error("messages of type '" + topic.get_type_name() +
                              "' cannot be filtered by content: the members of the type are not known");
   }
-  register_type_object(dds_type_name(type), *type.description_);
+  register_type_object(*type.description_);
   // The name is known within the participant only.
   static std::atomic<std::uint64_t> count{0};
   const std::string name = topic.get_name() + "_filtered_" + std::to_string(++count);

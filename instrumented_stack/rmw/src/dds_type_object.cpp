@@ -122,21 +122,35 @@ types::DynamicType_ptr struct_of(const rosidl_type_description_t& description) {
   return builder->build();
 }
 
-}  // namespace
-
-void register_type_object(const std::string& dds_type_name, const rosidl_type_description_t& description) {
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
+void register_struct(const rosidl_type_description_t& description) {
   auto* objects = types::TypeObjectFactory::get_instance();
-  if (objects->get_type_object(dds_type_name, true) != nullptr) {
+  const std::string name = dds_name(description.type_name);
+  if (objects->get_type_object(name, true) != nullptr) {
     return;
   }
-  // It registers what it builds, and that of the types within, by name.
-  types::TypeObject object;
-  types::DynamicTypeBuilderFactory::get_instance()->build_type_object(struct_of(description), object, true);
-  if (objects->get_type_object(dds_type_name, true) == nullptr) {
-    throw std::runtime_error("Fast DDS cannot describe type '" + dds_type_name + "'");
+  // Fast DDS looks for the elements of sequences by name, and crashes if it does not find them.
+  for (std::size_t i = 0; i < description.field_count; ++i) {
+    if (description.fields[i].nested_type != nullptr) {
+      register_struct(*description.fields[i].nested_type);
+    }
   }
+  // In both forms: filters read the complete one, the sequence of such a struct is found by the minimal one.
+  const types::DynamicType_ptr type = struct_of(description);
+  for (const bool complete : {false, true}) {
+    types::TypeObject object;
+    types::DynamicTypeBuilderFactory::get_instance()->build_type_object(type, object, complete);
+  }
+  if (objects->get_type_object(name, true) == nullptr) {
+    throw std::runtime_error("Fast DDS cannot describe type '" + name + "'");
+  }
+}
+
+}  // namespace
+
+void register_type_object(const rosidl_type_description_t& description) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  register_struct(description);
 }
 
 }  // namespace rmw_fastrtps

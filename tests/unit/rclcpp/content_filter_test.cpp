@@ -46,6 +46,17 @@ class ContentFilter : public RosTest {
     return received_;
   }
 
+  // A publisher, which filters too, hears of a change a little later.
+  bool comes_to_receive(const std::vector<int32_t>& expected) {
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (send_and_receive() != expected) {
+      if (HasFailure() || std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("node");
   rclcpp::Publisher<Int32>::SharedPtr publisher_ = node_->create_publisher<Int32>("topic", 20);
   rclcpp::executors::SingleThreadedExecutor executor_;
@@ -55,7 +66,7 @@ class ContentFilter : public RosTest {
 TEST_F(ContentFilter, LetsOnlyWantedMessagesThrough) {
   const auto subscription = subscribe(filtered_by("data = %0 OR data > %1", {"3", "7"}));
   EXPECT_TRUE(subscription->is_cft_enabled());
-  EXPECT_THAT(send_and_receive(), ElementsAre(3, 8, 9));
+  EXPECT_TRUE(comes_to_receive({3, 8, 9})) << testing::PrintToString(received_);
   const rclcpp::ContentFilterOptions filter = subscription->get_content_filter();
   EXPECT_EQ(filter.filter_expression, "data = %0 OR data > %1");
   EXPECT_THAT(filter.expression_parameters, ElementsAre("3", "7"));
@@ -63,27 +74,27 @@ TEST_F(ContentFilter, LetsOnlyWantedMessagesThrough) {
 
 TEST_F(ContentFilter, ChangesAtRunTime) {
   const auto subscription = subscribe(filtered_by("data > %0", {"7"}));
-  EXPECT_THAT(send_and_receive(), ElementsAre(8, 9));
+  EXPECT_TRUE(comes_to_receive({8, 9})) << testing::PrintToString(received_);
   subscription->set_content_filter("data > %0", {"6"});
-  EXPECT_THAT(send_and_receive(), ElementsAre(7, 8, 9));
+  EXPECT_TRUE(comes_to_receive({7, 8, 9})) << testing::PrintToString(received_);
   subscription->set_content_filter("data BETWEEN %0 AND %1 OR data = 100", {"2", "3"});
-  EXPECT_THAT(send_and_receive(), ElementsAre(2, 3));
+  EXPECT_TRUE(comes_to_receive({2, 3})) << testing::PrintToString(received_);
 }
 
 TEST_F(ContentFilter, ComesAndGoesAtRunTime) {
   const auto subscription = subscribe({});
   EXPECT_FALSE(subscription->is_cft_enabled());
   EXPECT_THROW(subscription->get_content_filter(), rclcpp::exceptions::RCLError);
-  EXPECT_EQ(send_and_receive().size(), 10u);
+  EXPECT_TRUE(comes_to_receive({0, 1, 2, 3, 4, 5, 6, 7, 8, 9})) << testing::PrintToString(received_);
 
   subscription->set_content_filter("data >= 8");
   EXPECT_TRUE(subscription->is_cft_enabled());
-  EXPECT_THAT(send_and_receive(), ElementsAre(8, 9));
+  EXPECT_TRUE(comes_to_receive({8, 9})) << testing::PrintToString(received_);
   EXPECT_EQ(node_->count_subscribers("topic"), 1u);
 
   subscription->set_content_filter("");
   EXPECT_FALSE(subscription->is_cft_enabled());
-  EXPECT_EQ(send_and_receive().size(), 10u);
+  EXPECT_TRUE(comes_to_receive({0, 1, 2, 3, 4, 5, 6, 7, 8, 9})) << testing::PrintToString(received_);
   EXPECT_EQ(node_->count_subscribers("topic"), 1u);
   EXPECT_THROW(subscription->set_content_filter(""), rclcpp::exceptions::RCLError);
 }
@@ -151,7 +162,7 @@ TEST_F(ContentFilter, ThatDoesNotFitTheMessagesIsAnException) {
   const auto subscription = subscribe(filtered_by("data > 7"));
   EXPECT_THROW(subscription->set_content_filter("size > 3"), rclcpp::exceptions::RCLError);
   EXPECT_EQ(subscription->get_content_filter().filter_expression, "data > 7");
-  EXPECT_THAT(send_and_receive(), ElementsAre(8, 9));
+  EXPECT_TRUE(comes_to_receive({8, 9})) << testing::PrintToString(received_);
 }
 
 TEST_F(ContentFilter, WorksBesideIntraProcessCommunication) {
@@ -159,7 +170,7 @@ TEST_F(ContentFilter, WorksBesideIntraProcessCommunication) {
   executor_.add_node(node_);
   publisher_ = node_->create_publisher<Int32>("topic", 20);
   const auto filtered = subscribe(filtered_by("data > 7"));
-  EXPECT_THAT(send_and_receive(), ElementsAre(8, 9));
+  EXPECT_TRUE(comes_to_receive({8, 9})) << testing::PrintToString(received_);
   const auto all = node_->create_subscription<Int32>("topic", 20, [](std::unique_ptr<Int32>) {});
   EXPECT_THROW(all->set_content_filter("data > 7"), rclcpp::exceptions::RCLError);
 }
@@ -189,7 +200,7 @@ TEST_F(ContentFilter, MayChangeWhileMessagesAreTaken) {
   executor.remove_node(node_);
   executor_.add_node(node_);
   timer->cancel();
-  EXPECT_EQ(send_and_receive().size(), 10u);
+  EXPECT_TRUE(comes_to_receive({0, 1, 2, 3, 4, 5, 6, 7, 8, 9})) << testing::PrintToString(received_);
 }
 
 }  // namespace
