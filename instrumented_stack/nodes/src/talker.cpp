@@ -1,6 +1,6 @@
 // Says hello on topic chatter once a second: the component of demo_nodes_cpp.
-#include "rclcpp_components/node_main.hpp"
+#include "rclcpp_components/single_threaded_node_main.hpp"
 
 int main(int argc, char** argv) {
-  return rclcpp_components::node_main<rclcpp::executors::SingleThreadedExecutor>("demo_nodes_cpp::Talker", argc, argv);
+  return rclcpp_components::single_threaded_node_main("demo_nodes_cpp::Talker", argc, argv);
 }
