@@ -71,7 +71,8 @@ class Trace : public Action {
   void perform_session(tracing::TraceConfig& config, Scope& scope) const {
     config.session_name = session_name_.perform(scope);
     if (config.session_name.empty()) {
-      throw LaunchError("the session name is empty", session_name_.where());
+      throw LaunchError("the session name is empty", session_name_.where(),
+                        "the directory of the trace is called so, too");
     }
     if (config.session_name.find('/') != std::string::npos) {
       throw LaunchError(fmt::format("the session name '{}' has a slash", config.session_name), session_name_.where(),

@@ -10,8 +10,10 @@
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
+#include "launcher/cli/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/run_command.hpp"
+#include "launcher/cli/schema_command.hpp"
 #include "tracing/session/trace_command.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so

@@ -166,7 +166,8 @@ TEST_F(StartOrderTest, ACycleIsAnErrorBeforeAnythingStarts) {
   EXPECT_THAT(errors_, ElementsAre("/test/system.launch.xml:5:22: error: no start order is possible: 'b' waits for 'c' "
                                    "waits for 'b'\n"
                                    "    5 | <executable cmd=\"c\"><depends_on process=\"b\"/></executable>\n"
-                                   "      |                      ^~~~~~~~~~"));
+                                   "      |                      ^~~~~~~~~~\n"
+                                   "      = help: remove one of these depends_on"));
 }
 
 // What something outside the launch would be.

@@ -8,11 +8,28 @@ from launch.action import Action
 from tracetools_trace.tools import names
 
 
+def _attributes(given):
+    """Attributes of XML, whose names have hyphens."""
+    attributes = []
+    for name, value in given.items():
+        if isinstance(value, bool):
+            value = boolean(value, name)
+        elif isinstance(value, (int, float)):
+            value = number(value, name)
+        elif isinstance(value, (list, tuple)):
+            value = words(value, name)
+        else:
+            value = text(value, name)
+        attributes.append((name.replace('_', '-'), value))
+    return attributes
+
+
 class Trace(Action):
+    """`channels` are mappings with the attributes of <channel>; further arguments are further attributes of <trace>."""
 
     def __init__(self, *, session_name, append_timestamp=False, base_path=None, append_trace=False, events_ust=None,
                  events_kernel=None, syscalls=None, context_fields=None, subbuffer_size_ust=None,
-                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, **kwargs):
+                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, channels=(), **kwargs):
         options = {'condition': kwargs.pop('condition', None)}
         # What is left in kwargs are further attributes of <trace>, with underscores.
         super().__init__(**options)
@@ -43,16 +60,10 @@ class Trace(Action):
                                                                                         'subbuffer_size_kernel')),
             ('snapshot-mode', asked(snapshot_mode, 'snapshot_mode')),
             ('dual-session', asked(dual_session, 'dual_session'))]
-        for name, value in kwargs.items():
-            if isinstance(value, bool):
-                value = boolean(value, name)
-            elif isinstance(value, (int, float)):
-                value = number(value, name)
-            elif isinstance(value, (list, tuple)):
-                value = words(value, name)
-            else:
-                value = text(value, name)
-            self._attributes.append((name.replace('_', '-'), value))
+        self._attributes += _attributes(kwargs)
+        self._channels = [_attributes(channel) for channel in channels]
 
     def _tags(self):
-        return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]))]
+        place = self._place_of('channels') or self._place()
+        return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]),
+                       [entity('channel', place, channel) for channel in self._channels])]
