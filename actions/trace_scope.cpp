@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "tracing/session/buffer_estimate.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
+#include "tracing/session/session_daemon.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
 
@@ -99,7 +101,8 @@ TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tra
       tracer_(std::move(tracer)),
       prefix_(std::move(prefix)),
       origin_(std::move(origin)),
-      choices_(std::move(choices)) {
+      choices_(std::move(choices)),
+      created_(std::time(nullptr)) {
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
@@ -272,7 +275,9 @@ void TraceScope::tell_result(const Tell& tell) const {
 }
 
 std::vector<std::string> TraceScope::clean_up_command() const {
-  return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
+  // It is told before the session is created: one that has the name already is somebody else's.
+  return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),
+          fmt::format("--created-since={}", created_)};
 }
 
 bool TraceScope::traces(const ProcessSpec& spec) const {
@@ -291,6 +296,10 @@ void TraceScope::prepare(ProcessSpec& spec) const {
     // There is nothing to wait for.
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
     return;
+  }
+  if (!tracing::session_daemon_can_answer()) {
+    // It would wait for three seconds, three times, before its main().
+    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
   }
   if (!preload_.empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
@@ -311,6 +320,7 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"syscalls", config_.syscalls},
           {"channels", channel_names(config_)},
           {"context-fields", config_.context_fields_ust},
+          {"context-fields-kernel", config_.context_fields_kernel},
           {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
           {"init-channel", config_.init_channel},
           {"subbuffer-count-ust", static_cast<std::int64_t>(config_.subbuffer_count_ust)},

@@ -35,6 +35,13 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                           ros_tasks_->on_skipped(name);
                         }
                       }
+                    },
+                    [this](const std::string& process, const Dependency& dependency) {
+                      record({.kind = LaunchRecord::Kind::kReady,
+                              .name = process,
+                              .what = describe(dependency),
+                              .where = dependency.where,
+                              .time = monotonic_time()});
                     }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }

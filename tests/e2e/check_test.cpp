@@ -320,6 +320,12 @@ TEST_F(WithoutRunning, CompletionKnowsCommandsPackagesFilesAndArguments) {
   EXPECT_EQ(launch({"complete", "launch_examples", "01_ping_pong.launch.xml", ""}).out, "count:=\nperiod_ms:=\n");
   EXPECT_EQ(launch({"complete", "check", "launch_examples", "01_ping_pong.launch.xml", "c"}).out, "count:=\n");
   EXPECT_EQ(launch({"complete", "trace", "re"}).out, "record_snapshot\nresume\n");
+  EXPECT_EQ(launch({"complete", "trace", "start", "x", "--subbuffer-size"}).out,
+            "--subbuffer-size-kernel\n--subbuffer-size-ust\n");
+  EXPECT_EQ(launch({"complete", "trace", "stop", "--f"}).out, "--fail-on-loss\n");
+  EXPECT_EQ(launch({"complete", "trace", "start", "x", "-u", "ros2:rcl_i", "ros2:rcl_n"}).out, "ros2:rcl_node_init\n");
+  EXPECT_EQ(launch({"complete", "trace", "-c", "vt"}).out, "vtid\n");
+  EXPECT_EQ(launch({"complete", "trace", "stop", ""}).out, "") << "no session daemon is started to ask it";
   EXPECT_EQ(launch({"complete", "no_such_package", ""}).out, "");
   const std::string path =
       file("a.launch.xml",

@@ -57,6 +57,28 @@ class PythonLaunch : public testing::Test {
   Sandbox sandbox_;
 };
 
+TEST_F(PythonLaunch, TheTraceActionRecordsTheRun) {
+  const CommandResult result = launch({EXAMPLES_DIRECTORY "/26_trace_action.launch.py"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+  const Found found = trace_of("trace_action-");
+  EXPECT_THAT(found.events, testing::IsSupersetOf({"ros2:rcl_init", "ros2:rcl_node_init", "lttng_ust_libc:malloc"}));
+  EXPECT_THAT(found.processes, testing::IsSupersetOf({"ping", "pong"}));
+}
+
+TEST_F(PythonLaunch, DomainsOfContextFieldsMustBeKnown) {
+  const std::string file = write("bad.launch.py", R"(from launch import LaunchDescription
+from tracetools_launch.action import Trace
+
+
+def generate_launch_description():
+    return LaunchDescription([Trace(session_name='run', context_fields={'kernel': [], 'user': ['vpid']})])
+)");
+  const CommandResult result = launch({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("context_fields has a domain 'user': there are userspace and kernel"));
+}
+
 TEST_F(PythonLaunch, IncludesXmlWhichIncludesYamlAndEachRecordsATrace) {
   const CommandResult result =
       launch({EXAMPLES_DIRECTORY "/13_python.launch.py", "pairs:=2", "count:=5", "-a"}, {{"OTHER", "x"}});

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tracing/session/enter_or_signal.hpp"
@@ -64,9 +65,9 @@ void print_session(const TraceOptions& options) {
 // A dual session's runtime half starts where the snapshot of its initialisation events was taken.
 void start(const TraceOptions& options, Tracer& tracer) {
   if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
-  for (const std::string& warning : tracer.start(options.config).warnings) {
-    fmt::print(stderr, "warning: {}\n", warning);
-  }
+  SetupReport report = tracer.start(options.config);
+  for (std::string& warning : tracer.unreachable_processes()) report.warnings.push_back(std::move(warning));
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {
@@ -116,6 +117,14 @@ void print_status(const std::string& session_name, Tracer& tracer) {
   for (const SessionSummary& session : sessions) fmt::print("{}", session_as_text(tracer.status(session.name)));
 }
 
+// A session that existed before a launch is not the launch's.
+bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tracer) {
+  const std::vector<SessionSummary> sessions = tracer.sessions();
+  return std::any_of(sessions.begin(), sessions.end(), [&](const SessionSummary& session) {
+    return session.name == session_name && session.created < seconds;
+  });
+}
+
 void run_verb(const TraceOptions& options, Tracer& tracer) {
   const std::string session_name = options.config.lttng_session_name();
   switch (options.verb) {
@@ -132,6 +141,10 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
       return tracer.resume(session_name);
     case TraceVerb::kStop: {
+      if (options.created_since && is_older(session_name, *options.created_since, tracer)) {
+        print_line(fmt::format("trace session '{}' is left as it is: it is older", session_name));
+        return;
+      }
       EnterOrSignal signals;
       return finish(options.config, tracer, [&signals] { return signals.take_signal(); });
     }

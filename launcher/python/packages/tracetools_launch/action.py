@@ -33,13 +33,14 @@ class Trace(Action):
         options = {'condition': kwargs.pop('condition', None)}
         # What is left in kwargs are further attributes of <trace>, with underscores.
         super().__init__(**options)
+        context_fields_kernel = kwargs.pop('context_fields_kernel', None)
         if isinstance(context_fields, Mapping):
-            userspace, kernel = (context_fields.get(domain) for domain in (names.DOMAIN_TYPE_USERSPACE,
-                                                                           names.DOMAIN_TYPE_KERNEL))
-            if userspace is not None and kernel is not None and list(userspace) != list(kernel) and (
-                    events_kernel or syscalls):
-                raise LaunchFileError('context fields that differ between userspace and kernel are not supported')
-            context_fields = userspace if userspace is not None else kernel
+            domains = (names.DOMAIN_TYPE_USERSPACE, names.DOMAIN_TYPE_KERNEL)
+            for domain in context_fields:
+                if domain not in domains:
+                    raise LaunchFileError(f"context_fields has a domain '{domain}': there are {' and '.join(domains)}")
+            # A domain that is not named has none.
+            context_fields, context_fields_kernel = (context_fields.get(domain, []) for domain in domains)
 
         def given(values, what):
             return None if values is None else words([values] if isinstance(values, str) else values, what)
@@ -54,6 +55,7 @@ class Trace(Action):
             ('append-trace', asked(append_trace, 'append_trace')),
             ('events-ust', given(events_ust, 'events_ust')), ('events-kernel', given(events_kernel, 'events_kernel')),
             ('syscalls', given(syscalls, 'syscalls')), ('context-fields', given(context_fields, 'context_fields')),
+            ('context-fields-kernel', given(context_fields_kernel, 'context_fields_kernel')),
             ('subbuffer-size-ust', None if subbuffer_size_ust is None else number(subbuffer_size_ust,
                                                                                   'subbuffer_size_ust')),
             ('subbuffer-size-kernel', None if subbuffer_size_kernel is None else number(subbuffer_size_kernel,
