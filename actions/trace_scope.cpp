@@ -1,24 +1,19 @@
 #include "actions/trace_scope.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
-#include <spawn.h>
 #include <string.h>
 #include <sys/sysinfo.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/base/unique_fd.hpp"
 #include "tracing/session/buffer_estimate.hpp"
+#include "tracing/session/installed_program.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
-
-extern char** environ;  // NOLINT: POSIX names it so
 
 namespace launch {
 
@@ -26,48 +21,6 @@ namespace {
 
 // After the start of a launch; no more than a guess, on which only the duration of the end depends.
 constexpr std::chrono::milliseconds kNodesHaveRegistered{500};
-
-// The output of a program without its last line end, "" when it can't be run or fails.
-std::string output_of(const std::string& program, const std::vector<std::string>& arguments) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) {
-    return {};
-  }
-  UniqueFd read_end(ends[0]);
-  UniqueFd write_end(ends[1]);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // A group of its own, so that a Ctrl-C on the terminal leaves it alone.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
-  for (const std::string& argument : arguments) {
-    argv.push_back(const_cast<char*>(argument.c_str()));
-  }
-  argv.push_back(nullptr);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, program.c_str(), &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  write_end.reset();
-  if (error != 0) {
-    return {};
-  }
-  std::string output;
-  char buffer[4096];
-  for (ssize_t count; (count = ::read(read_end.get(), buffer, sizeof buffer)) > 0;) {
-    output.append(buffer, static_cast<std::size_t>(count));
-  }
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  while (output.ends_with('\n')) {
-    output.pop_back();
-  }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? output : std::string();
-}
 
 // By the process's label, or by the name of its node.
 bool matches(const std::string& pattern, const ProcessSpec& spec) {
@@ -131,6 +84,8 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   const auto traced = static_cast<std::size_t>(
       std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
   const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
+  counters_ = tracing::EventCounterDirectory::shared();
+  config_.event_counters = counters_ ? counters_->path().string() : "";
   if (choices_.auto_buffers) {
     config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
   }
@@ -193,7 +148,8 @@ void TraceScope::flush_metadata_later(EventLoop& loop) {
   }
   metadata_flush_ = loop.after(kNodesHaveRegistered, [this, &loop] {
     in_background(
-        loop, [this] { output_of(prefix_ + "/lib/launch/launch-trace-probe", {}); }, [](std::exception_ptr) {});
+        loop, [this] { tracing::program_output(prefix_ + "/lib/launch/launch-trace-probe", {}); },
+        [](std::exception_ptr) {});
   });
 }
 
@@ -243,7 +199,8 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
               origin_, error.remedy());
         }
         if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
-          summary_ = output_of(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
+          summary_ =
+              tracing::program_output(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
         }
       },
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
@@ -272,7 +229,11 @@ void TraceScope::tell_result(const Tell& tell) const {
 }
 
 std::vector<std::string> TraceScope::clean_up_command() const {
-  return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
+  std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
+  if (counters_) {
+    command.insert(command.end(), {"--event-counters", counters_->path().string()});
+  }
+  return command;
 }
 
 bool TraceScope::traces(const ProcessSpec& spec) const {
@@ -295,6 +256,9 @@ void TraceScope::prepare(ProcessSpec& spec) const {
   if (!preload_.empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
     variable = tracing::append_preload(variable, preload_);
+  }
+  if (counters_) {
+    spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());
   }
   if (may_block(config_)) {
     spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "launcher/core/run_scope.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
 #include "tracing/session/tracer.hpp"
@@ -63,6 +64,7 @@ class TraceScope : public RunScope {
   SourceRange origin_;
   TraceChoices choices_;
   std::vector<std::string> preload_;
+  std::shared_ptr<tracing::EventCounterDirectory> counters_;
   tracing::SetupReport setup_;
   tracing::LossAccount losses_;
   std::string summary_;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "tracing/session/process_account.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
@@ -10,6 +11,9 @@ namespace tracing {
 // The losses per channel so far. The session must still exist; the numbers are final once it is stopped and no data is
 // pending. Throws TraceError.
 LossAccount read_losses(const std::string& lttng_session_name);
+
+// What the userspace channels of the session record. Throws TraceError.
+RecordedEvents read_recorded_events(const std::string& lttng_session_name);
 
 // One line per channel with losses ("12 events lost in ust channel ros2"), or "no events lost".
 std::string describe_losses(const LossAccount& losses);

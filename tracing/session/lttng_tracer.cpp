@@ -13,11 +13,14 @@
 #include "tracing/session/channels.hpp"
 #include "tracing/session/consumer_priority.hpp"
 #include "tracing/session/context_check.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/packet_index.hpp"
+#include "tracing/session/process_account.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_listing.hpp"
 #include "tracing/session/session_store.hpp"
@@ -140,6 +143,41 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
   }
 }
 
+std::uint64_t monotonic_now() {
+  return static_cast<std::uint64_t>(steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
+}
+
+// Which process lost how much, for the losses of a session that has been stopped.
+class LossesByProcess {
+ public:
+  LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
+    if (!config.event_counters.empty()) counts_ = EventCounters(config.event_counters).read();
+    losses.processes = account_processes(counts_, monotonic_now());
+    if (losses.complete()) losses.attribution = LossAttribution::kExact;
+    if (needed()) events_ = read_recorded_events(config.lttng_session_name());
+  }
+
+  // Reads the trace, which takes a second for a million events; only when something was lost.
+  void look_into(const std::string& recording) {
+    const std::optional<std::filesystem::path> report = installed_program("launch-report");
+    if (!needed()) return;
+    RecordedProcesses recorded;
+    if (report) {
+      const std::string output = program_output(*report, {"--recorded", recording});
+      if (!output.empty()) recorded = parse_recorded_processes(output);
+    }
+    if (recorded.empty()) counts_.clear();  // then only buffers of its own tell what a process lost
+    attribute_losses(losses_, counts_, events_, recorded, read_packet_index(recording));
+  }
+
+ private:
+  bool needed() const { return losses_.discarded_events() + losses_.lost_packets() != 0 && !losses_.cut_short; }
+
+  LossAccount& losses_;
+  std::vector<EventCounts> counts_;
+  RecordedEvents events_;
+};
+
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
 void judge(LossAccount& losses, const std::string& name, const std::string& directory) {
   explain_losses(losses, directory);
@@ -258,6 +296,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   check_daemon_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
   LossAccount losses = stop_and_account(name, give_up);
+  LossesByProcess by_process(config, losses);
   std::optional<ChannelLoss> kernel;
   std::string kernel_failure;
   if (session) {
@@ -274,6 +313,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   if (kernel) losses.channels.push_back(*kernel);
+  if (local && !session->snapshot) by_process.look_into(session->path);
   if (local && !session->snapshot) judge(losses, name, session->path);
   if (!kernel_failure.empty()) throw TraceError(kernel_failure);
   return losses;

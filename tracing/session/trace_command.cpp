@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "tracing/session/enter_or_signal.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_listing.hpp"
@@ -133,6 +135,8 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       return tracer.resume(session_name);
     case TraceVerb::kStop: {
       EnterOrSignal signals;
+      std::optional<EventCounterDirectory> counters;
+      if (!options.config.event_counters.empty()) counters.emplace(options.config.event_counters);
       return finish(options.config, tracer, [&signals] { return signals.take_signal(); });
     }
     case TraceVerb::kList:

@@ -157,6 +157,8 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   add_session_options(*start, session, options);
   CLI::App* stop = add_verb(command, "stop", "stop recording and end the session", session);
   add_fail_on_loss(*stop, options);
+  // Of a launcher that was killed, which tells its guardian this command; removed afterwards.
+  stop->add_option("--event-counters", options.config.event_counters)->group("");
   const std::map<CLI::App*, TraceVerb> verbs = {
       {start, TraceVerb::kStart},
       {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,7 +25,6 @@ class TraceError : public std::runtime_error {
   std::string remedy_;
 };
 
-// Events that the tracer could not keep, as its counters say just before the session is destroyed.
 // An unbroken run of losses of one processor. Times are nanoseconds after the trace's first packet began.
 struct LossRange {
   std::string cpu;
@@ -33,6 +33,7 @@ struct LossRange {
   std::uint64_t events = 0;
 };
 
+// Events of a channel that the tracer could not keep, as its counters say just before the session is destroyed.
 struct ChannelLoss {
   std::string domain;  // "ust" or "kernel"
   std::string channel;
@@ -47,12 +48,34 @@ struct ChannelLoss {
       0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
 };
 
+// What a session had from one process that counts its events (event_counters.hpp).
+struct ProcessAccount {
+  std::string name;  // of its program
+  std::int64_t pid = 0;
+  double seconds = 0;                      // it ran
+  double cpu_seconds = 0;                  // processor time of all its threads; 0: unknown, for it was killed
+  std::uint64_t events = 0;                // it fired while a session recorded them
+  std::uint64_t callbacks = 0;             // of its nodes that ended
+  std::optional<std::uint64_t> lost = {};  // of its events; nothing: unknown
+  std::vector<std::string> nodes = {};     // its nodes; looked up when events were lost
+};
+
+// How far it is known which process the lost events are of.
+enum class LossAttribution {
+  kExact,     // the processes' sum is what the daemon counts; what it counts more is of programs that don't count
+  kEstimate,  // the sum is more: another session recorded at other times
+  kUnknown
+};
+
 struct LossAccount {
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
   bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short && damage.empty(); }
 
   std::vector<ChannelLoss> channels;
+  std::vector<ProcessAccount> processes = {};  // by the time of their beginning
+  LossAttribution attribution = LossAttribution::kUnknown;
+  std::uint64_t unattributed = 0;      // lost userspace events that are of none of them
   bool cut_short = false;              // the wait for the last data was given up
   std::string damage = {};             // what keeps the trace from being complete and nobody has counted, a sentence
   std::string unwritten_verdict = {};  // why verdict.json could not be written

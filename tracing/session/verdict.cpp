@@ -67,6 +67,23 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   return json;
 }
 
+nlohmann::ordered_json process_as_json(const ProcessAccount& process) {
+  nlohmann::ordered_json json = {{"name", process.name},
+                                 {"pid", process.pid},
+                                 {"seconds", process.seconds},
+                                 {"events", process.events},
+                                 {"callbacks", process.callbacks}};
+  json["lost"] = process.lost ? nlohmann::ordered_json(*process.lost) : nlohmann::ordered_json(nullptr);
+  if (!process.nodes.empty()) json["nodes"] = process.nodes;
+  return json;
+}
+
+const char* name_of(LossAttribution attribution) {
+  return attribution == LossAttribution::kExact      ? "exact"
+         : attribution == LossAttribution::kEstimate ? "estimate"
+                                                     : "unknown";
+}
+
 void write_file(const std::filesystem::path& directory, const std::string& text) {
   const std::filesystem::path path = directory / kVerdictFile;
   std::ofstream file(path);
@@ -112,6 +129,9 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
                                  {"lost_packets", account.lost_packets()},
                                  {"channels", nlohmann::ordered_json::array()}};
   for (const ChannelLoss& channel : account.channels) json["channels"].push_back(channel_as_json(channel));
+  json["lost_by_process"] = {{"method", name_of(account.attribution)}, {"unattributed", account.unattributed}};
+  json["processes"] = nlohmann::ordered_json::array();
+  for (const ProcessAccount& process : account.processes) json["processes"].push_back(process_as_json(process));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

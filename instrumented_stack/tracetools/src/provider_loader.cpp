@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "event_counters.hpp"
 #include "object_state.hpp"
 #include "state_dump_request.h"
 
@@ -67,6 +68,7 @@ void offer_state_dumps(void* provider) {
     return;
   }
   loaded = true;
+  begin_counting();
   offer_state_dumps(provider);
 }
 

@@ -26,6 +26,7 @@ bool ros_trace_runtime_status(void) {
 
 #else
 
+#include "event_counters.hpp"
 #include "init_events.hpp"
 
 #define LTTNG_UST_TRACEPOINT_DEFINE
@@ -35,10 +36,20 @@ bool ros_trace_runtime_status(void) {
 #include "provider_loader.hpp"
 
 // Providers stand here literally because LTTng's macros paste the name before expanding it.
-#define RECORD_IF_ENABLED(name, ...) lttng_ust_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__)
-#define RECORD(name, ...) lttng_ust_do_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__)
-#define RECORD_EXT_IF_ENABLED(name, ...) lttng_ust_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__)
-#define RECORD_EXT(name, ...) lttng_ust_do_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__)
+#define RECORD_IF_ENABLED(name, ...)                                  \
+  do {                                                                \
+    if (lttng_ust_tracepoint_enabled(ros2, name)) {                   \
+      tracetools::count(tracetools::CountedEvent::name);              \
+      lttng_ust_do_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__); \
+    }                                                                 \
+  } while (false)
+#define RECORD_EXT_IF_ENABLED(name, ...)                                  \
+  do {                                                                    \
+    if (lttng_ust_tracepoint_enabled(ros2_ext, name)) {                   \
+      tracetools::count(tracetools::CountedEvent::name);                  \
+      lttng_ust_do_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__); \
+    }                                                                     \
+  } while (false)
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 
 // What is kept for a session that starts late: nothing where no session can start.
@@ -64,7 +75,7 @@ bool ros_trace_runtime_status(void) {
   }                                                                   \
   void ros_trace_do_##name parameters {                               \
     NOTE(record_##name, name, WITHOUT_PARENTHESES arguments)          \
-    RECORD(name, WITHOUT_PARENTHESES arguments);                      \
+    RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
   }
 
 #define DEFINE_EXT_EVENT(name, parameters, arguments)                     \
@@ -80,7 +91,7 @@ bool ros_trace_runtime_status(void) {
   }                                                                       \
   void ros_trace_ext_do_##name parameters {                               \
     NOTE(record_ext_##name, name, WITHOUT_PARENTHESES arguments)          \
-    RECORD_EXT(name, WITHOUT_PARENTHESES arguments);                      \
+    RECORD_EXT_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
   }
 
 bool ros_trace_compile_status(void) {
