@@ -3,9 +3,11 @@
 #include <signal.h>
 
 #include "actions/trace_channel.hpp"
+#include "actions/trace_overhead.hpp"
 #include "actions/trace_scope.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
+#include "tracing/session/event_classes.hpp"
 
 namespace launch {
 
@@ -45,6 +47,8 @@ class Trace : public Action {
         snapshot_on_events_(fields, "snapshot-on-events"),
         snapshot_limit_(count_field(fields, "snapshot-limit")),
         snapshot_size_(count_field(fields, "snapshot-size")),
+        max_overhead_(fields.optional_text("max-overhead")),
+        drop_order_(fields, "drop-order"),
         dual_session_(fields.boolean("dual-session", false)) {
     if (fields.has("overwrite-ust")) {
       overwrite_ust_ = fields.boolean("overwrite-ust", false);
@@ -61,6 +65,7 @@ class Trace : public Action {
     perform_session(config, scope);
     perform_events(config, scope);
     perform_buffers(config, scope);
+    perform_overhead(config, scope);
     TraceChoices choices = perform_choices(scope);
     config.snapshot_mode = config.snapshot_mode || choices.flight_recorder();
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
@@ -110,6 +115,18 @@ class Trace : public Action {
     config.context_fields_kernel = config.context_fields_ust;
     for (const ChannelFields& channel : channels_) {
       config.channels.push_back(channel.perform(scope));
+    }
+  }
+
+  void perform_overhead(tracing::TraceConfig& config, Scope& scope) const {
+    if (!max_overhead_) {
+      return;
+    }
+    config.max_overhead = perform_percentage(*max_overhead_, scope);
+    config.drop_order = tracing::droppable_classes();
+    if (drop_order_.given()) {
+      config.drop_order = drop_order_.perform(scope);
+      check_drop_order(config.drop_order, drop_order_.where());
     }
   }
 
@@ -208,6 +225,8 @@ class Trace : public Action {
   WordsField snapshot_on_events_;
   std::optional<NumberField> snapshot_limit_;
   std::optional<NumberField> snapshot_size_;
+  std::optional<Template> max_overhead_;
+  WordsField drop_order_;
   BooleanField dual_session_;
 };
 
@@ -268,6 +287,11 @@ std::vector<AttributeSpec> trace_attributes() {
                 "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
       extension("snapshot-limit", AttributeType::kInteger, "10", "snapshots that are kept, the newest ones"),
       extension("snapshot-size", AttributeType::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),
+      extension("max-overhead", AttributeType::kText, "none",
+                "what recording may cost, all traced processes together, like 2% of a processor: above it classes of "
+                "events are dropped"),
+      extension("drop-order", AttributeType::kWords, "executor buffers layers messages services callbacks",
+                "the classes of events that max-overhead may drop, the first one first; or events as PROVIDER:NAME"),
       {"dual-session", AttributeType::kBoolean, false, "false", "be the snapshot half of a dual session"}};
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "actions/trace_overhead.hpp"
 #include "launcher/base/diagnostic.hpp"
 #include "tracing/session/buffer_estimate.hpp"
 #include "tracing/session/installed_program.hpp"
@@ -112,10 +113,11 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   }
   in_background(
       loop,
-      [this] {
+      [this, &loop, tell] {
         try {
           const std::vector<std::string> warnings = std::move(setup_.warnings);
           setup_ = tracer_->start(config_);
+          guard_overhead(loop, tell);
           setup_.warnings.insert(setup_.warnings.begin(), warnings.begin(), warnings.end());
         } catch (const tracing::TraceError& error) {
           throw LaunchError(fmt::format("tracing setup failed: {}", error.what()), origin_, error.remedy());
@@ -139,6 +141,19 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
         }
         done(error);
       });
+}
+
+// Leaves no session behind when it fails.
+void TraceScope::guard_overhead(EventLoop& loop, const Tell& tell) {
+  if (config_.max_overhead == 0) {
+    return;
+  }
+  try {
+    overhead_guard_ = watch_overhead(config_, prefix_, loop, tell);
+  } catch (const tracing::TraceError&) {
+    tracer_->finish(config_, [] { return true; });
+    throw;
+  }
 }
 
 // Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c).
@@ -189,6 +204,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
   in_background(
       loop,
       [this] {
+        overhead_guard_.reset();
         event_watch_.reset();
         flight_recorder_.reset();
         try {
@@ -222,6 +238,9 @@ void TraceScope::tell_result(const Tell& tell) const {
   if (!config_.records_snapshots()) {
     tell(!losses_.complete(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
                                           tracing::describe_losses(losses_)));
+  }
+  if (const std::string cost = tracing::describe_cost(losses_); !cost.empty()) {
+    tell(false, cost);
   }
   if (!losses_.unwritten_verdict.empty()) {
     tell(true, losses_.unwritten_verdict);
@@ -293,6 +312,8 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"snapshot-on-crash", choices_.snapshot_on_crash},
           {"snapshot-on-events", choices_.snapshot_on_events},
           {"snapshot-limit", static_cast<std::int64_t>(config_.snapshot_limit)},
+          {"max-overhead", config_.max_overhead == 0 ? "" : fmt::format("{}%", 100 * config_.max_overhead)},
+          {"drop-order", config_.drop_order},
           {"dual-session", config_.dual_session}};
 }
 

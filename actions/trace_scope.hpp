@@ -12,6 +12,7 @@
 #include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
+#include "tracing/session/overhead_guard.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {
@@ -56,6 +57,7 @@ class TraceScope : public RunScope {
   void tell_result(const Tell& tell) const;
   bool traces(const ProcessSpec& spec) const;
   void flush_metadata_later(EventLoop& loop);
+  void guard_overhead(EventLoop& loop, const Tell& tell);
   void start_flight_recorder(EventLoop& loop, const Tell& tell);
 
   tracing::TraceConfig config_;
@@ -73,6 +75,7 @@ class TraceScope : public RunScope {
   EventLoop::SourcePtr metadata_flush_;
   std::unique_ptr<tracing::FlightRecorder> flight_recorder_;
   std::unique_ptr<tracing::EventWatch> event_watch_;
+  std::unique_ptr<tracing::OverheadGuard> overhead_guard_;
   std::thread worker_;
 };
 

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 const Words kCommands = {"check", "graph", "reference", "report", "schema", "trace"};
-const Words kTraceVerbs = {"events", "list", "pause", "record_snapshot", "resume", "start", "status", "stop"};
+const Words kTraceVerbs = {"calibrate", "events", "list",   "pause", "record_snapshot",
+                           "resume",    "start",  "status", "stop"};
 const Words kOptions = {"--debug",
                         "--dry-run",
                         "--dry-run=json",

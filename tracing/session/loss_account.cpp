@@ -129,7 +129,32 @@ std::string describe_losses(const LossAccount& losses) {
   text += processes_that_lost(losses);
   if (!losses.damage.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", losses.damage);
   if (losses.cut_short) text += fmt::format("{}the last events were not waited for", text.empty() ? "" : "\n");
-  return text.empty() ? "no events lost" : text;
+  if (text.empty()) text = "no events lost";
+  std::vector<std::string> dropped;
+  for (const EventCut& cut : losses.cuts) dropped.push_back(cut.event_class);
+  if (!dropped.empty()) text += fmt::format("; dropped to keep to max-overhead: {}", fmt::join(dropped, ", "));
+  return text;
+}
+
+std::string describe_cost(const LossAccount& losses) {
+  if (!losses.cost) return {};
+  const double ns = losses.cost->ns_per_event;
+  double seconds = 0;
+  double processors = 0;
+  const ProcessAccount* most = nullptr;
+  for (const ProcessAccount& process : losses.processes) {
+    if (process.events == 0) continue;
+    seconds += process.tracing_seconds(ns);
+    processors += process.processor_share(ns);
+    if (most == nullptr || process.processor_share(ns) > most->processor_share(ns)) most = &process;
+  }
+  if (most == nullptr) return {};
+  std::string text = fmt::format("estimated cost of tracing: {:.3f} s of processor time, {:.2f} % of a processor",
+                                 seconds, 100 * processors);
+  text += fmt::format("; most in {} [{}]", most->name, most->pid);
+  if (most->cpu_seconds > 0) text += fmt::format(", {:.1f} % of its own processor time", 100 * most->own_share(ns));
+  if (most->callbacks != 0) text += fmt::format(", {:.1f} µs for each callback", most->ns_per_callback(ns) / 1000);
+  return text + fmt::format(" ({:.0f} ns for each event)", ns);
 }
 
 }  // namespace tracing

@@ -19,6 +19,7 @@
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/overhead_guard.hpp"
 #include "tracing/session/packet_index.hpp"
 #include "tracing/session/process_account.hpp"
 #include "tracing/session/session_daemon.hpp"
@@ -153,6 +154,7 @@ class LossesByProcess {
   LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
     if (!config.event_counters.empty()) counts_ = EventCounters(config.event_counters).read();
     losses.processes = account_processes(counts_, monotonic_now());
+    losses.cuts = read_cuts(config);
     if (losses.complete()) losses.attribution = LossAttribution::kExact;
     if (needed()) events_ = read_recorded_events(config.lttng_session_name());
   }
@@ -313,6 +315,9 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   if (kernel) losses.channels.push_back(*kernel);
+  const bool hurried = losses.cut_short || (give_up && give_up());
+  // The first session on a machine takes some 30 ms longer to end: the measurement. It disturbs nobody then.
+  if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
   if (local && !session->snapshot) by_process.look_into(session->path);
   if (local && !session->snapshot) judge(losses, name, session->path);
   if (!kernel_failure.empty()) throw TraceError(kernel_failure);

@@ -56,7 +56,23 @@ std::map<std::int64_t, std::uint64_t> losses_by_counters(const std::vector<Event
   return losses;
 }
 
+double ratio(double part, double whole) {
+  return whole > 0 ? part / whole : 0;
+}
+
 }  // namespace
+
+double ProcessAccount::processor_share(double ns_per_event) const {
+  return ratio(tracing_seconds(ns_per_event), seconds);
+}
+
+double ProcessAccount::own_share(double ns_per_event) const {
+  return ratio(tracing_seconds(ns_per_event), cpu_seconds);
+}
+
+double ProcessAccount::ns_per_callback(double ns_per_event) const {
+  return ratio(static_cast<double>(events) * ns_per_event, static_cast<double>(callbacks));
+}
 
 RecordedProcesses parse_recorded_processes(const std::string& text) {
   try {

@@ -1,12 +1,14 @@
 #include "tracing/session/trace_command.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <optional>
 
 #include "tracing/session/enter_or_signal.hpp"
+#include "tracing/session/event_cost.hpp"
 #include "tracing/session/event_counters.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/session_daemon.hpp"
@@ -118,6 +120,14 @@ void print_status(const std::string& session_name, Tracer& tracer) {
   for (const SessionSummary& session : sessions) fmt::print("{}", session_as_text(tracer.status(session.name)));
 }
 
+void print_calibration(const std::vector<std::string>& context_fields) {
+  const EventCost cost = calibrate(context_fields);
+  remember(cost);
+  const std::string fields = context_fields.empty() ? "" : fmt::format(" with {}", fmt::join(cost.context_fields, " "));
+  fmt::print("an event{} costs {:.1f} ns on {}, LTTng {}\nkept in {}\n", fields, cost.ns_per_event, cost.cpu,
+             cost.lttng, event_cost_file().string());
+}
+
 void run_verb(const TraceOptions& options, Tracer& tracer) {
   const std::string session_name = options.config.lttng_session_name();
   switch (options.verb) {
@@ -147,6 +157,8 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
     case TraceVerb::kEvents:
       fmt::print("{}", events_as_text(tracer.traceable_events()));
       return;
+    case TraceVerb::kCalibrate:
+      return print_calibration(options.config.context_fields_ust);
     case TraceVerb::kSave:
       return tracer.save(session_name, options.directory);
     case TraceVerb::kLoad:

@@ -125,6 +125,14 @@ CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
   return verb;
 }
 
+CLI::App* add_calibrate(CLI::App& command, SessionArguments& arguments) {
+  CLI::App* verb = command.add_subcommand(
+      "calibrate", "measure what recording an event costs on this machine, for the verdicts of sessions");
+  add_names(*verb, "-c,--context", arguments.context_fields, "FIELD",
+            "context fields of the event (default: procname vpid vtid)");
+  return verb;
+}
+
 void complete(TraceOptions& options, const SessionArguments& arguments) {
   TraceConfig& config = options.config;
   const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
@@ -176,6 +184,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
                               "print what can be recorded now: events of running programs and of the kernel, "
                               "context fields"),
        TraceVerb::kEvents},
+      {add_calibrate(command, session), TraceVerb::kCalibrate},
   };
 
   try {

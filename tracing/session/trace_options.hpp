@@ -20,7 +20,8 @@ enum class TraceVerb {
   kLoad,
   kList,
   kStatus,
-  kEvents
+  kEvents,
+  kCalibrate
 };
 
 struct TraceOptions {

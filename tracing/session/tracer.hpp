@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tracing/session/event_cost.hpp"
 #include "tracing/session/trace_config.hpp"
 
 namespace tracing {
@@ -58,6 +59,12 @@ struct ProcessAccount {
   std::uint64_t callbacks = 0;             // of its nodes that ended
   std::optional<std::uint64_t> lost = {};  // of its events; nothing: unknown
   std::vector<std::string> nodes = {};     // its nodes; looked up when events were lost
+
+  // Estimates, for events that take so many nanoseconds each.
+  double tracing_seconds(double ns_per_event) const { return static_cast<double>(events) * ns_per_event / 1e9; }
+  double processor_share(double ns_per_event) const;  // of one processor, while it ran
+  double own_share(double ns_per_event) const;        // of its own processor time; 0: unknown
+  double ns_per_callback(double ns_per_event) const;  // that a callback, with what leads to it, takes longer; 0: none
 };
 
 // How far it is known which process the lost events are of.
@@ -65,6 +72,15 @@ enum class LossAttribution {
   kExact,     // the processes' sum is what the daemon counts; what it counts more is of programs that don't count
   kEstimate,  // the sum is more: another session recorded at other times
   kUnknown
+};
+
+// A class of events (event_classes.hpp) that was dropped because recording cost too much.
+struct EventCut {
+  std::string event_class = {};
+  std::vector<std::string> events = {};
+  std::int64_t time = 0;   // CLOCK_MONOTONIC, ns
+  std::uint64_t rate = 0;  // events a second of all processes before it
+  double share = 0;        // of a processor that they cost, estimated
 };
 
 struct LossAccount {
@@ -76,6 +92,8 @@ struct LossAccount {
   std::vector<ProcessAccount> processes = {};  // by the time of their beginning
   LossAttribution attribution = LossAttribution::kUnknown;
   std::uint64_t unattributed = 0;      // lost userspace events that are of none of them
+  std::optional<EventCost> cost = {};  // of an event, on this machine
+  std::vector<EventCut> cuts = {};     // dropped on purpose: no losses
   bool cut_short = false;              // the wait for the last data was given up
   std::string damage = {};             // what keeps the trace from being complete and nobody has counted, a sentence
   std::string unwritten_verdict = {};  // why verdict.json could not be written
