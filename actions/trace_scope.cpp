@@ -136,6 +136,9 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
           for (const std::string& warning : setup_.warnings) {
             tell(true, warning);
           }
+          if (!setup_.notes.empty()) {
+            tell(false, setup_.notes);
+          }
           tell(false, fmt::format("writing tracing session to: {}", setup_.trace_directory));
           flush_metadata_later(loop);
         }

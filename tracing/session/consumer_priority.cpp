@@ -1,8 +1,11 @@
 #include "tracing/session/consumer_priority.hpp"
 
+#include <fmt/core.h>
 #include <sys/resource.h>
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -34,19 +37,21 @@ bool is_consumer_of(const fs::path& process, pid_t daemon) {
 
 }  // namespace
 
-bool prefer_consumers(pid_t daemon) {
-  bool preferred = false;
+std::string prefer_consumers(pid_t daemon) {
   std::error_code none;
   for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
     if (number_of(process.path()) <= 0 || !is_consumer_of(process.path(), daemon)) continue;
     // On Linux a nice value belongs to a thread.
     for (const fs::directory_entry& thread : fs::directory_iterator(process.path() / "task", none)) {
       const auto id = static_cast<id_t>(number_of(thread.path()));
-      if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0) return false;
-      preferred = true;
+      if (setpriority(PRIO_PROCESS, id, kConsumerNice) == 0 || errno == ESRCH) continue;
+      return fmt::format(
+          "LTTng's consumer keeps its priority ({}): on a machine that is busy all the time it may come too late, and "
+          "events are lost; it takes root, CAP_SYS_NICE, or `USER - nice {}` in /etc/security/limits.conf",
+          std::strerror(errno), kConsumerNice);
     }
   }
-  return preferred;
+  return {};
 }
 
 }  // namespace tracing

@@ -287,7 +287,7 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
                           through_tracefs);
     timer.finished("kernel recorder");
   }
-  prefer_consumers(session_daemon_pid());
+  report.notes = prefer_consumers(session_daemon_pid());
   timer.finished("consumer priority");
   session.keep();
   return report;

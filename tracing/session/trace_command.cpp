@@ -68,9 +68,9 @@ void print_session(const TraceOptions& options) {
 // A dual session's runtime half starts where the snapshot of its initialisation events was taken.
 void start(const TraceOptions& options, Tracer& tracer) {
   if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
-  for (const std::string& warning : tracer.start(options.config).warnings) {
-    fmt::print(stderr, "warning: {}\n", warning);
-  }
+  const SetupReport report = tracer.start(options.config);
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!report.notes.empty()) fmt::print(stderr, "note: {}\n", report.notes);
 }
 
 void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {

@@ -110,6 +110,7 @@ struct SetupReport {
   bool started_daemon = false;
   std::vector<SetupStep> steps;
   std::vector<std::string> warnings;
+  std::string notes = {};  // nothing that is wrong with the session
 };
 
 // One of the sessions that exist.
