@@ -45,6 +45,8 @@ class Trace : public Action {
         snapshot_on_crash_(fields.boolean("snapshot-on-crash", false)),
         snapshot_on_signal_(fields.optional_text("snapshot-on-signal")),
         snapshot_on_events_(fields, "snapshot-on-events"),
+        snapshot_on_late_callback_(count_field(fields, "snapshot-on-late-callback")),
+        snapshot_on_late_message_(count_field(fields, "snapshot-on-late-message")),
         snapshot_limit_(count_field(fields, "snapshot-limit")),
         snapshot_size_(count_field(fields, "snapshot-size")),
         max_overhead_(fields.optional_text("max-overhead")),
@@ -145,6 +147,12 @@ class Trace : public Action {
     }
     choices.snapshot_on_crash = snapshot_on_crash_.perform(scope);
     choices.snapshot_on_events = snapshot_on_events_.perform_events(scope, Tracepoints::kUserspace);
+    if (snapshot_on_late_callback_) {
+      choices.callback_deadline = snapshot_on_late_callback_->perform(scope);
+    }
+    if (snapshot_on_late_message_) {
+      choices.message_deadline = snapshot_on_late_message_->perform(scope);
+    }
     if (snapshot_on_signal_) {
       const std::string name = snapshot_on_signal_->perform(scope);
       if (name != "SIGUSR1" && name != "SIGUSR2") {
@@ -223,6 +231,8 @@ class Trace : public Action {
   BooleanField snapshot_on_crash_;
   std::optional<Template> snapshot_on_signal_;
   WordsField snapshot_on_events_;
+  std::optional<NumberField> snapshot_on_late_callback_;
+  std::optional<NumberField> snapshot_on_late_message_;
   std::optional<NumberField> snapshot_limit_;
   std::optional<NumberField> snapshot_size_;
   std::optional<Template> max_overhead_;
@@ -285,6 +295,11 @@ std::vector<AttributeSpec> trace_attributes() {
                 "SIGUSR1 or SIGUSR2: take a snapshot when the launcher gets it; implies snapshot-mode"),
       extension("snapshot-on-events", AttributeType::kWords, "none",
                 "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
+      extension("snapshot-on-late-callback", AttributeType::kFloat, "none",
+                "milliseconds: take a snapshot when a callback takes longer; implies snapshot-mode"),
+      extension("snapshot-on-late-message", AttributeType::kFloat, "none",
+                "milliseconds: take a snapshot when a message is taken that was published longer before; implies "
+                "snapshot-mode"),
       extension("snapshot-limit", AttributeType::kInteger, "10", "snapshots that are kept, the newest ones"),
       extension("snapshot-size", AttributeType::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),
       extension("max-overhead", AttributeType::kText, "none",

@@ -45,7 +45,38 @@ bool may_block(const tracing::TraceConfig& config) {
                      [](const tracing::ChannelConfig& channel) { return channel.blocking_timeout != 0; });
 }
 
+// Of the stack (docs/tracetools.md): it looks at the times itself and fires nothing else.
+constexpr const char* kLateCallback = "ros2_deadline:callback";
+constexpr const char* kLateMessage = "ros2_deadline:message";
+constexpr double kNanosecondsPerMillisecond = 1e6;
+
+std::string nanoseconds_of(double milliseconds) {
+  return fmt::format("{:.0f}", milliseconds * kNanosecondsPerMillisecond);
+}
+
+// Why a snapshot was taken, for people.
+std::string reason(const TraceChoices& choices, const std::string& rule) {
+  if (rule == kLateCallback && choices.callback_deadline != 0) {
+    return fmt::format("a callback took more than {} ms", choices.callback_deadline);
+  }
+  if (rule == kLateMessage && choices.message_deadline != 0) {
+    return fmt::format("a message was taken after more than {} ms", choices.message_deadline);
+  }
+  return "event " + rule;
+}
+
 }  // namespace
+
+std::vector<std::string> TraceChoices::watched_events() const {
+  std::vector<std::string> rules = snapshot_on_events;
+  if (callback_deadline != 0) {
+    rules.emplace_back(kLateCallback);
+  }
+  if (message_deadline != 0) {
+    rules.emplace_back(kLateMessage);
+  }
+  return rules;
+}
 
 TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
                        SourceRange origin, TraceChoices choices)
@@ -54,6 +85,12 @@ TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tra
       prefix_(std::move(prefix)),
       origin_(std::move(origin)),
       choices_(std::move(choices)) {
+  for (const auto& [deadline, event] :
+       {std::pair(choices_.callback_deadline, kLateCallback), std::pair(choices_.message_deadline, kLateMessage)}) {
+    if (deadline != 0) {
+      config_.further_events_ust.emplace_back(event);
+    }
+  }
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
@@ -184,10 +221,10 @@ void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
           }
         });
       });
-  if (!choices_.snapshot_on_events.empty()) {
+  if (const std::vector<std::string> rules = choices_.watched_events(); !rules.empty()) {
     event_watch_ = std::make_unique<tracing::EventWatch>(
-        config_.lttng_session_name(), choices_.snapshot_on_events,
-        [recorder = flight_recorder_.get()](const std::string& rule) { recorder->request("event " + rule); });
+        config_.lttng_session_name(), rules,
+        [this](const std::string& rule) { flight_recorder_->request(reason(choices_, rule)); });
   }
 }
 
@@ -282,6 +319,12 @@ void TraceScope::prepare(ProcessSpec& spec) const {
   if (counters_) {
     spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());
   }
+  if (choices_.callback_deadline != 0) {
+    spec.environment.emplace("TRACETOOLS_CALLBACK_DEADLINE", nanoseconds_of(choices_.callback_deadline));
+  }
+  if (choices_.message_deadline != 0) {
+    spec.environment.emplace("TRACETOOLS_MESSAGE_DEADLINE", nanoseconds_of(choices_.message_deadline));
+  }
   if (may_block(config_)) {
     spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");
   }
@@ -314,6 +357,8 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"snapshot-mode", config_.snapshot_mode},
           {"snapshot-on-crash", choices_.snapshot_on_crash},
           {"snapshot-on-events", choices_.snapshot_on_events},
+          {"snapshot-on-late-callback", fmt::format("{}", choices_.callback_deadline)},
+          {"snapshot-on-late-message", fmt::format("{}", choices_.message_deadline)},
           {"snapshot-limit", static_cast<std::int64_t>(config_.snapshot_limit)},
           {"max-overhead", config_.max_overhead == 0 ? "" : fmt::format("{}%", 100 * config_.max_overhead)},
           {"drop-order", config_.drop_order},

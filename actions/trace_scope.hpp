@@ -26,8 +26,13 @@ struct TraceChoices {
   bool snapshot_on_crash = false;
   int snapshot_on_signal = 0;
   std::vector<std::string> snapshot_on_events = {};
+  // A callback takes longer, a message is older than so many milliseconds; 0: however long.
+  double callback_deadline = 0;
+  double message_deadline = 0;
 
-  bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !snapshot_on_events.empty(); }
+  bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !watched_events().empty(); }
+  // Those whose coming means a snapshot.
+  std::vector<std::string> watched_events() const;
 };
 
 class TraceScope : public RunScope {

@@ -93,6 +93,9 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   plan.buffers = config.buffers_ust;
   plan.channel = kUserspaceChannel;
   plan.events = rules(main_events(config));
+  if (!plan.events.empty()) {
+    for (EventRule& rule : rules(config.further_events_ust)) plan.events.push_back(std::move(rule));
+  }
   if (config.launch_events && !plan.events.empty()) {
     plan.events.push_back({.pattern = kLaunchEvents});
   } else if (config.max_overhead > 0 && !plan.events.empty()) {

@@ -69,6 +69,7 @@ struct TraceConfig {
   bool snapshot_mode = false;
   std::uint64_t snapshot_size = 0;    // largest size of a snapshot in bytes; 0: 10 userspace sub-buffers
   std::uint64_t snapshot_limit = 10;  // snapshots of a flight recorder that are kept
+  std::vector<std::string> further_events_ust;  // recorded beside events_ust, in the same channel
   // Of one processor, for all traced processes together; above it classes of events are dropped in this order
   // (event_classes.hpp). 0: no limit.
   double max_overhead = 0;

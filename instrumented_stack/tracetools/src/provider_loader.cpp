@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "deadline.hpp"
 #include "event_counters.hpp"
 #include "object_state.hpp"
 #include "state_dump_request.h"
@@ -69,6 +70,7 @@ void offer_state_dumps(void* provider) {
   }
   loaded = true;
   begin_counting();
+  read_deadlines();
   offer_state_dumps(provider);
 }
 

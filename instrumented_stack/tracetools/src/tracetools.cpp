@@ -26,6 +26,7 @@ bool ros_trace_runtime_status(void) {
 
 #else
 
+#include "deadline.hpp"
 #include "event_counters.hpp"
 #include "init_events.hpp"
 
@@ -59,6 +60,26 @@ bool ros_trace_runtime_status(void) {
       tracetools::note<tracetools::event::name>(#name, record __VA_OPT__(, ) __VA_ARGS__); \
     }                                                                                      \
   }
+
+// What is watched whether a session records it or not.
+namespace {
+template <typename Event, typename... Arguments>
+inline void watch(Arguments...) {}
+template <>
+inline void watch<tracetools::event::callback_start>(const void*, bool) {
+  tracetools::callback_starts();
+}
+template <>
+inline void watch<tracetools::event::callback_end>(const void* callback) {
+  tracetools::callback_ends(callback);
+}
+template <>
+inline void watch<tracetools::event::rmw_take>(const void* handle, const void* message, std::int64_t source_timestamp,
+                                               bool taken) {
+  tracetools::message_taken(handle, message, source_timestamp, taken);
+}
+}  // namespace
+
 #define IS_WANTED(name, enabled) \
   (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::provider_is_loaded())
 
@@ -69,6 +90,7 @@ bool ros_trace_runtime_status(void) {
   void ros_trace_##name parameters {                                  \
     NOTE(record_##name, name, WITHOUT_PARENTHESES arguments)          \
     RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
+    watch<tracetools::event::name>(WITHOUT_PARENTHESES arguments);    \
   }                                                                   \
   bool ros_trace_enabled_##name(void) {                               \
     return IS_WANTED(name, lttng_ust_tracepoint_enabled(ros2, name)); \
