@@ -6,7 +6,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 #include "tracing/session/channels.hpp"
@@ -20,17 +22,38 @@ using Clock = std::chrono::steady_clock;
 // Long enough that a burst is no reason, short enough that little is recorded beyond the budget.
 constexpr std::chrono::milliseconds kWindow{500};
 
-// Those of initialisation come once; nothing would be gained by a cut.
-std::uint64_t runtime_events(const std::vector<EventCounts>& processes) {
+using Counts = std::map<std::string, std::uint64_t>;  // by event
+
+// Of all processes. Those of initialisation come once; nothing would be gained by a cut.
+Counts runtime_events(const std::vector<EventCounts>& processes) {
   static const std::set<std::string> initialisation(initialisation_ros_events().begin(),
                                                     initialisation_ros_events().end());
-  std::uint64_t sum = 0;
+  Counts sums;
   for (const EventCounts& process : processes) {
     for (const auto& [event, count] : process.events) {
-      if (!initialisation.contains(event)) sum += count;
+      if (!initialisation.contains(event)) sums[event] += count;
     }
   }
-  return sum;
+  return sums;
+}
+
+Counts difference(Counts after, const Counts& before) {
+  for (const auto& [event, count] : before) after[event] -= count;
+  return after;
+}
+
+std::uint64_t total(const Counts& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& entry) { return sum + entry.second; });
+}
+
+// False for a class whose events are counted, and did not come: nothing would be gained.
+bool is_worth_a_cut(const DroppableClass& drop, const Counts& came) {
+  return std::any_of(drop.rules.begin(), drop.rules.end(), [&came](const DroppableRule& rule) {
+    if (!rule.event.starts_with("ros2:")) return true;
+    const auto found = came.find(rule.event);
+    return found != came.end() && found->second != 0;
+  });
 }
 
 std::filesystem::path cuts_file(const TraceConfig& config) {
@@ -65,19 +88,22 @@ OverheadGuard::~OverheadGuard() {
 
 void OverheadGuard::watch() {
   EventCounters counters(config_.event_counters);
-  std::uint64_t before = runtime_events(counters.read());
+  Counts before = runtime_events(counters.read());
   Clock::time_point began = Clock::now();
   bool told_of_excess = false;
   std::unique_lock lock(mutex_);
   while (!stopped_.wait_for(lock, kWindow, [this] { return stop_; })) {
     lock.unlock();
-    const std::uint64_t count = runtime_events(counters.read());
-    const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - began).count();
-    const auto rate = static_cast<std::uint64_t>(static_cast<double>(count - before) / seconds);
+    const Counts came = difference(runtime_events(counters.read()), before);
+    const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    const auto rate = static_cast<std::uint64_t>(static_cast<double>(total(came)) / seconds);
     if (is_over_budget(config_, ns_per_event_, rate)) {
-      if (!left_.empty()) {
-        cut(rate);
+      const auto next = std::find_if(left_.begin(), left_.end(),
+                                     [&came](const DroppableClass& drop) { return is_worth_a_cut(drop, came); });
+      if (next != left_.end()) {
+        const DroppableClass drop = *next;
+        left_.erase(next);
+        cut(drop, rate);
       } else if (!told_of_excess) {
         told_of_excess = true;
         told_({.rate = rate, .share = static_cast<double>(rate) * ns_per_event_ / 1e9});
@@ -90,15 +116,13 @@ void OverheadGuard::watch() {
   }
 }
 
-void OverheadGuard::cut(std::uint64_t rate) {
-  const DroppableClass next = left_.front();
-  left_.erase(left_.begin());
-  EventCut made{.event_class = next.name,
+void OverheadGuard::cut(const DroppableClass& drop, std::uint64_t rate) {
+  EventCut made{.event_class = drop.name,
                 .events = {},
                 .time = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count(),
                 .rate = rate,
                 .share = static_cast<double>(rate) * ns_per_event_ / 1e9};
-  for (const DroppableRule& rule : next.rules) {
+  for (const DroppableRule& rule : drop.rules) {
     const DomainHandle handle = domain_handle(config_.lttng_session_name(), LTTNG_DOMAIN_UST);
     if (lttng_disable_event(handle.get(), rule.event.c_str(), rule.channel.c_str()) >= 0) {
       made.events.push_back(rule.event);

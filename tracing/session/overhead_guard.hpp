@@ -27,7 +27,7 @@ class OverheadGuard {
 
  private:
   void watch();
-  void cut(std::uint64_t rate);
+  void cut(const DroppableClass& drop, std::uint64_t rate);
 
   TraceConfig config_;
   double ns_per_event_;
