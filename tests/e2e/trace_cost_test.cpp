@@ -1,6 +1,7 @@
 // What a trace costs and what it has lost, as the verdict tells it; the limit of the cost; deadlines.
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/sysinfo.h>
 
 #include <filesystem>
 #include <map>
@@ -53,6 +54,13 @@ TEST_F(TraceCost, TheVerdictSaysExactlyHowManyEventsEachProcessLost) {
       load("one", 40000, 1) + load("two", 80000, 1));
   const CommandResult result = run_command({LAUNCH_PROGRAM, file});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+
+  EXPECT_THAT(
+      result.out,
+      HasSubstr("[WARNING] [launch.trace]: 2 processes may fire 4000 events a second, more than 2 sub-buffers of "
+                "4096 bytes for each of " +
+                std::to_string(get_nprocs_conf()) +
+                " processors hold on a busy machine: events may be lost; subbuffers=\"auto\" sizes them\n"));
 
   const json told = verdict();
   EXPECT_GT(told["discarded_events"], 1000) << "the buffers are small enough to lose events";
