@@ -173,7 +173,13 @@ class LossesByProcess {
   }
 
  private:
-  bool needed() const { return losses_.discarded_events() + losses_.lost_packets() != 0 && !losses_.cut_short; }
+  // Userspace has lost something, and there is time to look.
+  bool needed() const {
+    return !losses_.cut_short &&
+           std::any_of(losses_.channels.begin(), losses_.channels.end(), [](const ChannelLoss& channel) {
+             return channel.domain == "ust" && channel.discarded_events + channel.lost_packets != 0;
+           });
+  }
 
   LossAccount& losses_;
   std::vector<EventCounts> counts_;
