@@ -33,7 +33,8 @@ int print_summary(const Arguments& arguments) {
 
 int print_recorded(const Arguments& arguments) {
   tracing::RecordedProcessCounter counter;
-  tracing::TraceReader(arguments.directory).read(counter);
+  tracing::TraceReader reader(arguments.directory);
+  reader.read(counter);
   fmt::print("{}\n", counter.json());
   return kSuccess;
 }

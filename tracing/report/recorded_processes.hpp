@@ -15,7 +15,7 @@ class RecordedProcessCounter : public TraceSink {
   void on_loss(const Loss&) override {}
 
   // {"processes": [{"vpid": …, "nodes": ["/ns/name", …], "events": {"ros2:rcl_init": 1, …}}, …]}. Events without the
-  // context vpid are not in it.
+  // context vpid are not in it. The reader must still exist.
   std::string json() const;
 
  private:

@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProbe = "launch-trace-probe";
+// Small enough that every page has been touched before it counts, and stays in the cache.
+constexpr std::uint64_t kSubbufferSize = 65536;  // bytes
 
 // A snapshot session: its events stay in memory.
 class CalibrationSession {
@@ -37,7 +39,7 @@ class CalibrationSession {
       plan.channel = "calibration";
       plan.events = {{.pattern = "launch_probe:measured"}};
       plan.context_fields = context_fields;
-      plan.subbuffer_size = defaults.subbuffer_size_ust;
+      plan.subbuffer_size = kSubbufferSize;
       plan.subbuffer_count = defaults.subbuffer_count_ust;
       plan.overwrite = true;
       enable_channel(name_, plan);
