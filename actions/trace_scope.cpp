@@ -160,7 +160,7 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
           throw LaunchError(fmt::format("tracing setup failed: {}", error.what()), origin_, error.remedy());
         }
       },
-      [this, &loop, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
+      [this, &loop, tell, done = std::move(done)](std::exception_ptr error) {
         if (!error && choices_.flight_recorder()) {
           try {
             start_flight_recorder(loop, tell);
