@@ -77,7 +77,8 @@ double ProcessAccount::ns_per_callback(double ns_per_event) const {
 RecordedProcesses parse_recorded_processes(const std::string& text) {
   try {
     RecordedProcesses recorded;
-    for (const nlohmann::json& process : nlohmann::json::parse(text).at("processes")) {
+    const nlohmann::json parsed = nlohmann::json::parse(text);
+    for (const nlohmann::json& process : parsed.at("processes")) {
       recorded[process.at("vpid")] = {.nodes = process.at("nodes"), .events = process.at("events")};
     }
     return recorded;
