@@ -87,6 +87,28 @@ TEST_F(Composition, AContainerThatStartsAgainGetsItsNodesAgain) {
   EXPECT_EQ(run.wait().exit_code, 0);
 }
 
+TEST_F(Composition, AContainerThatIsKilledGetsItsNodesAgain) {
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, write(container("respawn=\"true\"", kTalker))}});
+  const std::regex started("process started with pid \\[(\\d+)\\]");
+  constexpr std::size_t kKills = 3;
+  for (std::size_t loads = 1; loads <= kKills + 1; ++loads) {
+    for (int i = 0; i < 500 && count(run.out(), "Loaded node '/talker' in container '/c'") < loads; ++i) {
+      run.wait_for_output("no such line", std::chrono::milliseconds(100));
+    }
+    const std::string out = run.out();
+    ASSERT_EQ(count(out, "Loaded node '/talker' in container '/c'"), loads) << out;
+    std::string last_pid;
+    for (std::sregex_iterator match(out.begin(), out.end(), started); match != std::sregex_iterator(); ++match) {
+      last_pid = (*match)[1];
+    }
+    if (loads <= kKills) {
+      ASSERT_EQ(::kill(std::stoi(last_pid), SIGKILL), 0);
+    }
+  }
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+}
+
 TEST_F(Composition, WhatCannotBeLoadedIsSaidAndTheLaunchGoesOn) {
   const std::string file = write(container("", R"xml(
 <composable_node pkg="composition" plugin="composition::Nobody" name="nobody"/>

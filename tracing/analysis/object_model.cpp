@@ -179,6 +179,40 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppCallbackRegister& e
   callbacks_[id].symbol = event.symbol;
 }
 
+void ObjectModel::on(const Origin& origin, const ros2::ObjectEnd& end) {
+  using Kind = ros2::ObjectEnd::Kind;
+  const Key key{origin.vpid, end.handle};
+  switch (end.kind) {
+    case Kind::kRclNode:
+      node_index_.erase(key);
+      break;
+    case Kind::kRmwPublisher:
+      rmw_publisher_index_.erase(key);
+      break;
+    case Kind::kRclPublisher:
+      publisher_index_.erase(key);
+      break;
+    case Kind::kRmwSubscription:
+      rmw_subscription_index_.erase(key);
+      break;
+    case Kind::kRclSubscription:
+      subscription_index_.erase(key);
+      break;
+    case Kind::kRclcppSubscription:
+      subscription_object_index_.erase(key);
+      break;
+    case Kind::kRclService:
+      service_index_.erase(key);
+      break;
+    case Kind::kRclTimer:
+      timer_index_.erase(key);
+      break;
+    case Kind::kRclcppCallback:
+      callback_index_.erase(key);
+      break;
+  }
+}
+
 ObjectId ObjectModel::publisher(Vpid vpid, ros2::Handle rcl_handle) const {
   return find(publisher_index_, vpid, rcl_handle);
 }

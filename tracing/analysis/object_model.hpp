@@ -1,12 +1,13 @@
 // The ROS 2 objects of a trace, built from its initialisation events as they come by.
 //
-// Handles are addresses: two processes may use the same one, and one process may use it again for another object
-// (ROS 2 records no end of objects). An object is therefore found by process, handle and time: fed in the order of
-// time, the model answers with the newest object that had the handle, and never forgets an older one's results.
+// Handles are addresses: two processes may use the same one, and one process may use it again for another object. An
+// object is therefore found by process, handle and time: fed in the order of time, the model answers with the newest
+// object that had the handle, and never forgets an older one's results. ROS 2 records no end of objects; where a trace
+// has them (`ros2_ext`), a handle means nothing from the end of its object to the next init event.
 //
 // The init events of living objects come again when another session starts (a state dump). Repeated events change
 // nothing: endpoints have a gid, which tells the same from a new one; of the other objects, one that is announced with
-// the same facts at the same address counts as the same.
+// the same facts at the same address counts as the same, unless its end was recorded.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "tracing/reader/object_end.hpp"
 #include "tracing/reader/ros2_events.hpp"
 
 namespace tracing {
@@ -101,6 +103,8 @@ class ObjectModel {
   void on(const Origin&, const ros2::RclcppTimerCallbackAdded&);
   void on(const Origin&, const ros2::RclcppTimerLinkNode&);
   void on(const Origin&, const ros2::RclcppCallbackRegister&);
+
+  void on(const Origin&, const ros2::ObjectEnd&);
 
   // The newest object with the handle, or kNoObject.
   ObjectId publisher(Vpid vpid, ros2::Handle rcl_handle) const;

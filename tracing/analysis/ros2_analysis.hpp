@@ -23,6 +23,7 @@ class Ros2Analysis {
   Ros2Analysis& operator=(Ros2Analysis&&) = default;
 
   void on_event(const Origin& origin, const ros2::AnyEvent& event);
+  void on_end(const Origin& origin, const ros2::ObjectEnd& end) { model_.on(origin, end); }
   Ros2Results finish();
 
   const ObjectModel& model() const { return model_; }

@@ -4,10 +4,13 @@ namespace tracing {
 
 void TraceAnalysis::on_event(const Event& event) {
   overview_.on_event(event);
-  const ros2::AnyEvent* decoded = decoder_.decode(event);
-  if (decoded == nullptr) return;
-  if (!event.vpid || !event.vtid) lacks_thread_context_ = true;
-  ros2_.on_event({event.timestamp_ns, event.vpid.value_or(0), event.vtid.value_or(0)}, *decoded);
+  const Origin origin{event.timestamp_ns, event.vpid.value_or(0), event.vtid.value_or(0)};
+  if (const ros2::AnyEvent* decoded = decoder_.decode(event)) {
+    if (!event.vpid || !event.vtid) lacks_thread_context_ = true;
+    ros2_.on_event(origin, *decoded);
+  } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
+    ros2_.on_end(origin, *end);
+  }
 }
 
 void TraceAnalysis::on_loss(const Loss& loss) {

@@ -27,6 +27,7 @@ class TraceAnalysis : public TraceSink {
   Ros2Analysis ros2_;
   std::vector<std::string> warnings_;
   ros2::Decoder decoder_{[this](const std::string& problem) { warnings_.push_back(problem); }};
+  ros2::ObjectEndDecoder ends_;
   bool lacks_thread_context_ = false;
 };
 

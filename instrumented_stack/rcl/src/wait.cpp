@@ -163,9 +163,7 @@ void forget(Kept<Entity>& kept) {
 template <typename Entity>
 void keep_ready(std::vector<const Entity*>& entities, size_t count, const std::vector<void*>& rmw_entities) {
   for (size_t i = 0; i < count; ++i) {
-    if (rmw_entities[i] == nullptr) {
-      entities[i] = nullptr;
-    }
+    entities[i] = rmw_entities[i] == nullptr ? nullptr : entities[i];
   }
 }
 

@@ -1,6 +1,8 @@
 // How an executor waits for its entities.
 #include <rcl/wait_restore.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <utility>
 
@@ -128,23 +130,34 @@ void ExecutorEntities::add_handles(const Sizes& sizes) {
 
 void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
                                     std::vector<detail::ReadyEntity>& ready) const {
-  // The entities of one kind, group after group, of which the wait has left the handle.
-  const auto append = [&](const auto* const* handles, auto WaitedGroup::*kind) {
-    for (const WaitedGroup& group : waited_) {
-      if (group.in_wait_set) {
-        for (const auto& waited : group.*kind) {
-          if (*handles++) {
-            ready.push_back({waited.entity, group.group});
-          }
+  // The entities of one kind, group after group, of which the wait has left the handle. Between these, nothing but the
+  // handles is looked at: there may be thousands that have nothing to do.
+  const auto append = [&](const auto* const* handles, size_t count, auto WaitedGroup::*kind) {
+    const auto* const* const end = handles + count;
+    const auto next_left = [end](const auto* const* from) {
+      return std::find_if(from, end, [](const void* handle) { return handle != nullptr; });
+    };
+    auto group = waited_.begin();
+    const auto* const* of_group = handles;
+    for (const auto* const* left = next_left(handles); left != end; left = next_left(left + 1)) {
+      for (; group != waited_.end(); ++group) {
+        const auto size = group->in_wait_set ? static_cast<std::ptrdiff_t>(((*group).*kind).size()) : 0;
+        if (left - of_group < size) {
+          break;
         }
+        of_group += size;
       }
+      if (group == waited_.end()) {
+        return;  // what follows are entities of waitables
+      }
+      ready.push_back({((*group).*kind)[static_cast<size_t>(left - of_group)].entity, group->group});
     }
   };
-  append(wait_set_.timers, &WaitedGroup::timers);
-  append(wait_set_.subscriptions, &WaitedGroup::subscriptions);
-  append(wait_set_.services, &WaitedGroup::services);
-  append(wait_set_.clients, &WaitedGroup::clients);
-  append(wait_set_.events, &WaitedGroup::events);
+  append(wait_set_.timers, wait_set_.size_of_timers, &WaitedGroup::timers);
+  append(wait_set_.subscriptions, wait_set_.size_of_subscriptions, &WaitedGroup::subscriptions);
+  append(wait_set_.services, wait_set_.size_of_services, &WaitedGroup::services);
+  append(wait_set_.clients, wait_set_.size_of_clients, &WaitedGroup::clients);
+  append(wait_set_.events, wait_set_.size_of_events, &WaitedGroup::events);
   for (const HeldWaitable& held : waitables) {
     if (held.waitable->is_ready(wait_set_)) {
       ready.push_back({Waitable::WeakPtr(held.waitable), held.group});

@@ -6,15 +6,8 @@
 namespace rmw_fastrtps {
 namespace {
 
-// The first twelve bytes of a GUID name the participant.
-constexpr std::size_t kPrefixLength = 12;
-
 // Far more than can end between two messages of one of them.
 constexpr std::size_t kRemembered = 1000;
-
-bool same_participant(const Gid& a, const Gid& b) {
-  return std::equal(a.begin(), a.begin() + kPrefixLength, b.begin());
-}
 
 template <typename Nodes>
 auto find_node(Nodes& nodes, const std::string& namespace_, const std::string& name) {

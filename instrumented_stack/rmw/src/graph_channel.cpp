@@ -3,6 +3,9 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <chrono>
+#include <optional>
 #include <stdexcept>
 
 #include "endpoint.hpp"
@@ -28,9 +31,18 @@ rmw_qos_profile_t channel_profile() {
   throw std::runtime_error(message);
 }
 
+std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimePoint> time) {
+  if (!time) {
+    return std::nullopt;
+  }
+  const auto left = std::chrono::ceil<std::chrono::nanoseconds>(*time - std::chrono::steady_clock::now());
+  return rmw_time_from_nsec(std::max<rmw_duration_t>(left.count(), 0));
+}
+
 }  // namespace
 
-GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph) : graph_(graph) {
+GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph)
+    : participant_(participant), graph_(graph) {
   const auto& type_support = *rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>();
   // Only the last state of a participant counts, but a burst of states of many participants must not push any out.
   rmw_qos_profile_t profile = channel_profile();
@@ -41,7 +53,7 @@ GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, Gra
   rmw_subscription_options_t options = rmw_get_default_subscription_options();
   options.ignore_local_publications = true;
   subscription_ = create_subscription(participant, type_support, kTopic, profile, options);
-  wait_set_ = rmw_create_wait_set(&context, 2);
+  wait_set_ = rmw_create_wait_set(&context, 3);
   stop_ = rmw_create_guard_condition(&context);
 
   // Signals are for the threads of the application.
@@ -69,21 +81,27 @@ void GraphChannel::announce(const GraphCache::EntitiesInfo& info) {
 }
 
 void GraphChannel::listen() {
+  UnansweredParticipants& unanswered = participant_.unanswered();
   GraphCache::EntitiesInfo info;
   while (true) {
     void* subscription = subscription_->data;
-    void* stop = stop_->data;
+    void* conditions[] = {stop_->data, static_cast<Waitable*>(&unanswered.changed())};
     rmw_subscriptions_t subscriptions{1, &subscription};
-    rmw_guard_conditions_t guard_conditions{1, &stop};
-    (void)rmw_wait(&subscriptions, &guard_conditions, nullptr, nullptr, nullptr, wait_set_, nullptr);
-    if (stop != nullptr) {
+    rmw_guard_conditions_t guard_conditions{2, conditions};
+    const std::optional<rmw_time_t> timeout = time_until(unanswered.next());
+    (void)rmw_wait(&subscriptions, &guard_conditions, nullptr, nullptr, nullptr, wait_set_,
+                   timeout ? &*timeout : nullptr);
+    if (conditions[0] != nullptr) {
       return;
     }
-    bool taken = true;
+    bool taken = subscription != nullptr;
     while (taken && rmw_take(subscription_, &info, &taken, nullptr) == RMW_RET_OK) {
       if (taken) {
         graph_.update_nodes(info);
       }
+    }
+    if (unanswered.take_due(std::chrono::steady_clock::now())) {
+      participant_.announce_again();
     }
   }
 }

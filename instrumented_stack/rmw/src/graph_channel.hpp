@@ -1,7 +1,8 @@
 // The topic ros_discovery_info: tells other participants of the nodes of this one, and listens to theirs.
 //
 // Its publisher and subscription have no rcl counterpart. A thread of its own takes what arrives; it ends each wake-up
-// with one take that finds nothing.
+// for a message with one take that finds nothing. It also announces the participant again to those who may have missed
+// it.
 #pragma once
 
 #include <thread>
@@ -27,6 +28,7 @@ class GraphChannel {
  private:
   void listen();
 
+  Participant& participant_;
   GraphCache& graph_;
   rmw_publisher_t* publisher_ = nullptr;
   rmw_subscription_t* subscription_ = nullptr;

@@ -6,6 +6,7 @@
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -24,6 +25,7 @@
 #include "message_type.hpp"
 #include "qos.hpp"
 #include "rcutils/logging.h"
+#include "shared_memory_ports.hpp"
 
 namespace rmw_fastrtps {
 namespace {
@@ -157,19 +159,54 @@ void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, r
   differ(kParticipant);
 }
 
+// A participant that others do not see yet. Null on errors.
+fdds::DomainParticipant* create_disabled_participant(std::uint32_t domain_id, const fdds::DomainParticipantQos& qos,
+                                                     fdds::DomainParticipantListener& listener) {
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  fdds::DomainParticipantFactoryQos before;
+  factory->get_qos(before);
+  fdds::DomainParticipantFactoryQos disabled = before;
+  disabled.entity_factory().autoenable_created_entities = false;
+  factory->set_qos(disabled);
+  auto* participant = factory->create_participant(domain_id, qos, &listener, fdds::StatusMask::none());
+  factory->set_qos(before);
+  return participant;
+}
+
+// Null on errors.
+fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::DomainParticipantQos qos,
+                                            bool may_choose_ports, fdds::DomainParticipantListener& listener) {
+  auto* participant = create_disabled_participant(domain_id, qos, listener);
+  if (participant == nullptr) {
+    return nullptr;
+  }
+  if (may_choose_ports) {
+    // Only a participant knows the host's identity.
+    choose_shared_memory_ports(domain_id, participant->guid().guidPrefix, qos);
+    participant->set_qos(qos);
+  }
+  if (participant->enable() != ReturnCode_t::RETCODE_OK) {
+    fdds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+    return nullptr;
+  }
+  return participant;
+}
+
 }  // namespace
 
 class Participant::DiscoveryListener final : public fdds::DomainParticipantListener {
  public:
-  explicit DiscoveryListener(GraphCache& graph) : graph_(graph) {}
+  DiscoveryListener(GraphCache& graph, UnansweredParticipants& unanswered) : graph_(graph), unanswered_(unanswered) {}
 
   void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
     const Gid gid = to_gid(info.info.m_guid);
     if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
       graph_.add_participant(gid, enclave_in(info.info.m_userData.data_vec()));
+      unanswered_.discovered(gid, std::chrono::steady_clock::now());
     } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
                info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
       graph_.remove_participant(gid);
+      unanswered_.settled(gid);
     }
   }
 
@@ -186,19 +223,22 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
  private:
   template <typename Proxy>
   void changed(GraphCache::Kind kind, const Proxy& proxy, bool removed) {
+    const Gid gid = to_gid(proxy.guid());
+    unanswered_.settled(gid);
     if (removed) {
-      graph_.remove_endpoint(to_gid(proxy.guid()));
+      graph_.remove_endpoint(gid);
     } else {
-      graph_.add_endpoint(to_gid(proxy.guid()),
+      graph_.add_endpoint(gid,
                           {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos)});
     }
   }
 
   GraphCache& graph_;
+  UnansweredParticipants& unanswered_;
 };
 
 Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
-    : listener_(std::make_unique<DiscoveryListener>(graph)) {
+    : listener_(std::make_unique<DiscoveryListener>(graph, unanswered_)) {
   const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
   qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
 
@@ -207,6 +247,8 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   fdds::DomainParticipantQos qos = factory->get_default_participant_qos();
   const auto domain_id =
       options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : static_cast<std::uint32_t>(options.domain_id);
+  // A profile may have chosen others.
+  const bool has_default_transports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
   configure_discovery(options.discovery_options, domain_id, qos);
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
   const std::string user_data = "enclave=" + enclave + ";";
@@ -223,7 +265,7 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   if (!siblings().prefixes.empty()) {
     be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
   }
-  participant_ = factory->create_participant(domain_id, qos, listener_.get(), fdds::StatusMask::none());
+  participant_ = create_participant(domain_id, qos, has_default_transports, *listener_);
   if (participant_ == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
                              ", see its own messages above");
@@ -245,6 +287,19 @@ Participant::~Participant() {
   participant_->delete_publisher(publisher_);
   participant_->delete_subscriber(subscriber_);
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+void Participant::announce_again() {
+  // Fast DDS announces changes at once. With or without the terminating null, the user data say the same.
+  fdds::DomainParticipantQos qos = participant_->get_qos();
+  std::vector<rtps::octet> user_data = qos.user_data().data_vec();
+  if (!user_data.empty() && user_data.back() == '\0') {
+    user_data.pop_back();
+  } else {
+    user_data.push_back('\0');
+  }
+  qos.user_data().data_vec(user_data);
+  participant_->set_qos(qos);
 }
 
 fdds::Topic& Participant::acquire_topic(const std::string& dds_name,

@@ -9,6 +9,7 @@
 #include "graph_cache.hpp"
 #include "rmw/init_options.h"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
+#include "unanswered_participants.hpp"
 
 namespace eprosima::fastdds::dds {
 class DataReaderQos;
@@ -35,6 +36,11 @@ class Participant {
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
+  // Those to whom announce_again() may be news, when it is time for it.
+  UnansweredParticipants& unanswered() { return unanswered_; }
+  // Tells all participants of this one once more. Not from a listener of Fast DDS.
+  void announce_again();
+
   const Gid& gid() const { return gid_; }
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
@@ -58,6 +64,7 @@ class Participant {
     std::size_t users;
   };
 
+  UnansweredParticipants unanswered_;
   std::unique_ptr<DiscoveryListener> listener_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;

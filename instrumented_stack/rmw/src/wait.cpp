@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <iterator>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "identifier.hpp"
@@ -36,7 +39,7 @@ struct WaitSet {
   Waiter waiter;
   // Room for the entities of a wait.
   std::vector<Waitable*> waitables;
-  std::vector<Waitable*> ready;
+  std::vector<std::size_t> ready;  // indices
 };
 
 // The entities of one call of rmw_wait(), null entries left out by each function.
@@ -61,6 +64,7 @@ class Entities {
     }
   }
 
+  // The entities that are there, one list after the other.
   void collect(std::vector<Waitable*>& waitables) const {
     waitables.clear();
     const auto append = [&](std::span<void*> list) {
@@ -74,26 +78,55 @@ class Entities {
     append(guard_conditions_);
   }
 
-  // Nulls what is not in `ready`, a part of collect()'s list in its order, and resets guard conditions. False if
-  // nothing is left.
-  bool keep(const std::vector<Waitable*>& ready) const {
-    bool any = false;
-    auto next = ready.begin();
-    const auto keep_entry = [&](void*& entity) {
-      if (next != ready.end() && entity == *next) {
-        ++next;
-      } else {
-        entity = nullptr;
-      }
-      return entity != nullptr;
-    };
-    for (std::span<void*> list : level_triggered_) {
-      for (void*& entity : list) {
-        any |= keep_entry(entity);
-      }
+  // Whether collect() would give `waitables`.
+  bool are(const std::vector<Waitable*>& waitables) const {
+    if (waitables.size() != size()) {
+      return false;
     }
+    auto next = waitables.begin();
+    const auto are_next = [&](std::span<void*> list) {
+      const auto begin = std::exchange(next, next + std::ssize(list));
+      return std::equal(list.begin(), list.end(), begin);
+    };
+    return std::all_of(level_triggered_.begin(), level_triggered_.end(), are_next) && are_next(guard_conditions_);
+  }
+
+  // Nulls what is not among `ready`, indices of `waitables`, collect()'s list, and resets guard conditions. False if
+  // nothing is left.
+  bool keep(const std::vector<Waitable*>& waitables, const std::vector<std::size_t>& ready) const {
+    const bool no_nulls = waitables.size() == size();
+    auto next = ready.begin();
+    std::size_t index = 0;  // in `waitables`
+    const auto keep_in = [&](std::span<void*> list) {
+      if (no_nulls) {
+        std::fill(list.begin(), list.end(), nullptr);
+        for (; next != ready.end() && *next < index + list.size(); ++next) {
+          list[*next - index] = waitables[*next];
+        }
+        index += list.size();
+        return;
+      }
+      for (void*& entity : list) {
+        if (entity == nullptr) {
+          continue;
+        }
+        if (next != ready.end() && *next == index) {
+          ++next;
+        } else {
+          entity = nullptr;
+        }
+        ++index;
+      }
+    };
+    std::for_each(level_triggered_.begin(), level_triggered_.end(), keep_in);
+    bool any = next != ready.begin();
+    if (next == ready.end()) {
+      std::fill(guard_conditions_.begin(), guard_conditions_.end(), nullptr);
+      return any;
+    }
+    keep_in(guard_conditions_);
     for (void*& entity : guard_conditions_) {
-      if (keep_entry(entity) && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
+      if (entity != nullptr && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
         entity = nullptr;
       }
       any |= entity != nullptr;
@@ -102,6 +135,11 @@ class Entities {
   }
 
  private:
+  std::size_t size() const {
+    return std::accumulate(level_triggered_.begin(), level_triggered_.end(), guard_conditions_.size(),
+                           [](std::size_t sum, std::span<void*> list) { return sum + list.size(); });
+  }
+
   std::array<std::span<void*>, 4> level_triggered_;  // of subscriptions, services, clients and events
   std::span<void*> guard_conditions_;
 };
@@ -162,7 +200,9 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
   const Entities entities(subscriptions, guard_conditions, services, clients, events);
   auto& [waiter, waitables, ready] = *static_cast<WaitSet*>(wait_set->data);
-  entities.collect(waitables);
+  if (!entities.are(waitables)) {
+    entities.collect(waitables);
+  }
   ready.clear();
   const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
   if (may_block) {
@@ -176,8 +216,11 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
   } else if (waiter.watches(waitables)) {
     waiter.find_ready(waitables, ready);
   } else {
-    std::copy_if(waitables.begin(), waitables.end(), std::back_inserter(ready),
-                 [](Waitable* waitable) { return waitable->is_ready(); });
+    for (std::size_t i = 0; i < waitables.size(); ++i) {
+      if (waitables[i]->is_ready()) {
+        ready.push_back(i);
+      }
+    }
   }
-  return entities.keep(ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
+  return entities.keep(waitables, ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }

@@ -1,6 +1,7 @@
 #include "waitable.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace rmw_fastrtps {
@@ -58,10 +59,13 @@ void Waiter::watch(const std::vector<Waitable*>& waitables) {
 }
 
 bool Waiter::watches(const std::vector<Waitable*>& waitables) const {
-  return !stale_.load(std::memory_order_acquire) && is_subsequence(waitables, wanted_);
+  if (stale_.load(std::memory_order_acquire)) {
+    return false;
+  }
+  return waitables == wanted_ || is_subsequence(waitables, wanted_);
 }
 
-void Waiter::find_ready(const std::vector<Waitable*>& waitables, std::vector<Waitable*>& ready) {
+void Waiter::find_ready(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready) {
   asked_.clear();
   bool all = false;
   {
@@ -72,23 +76,34 @@ void Waiter::find_ready(const std::vector<Waitable*>& waitables, std::vector<Wai
   }
   // Not under the lock: DDS calls wake() under locks of its own, which is_ready() takes too.
   const std::size_t before = ready.size();
-  for (Waitable* waitable : waitables) {
-    if (all || contains(asked_, waitable)) {
-      std::replace(asked_.begin(), asked_.end(), waitable, static_cast<Waitable*>(nullptr));
-      if (waitable->is_ready()) {
-        ready.push_back(waitable);
+  if (all) {
+    asked_.clear();
+    for (std::size_t i = 0; i < waitables.size(); ++i) {
+      if (waitables[i]->is_ready()) {
+        ready.push_back(i);
       }
     }
+  } else {
+    // A few are looked for among perhaps thousands, of which nothing but the addresses is read.
+    asked_at_.clear();
+    std::erase_if(asked_, [&](Waitable* waitable) {
+      const auto found = std::find(waitables.begin(), waitables.end(), waitable);
+      if (found != waitables.end()) {
+        asked_at_.push_back(static_cast<std::size_t>(found - waitables.begin()));
+      }
+      return found != waitables.end();
+    });
+    std::sort(asked_at_.begin(), asked_at_.end());
+    std::copy_if(asked_at_.begin(), asked_at_.end(), std::back_inserter(ready),
+                 [&](std::size_t i) { return waitables[i]->is_ready(); });
   }
   // Who is ready does not say so again. Who was not asked may be ready.
   std::lock_guard lock(mutex_);
   for (std::size_t i = before; i < ready.size(); ++i) {
-    add_candidate(ready[i]);
+    add_candidate(waitables[ready[i]]);
   }
   for (Waitable* waitable : asked_) {
-    if (waitable != nullptr) {
-      add_candidate(waitable);
-    }
+    add_candidate(waitable);
   }
   if (all && waitables.size() < wanted_.size()) {
     all_are_candidates_ = true;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -34,9 +35,9 @@ class Waiter {
   // Whether watch() would change nothing.
   bool watches(const std::vector<Waitable*>& waitables) const;
 
-  // Appends those of `waitables`, which must be watched, that are ready, in their order. Asks only those that have
-  // called wake() since they were last found not to be ready. Forgets earlier wake-ups.
-  void find_ready(const std::vector<Waitable*>& waitables, std::vector<Waitable*>& ready);
+  // Appends the indices of those of `waitables`, which must be watched, that are ready, in their order. Asks only those
+  // that have called wake() since they were last found not to be ready. Forgets earlier wake-ups.
+  void find_ready(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready);
 
   // `waitable` may be ready now. Any thread.
   void wake(Waitable& waitable);
@@ -55,7 +56,8 @@ class Waiter {
 
   void add_candidate(Waitable* waitable);
 
-  std::vector<Waitable*> asked_;  // the candidates of a find_ready()
+  std::vector<Waitable*> asked_;       // the candidates of a find_ready()
+  std::vector<std::size_t> asked_at_;  // where they are
 
   std::mutex mutex_;
   std::condition_variable condition_;

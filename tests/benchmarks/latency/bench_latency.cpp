@@ -77,13 +77,13 @@ double added(const Samples& variant, const Samples& floor) {
   return median(differences);
 }
 
-// Asks a process that is traced as the stack is: the sum of what the events between the two clock readings cost, each
-// from a loop of its own, in microseconds.
-double cost_of_tracepoints_on_the_path(latency::Worker& tracepoints) {
-  double cost = 0;
-  tracepoints.send("?", 1);
-  tracepoints.receive(&cost, sizeof cost);
-  return cost;
+// Asks a process that is traced as the stack is.
+latency::PathCosts cost_of_tracepoints_on_the_path(latency::Worker& tracepoints, std::size_t bytes) {
+  latency::PathCosts costs{};
+  const latency::PathRequest request{kPeriod, bytes};
+  tracepoints.send(&request, sizeof request);
+  tracepoints.receive(&costs, sizeof costs);
+  return costs;
 }
 
 void print_table(const std::vector<const Variant*>& variants) {
@@ -120,7 +120,8 @@ int main() try {
   // Of the processes of `idle` with the session started, and of those of `disabled` at the same time.
   std::vector<Samples> recorded(kSizes.size());
   std::vector<Samples> beside_recorded(kSizes.size());
-  std::vector<double> path_costs;
+  std::vector<double> loop_costs;
+  std::vector<std::vector<double>> paced_costs(kSizes.size());
   latency::Worker tracepoints({LATENCY_TRACEPOINTS}, {}, 1);
 
   for (int generation = 0; generation < kGenerations; ++generation) {
@@ -146,7 +147,11 @@ int main() try {
         recorded[size].add(idle.run(size, kMessages));
       }
       if (round == 0) {
-        path_costs.push_back(cost_of_tracepoints_on_the_path(tracepoints));
+        for (std::size_t size = 0; size < kSizes.size(); ++size) {
+          const latency::PathCosts costs = cost_of_tracepoints_on_the_path(tracepoints, kSizes[size]);
+          loop_costs.push_back(costs.in_a_loop);
+          paced_costs[size].push_back(costs.at_pace);
+        }
       }
       session.stop();
     }
@@ -155,16 +160,18 @@ int main() try {
   fmt::print("latency in microseconds, {} messages each\n", kGenerations * kRounds * kMessages);
   print_table({&bare, &idle, &disabled, &listener});
 
-  const double path = median(path_costs);
   fmt::print(
-      "\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop; added to the latency "
-      "by:\n",
-      path);
-  fmt::print("{:<8}{:>20}{:>26}{:>14}\n", "KiB", "tracing idle", "every event recorded", "of the loop");
+      "\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop. They cost more when "
+      "called "
+      "at the\npace of the messages, each time after the copy of one, with nothing else between them:\n",
+      median(loop_costs));
+  fmt::print("{:<8}{:>16}{:>24}{:>26}{:>16}\n", "KiB", "at that pace", "added by idle ones", "added by recording all",
+             "of that pace");
   for (std::size_t size = 0; size < kSizes.size(); ++size) {
+    const double path = median(paced_costs[size]);
     const double by_recording = added(recorded[size], beside_recorded[size]);
-    fmt::print("{:<8}{:>20.2f}{:>26.2f}{:>14.2f}\n", kSizes[size] / 1024, added(idle.sizes[size], disabled.sizes[size]),
-               by_recording, by_recording / path);
+    fmt::print("{:<8}{:>16.2f}{:>24.2f}{:>26.2f}{:>16.2f}\n", kSizes[size] / 1024, path,
+               added(idle.sizes[size], disabled.sizes[size]), by_recording, by_recording / path);
   }
 } catch (const std::exception& error) {
   fmt::print(stderr, "bench_latency: {}\n", error.what());

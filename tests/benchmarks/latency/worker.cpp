@@ -31,15 +31,20 @@ void tell_ready() {
   }
 }
 
+void at_pace(std::uint64_t steps, std::int64_t period, const std::function<void(std::uint64_t)>& step) {
+  std::int64_t next = monotonic_now();
+  while (steps-- > 0) {
+    next += period;
+    sleep_until(next);
+    step(steps);
+  }
+}
+
 void publish_batches(const std::function<void(std::size_t, std::int64_t)>& publish) {
   Batch batch{};
   while (read(STDIN_FILENO, &batch, sizeof batch) == sizeof batch) {
-    std::int64_t next = monotonic_now();
-    for (std::uint64_t remaining = batch.messages; remaining-- > 0;) {
-      next += batch.period;
-      sleep_until(next);
-      publish(batch.size_index, static_cast<std::int64_t>(remaining));
-    }
+    at_pace(batch.messages, batch.period,
+            [&](std::uint64_t remaining) { publish(batch.size_index, static_cast<std::int64_t>(remaining)); });
   }
 }
 

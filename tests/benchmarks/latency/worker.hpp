@@ -26,8 +26,23 @@ struct Batch {
   std::int64_t period;  // nanoseconds from one message to the next
 };
 
+// What the tracepoints on the way of a message cost, in microseconds: the sum of the costs of each in a loop of its
+// own, where all they touch is in the caches; and when they are called once a period, after a copy of as many bytes as
+// the message has, those of the publisher one after another, and those of the subscriber.
+struct PathRequest {
+  std::int64_t period;  // nanoseconds
+  std::uint64_t bytes;
+};
+struct PathCosts {
+  double in_a_loop;
+  double at_pace;
+};
+
 // Tells bench_latency that every topic has found its other side. Call it once.
 void tell_ready();
+
+// Calls `step` once a period (nanoseconds), with how many are left.
+void at_pace(std::uint64_t steps, std::int64_t period, const std::function<void(std::uint64_t remaining)>& step);
 
 // Sends the batches that are asked for until stdin ends.
 void publish_batches(const std::function<void(std::size_t size_index, std::int64_t remaining)>& publish);

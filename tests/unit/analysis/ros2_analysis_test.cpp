@@ -22,6 +22,11 @@ class Feed {
     analysis_.on_event(origin_, event);
     return *this;
   }
+  Feed& end(ros2::ObjectEnd::Kind kind, ros2::Handle handle) {
+    origin_.time_ns += 10;
+    analysis_.on_end(origin_, {kind, handle});
+    return *this;
+  }
   Ros2Results results() { return analysis_.finish(); }
 
  private:
@@ -129,6 +134,70 @@ TEST(Ros2Analysis, GivesAReusedAddressToTheNewestObject) {
   EXPECT_EQ(results.callbacks[1].symbol, "second");
   EXPECT_EQ(results.callbacks[1].period_ns, 200);
   EXPECT_EQ(results.callbacks[1].durations.count, 2u);
+}
+
+TEST(Ros2Analysis, TellsAnEqualObjectFromTheOneThatHasEnded) {
+  using Kind = ros2::ObjectEnd::Kind;
+  Feed feed;
+  for (int life = 0; life < 2; ++life) {
+    feed(ros2::RclNodeInit{2, 3, "node", "/"});
+    feed(ros2::RclTimerInit{1, 100})(ros2::RclcppTimerCallbackAdded{1, 0xcb})(ros2::RclcppTimerLinkNode{1, 2});
+    feed(ros2::RclcppCallbackRegister{0xcb, "tick"});
+    feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
+    feed.end(Kind::kRclcppCallback, 0xcb).end(Kind::kRclTimer, 1).end(Kind::kRclNode, 2);
+  }
+
+  const Ros2Results results = feed.results();
+
+  ASSERT_EQ(results.callbacks.size(), 2u);
+  for (const CallbackResult& callback : results.callbacks) {
+    EXPECT_EQ(callback.node, "/node");
+    EXPECT_EQ(callback.symbol, "tick");
+    EXPECT_EQ(callback.durations.count, 1u);
+  }
+}
+
+TEST(Ros2Analysis, GivesTheHandleOfAnEndedObjectToNobody) {
+  using Kind = ros2::ObjectEnd::Kind;
+  Feed feed;
+  feed(ros2::RclTimerInit{1, 100})(ros2::RclcppTimerCallbackAdded{1, 0xcb});
+  feed(ros2::RmwPublisherInit{5, {}})(ros2::RclPublisherInit{6, 0, 5, "/topic", 1})(ros2::RmwPublish{5, 9, 1});
+  feed.in(72, 72).end(Kind::kRclcppCallback, 0xcb);  // of another process
+  feed.in(71, 71)(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
+  feed.end(Kind::kRclcppCallback, 0xcb).end(Kind::kRclTimer, 1).end(Kind::kRclPublisher, 6).end(Kind::kRmwPublisher, 5);
+  feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb})(ros2::RmwPublish{5, 9, 2});
+
+  const Ros2Results results = feed.results();
+
+  ASSERT_EQ(results.callbacks.size(), 2u);
+  EXPECT_EQ(results.callbacks[0].owner, Owner::kUnknown);
+  EXPECT_EQ(results.callbacks[0].durations.count, 1u);
+  EXPECT_EQ(results.callbacks[1].owner, Owner::kTimer);
+  EXPECT_EQ(results.callbacks[1].durations.count, 1u);
+  EXPECT_EQ(topic(results, "/topic").published, 1u);
+  EXPECT_EQ(results.unknown_messages, 1u);
+}
+
+TEST(Ros2Analysis, EndsASubscriptionWithAllItsLayers) {
+  using Kind = ros2::ObjectEnd::Kind;
+  Feed feed;
+  for (std::int64_t life = 1; life <= 2; ++life) {
+    feed(ros2::RmwSubscriptionInit{1, {}})(ros2::RclSubscriptionInit{2, 0, 1, "/topic", 1});
+    feed(ros2::RclcppSubscriptionInit{2, 3})(ros2::RclcppSubscriptionCallbackAdded{3, 0xcb});
+    feed(ros2::RmwTake{1, 9, life, true})(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
+    feed.end(Kind::kRclcppCallback, 0xcb).end(Kind::kRclcppSubscription, 3).end(Kind::kRclSubscription, 2);
+    feed.end(Kind::kRmwSubscription, 1);
+  }
+  feed(ros2::RmwTake{1, 9, 3, true});
+
+  const Ros2Results results = feed.results();
+
+  ASSERT_EQ(results.callbacks.size(), 2u);
+  EXPECT_EQ(results.callbacks[0].owner_name, "/topic");
+  EXPECT_EQ(results.callbacks[1].owner_name, "/topic");
+  EXPECT_EQ(topic(results, "/topic").subscriptions, 2u);
+  EXPECT_EQ(topic(results, "/topic").received, 2u);
+  EXPECT_EQ(results.unknown_messages, 1u);
 }
 
 TEST(Ros2Analysis, GivesAReusedPublisherHandleToTheNewestTopic) {

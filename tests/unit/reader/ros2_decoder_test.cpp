@@ -7,6 +7,7 @@
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/reader/object_end.hpp"
 #include "tracing/reader/trace_reader.hpp"
 
 namespace tracing {
@@ -104,6 +105,34 @@ TEST(Ros2Decoder, IgnoresEventsOfOtherProviders) {
   TraceReader(directory.path()).read(sink);
   EXPECT_EQ(sink.count, 1u);
   EXPECT_THAT(sink.problems, IsEmpty());
+}
+
+TEST(ObjectEndDecoder, KnowsTheEndsOfObjectsByTheirNames) {
+  using Kind = ros2::ObjectEnd::Kind;
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  constexpr const char* kField = "\t\tinteger { size = 64; align = 8; signed = 0; base = 16; } _handle;\n";
+  const std::string handle("\x08\x07\x06\x05\x04\x03\x02\x01", 8);
+  const std::uint16_t node = writer.declare("ros2_ext:rcl_node_fini", kField);
+  const std::uint16_t callback = writer.declare("ros2_ext:rclcpp_callback_fini", kField);
+  const std::uint16_t other = writer.declare("ros2_ext:rclcpp_executor_execute_client", kField);
+  std::int64_t time = 0;
+  for (const std::uint16_t id : {node, callback, other, node}) writer.write_raw(0, ++time, kThread, id, handle);
+  writer.finish();
+
+  class Sink : public TraceSink {
+   public:
+    void on_event(const Event& event) override { ends.push_back(decoder.decode(event)); }
+    void on_loss(const Loss&) override {}
+    ros2::ObjectEndDecoder decoder;
+    std::vector<std::optional<ros2::ObjectEnd>> ends;
+  } sink;
+  TraceReader(directory.path()).read(sink);
+
+  constexpr ros2::Handle kHandle = 0x0102030405060708;
+  EXPECT_THAT(sink.ends,
+              ElementsAre(ros2::ObjectEnd{Kind::kRclNode, kHandle}, ros2::ObjectEnd{Kind::kRclcppCallback, kHandle},
+                          std::nullopt, ros2::ObjectEnd{Kind::kRclNode, kHandle}));
 }
 
 std::string bytes(std::initializer_list<std::uint64_t> values) {

@@ -1,0 +1,132 @@
+// What rmw adds to Fast DDS's discovery.
+#include <gmock/gmock.h>
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "shared_memory_ports.hpp"
+#include "unanswered_participants.hpp"
+
+namespace {
+
+using rmw_fastrtps::choose_shared_memory_ports;
+using rmw_fastrtps::Gid;
+using rmw_fastrtps::UnansweredParticipants;
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+using Time = UnansweredParticipants::TimePoint;
+constexpr Time kStart{};
+constexpr auto kPatience = UnansweredParticipants::kPatience;
+
+Gid gid(std::uint8_t participant, std::uint8_t entity) {
+  Gid gid{};
+  gid[11] = participant;
+  gid[15] = entity;
+  return gid;
+}
+
+TEST(UnansweredParticipants, WhoStaysSilentIsToldThreeTimesEverMorePatiently) {
+  UnansweredParticipants unanswered;
+  EXPECT_EQ(unanswered.next(), std::nullopt);
+  unanswered.discovered(gid(1, 0), kStart);
+  EXPECT_TRUE(unanswered.changed().is_ready());
+  ASSERT_EQ(unanswered.next(), kStart + kPatience);
+  EXPECT_FALSE(unanswered.take_due(kStart + kPatience - std::chrono::nanoseconds(1)));
+  EXPECT_TRUE(unanswered.take_due(kStart + kPatience));
+  EXPECT_FALSE(unanswered.take_due(kStart + kPatience));
+  ASSERT_EQ(unanswered.next(), kStart + 3 * kPatience);
+  EXPECT_TRUE(unanswered.take_due(kStart + 3 * kPatience));
+  ASSERT_EQ(unanswered.next(), kStart + 7 * kPatience);
+  EXPECT_TRUE(unanswered.take_due(kStart + 7 * kPatience));
+  EXPECT_EQ(unanswered.next(), std::nullopt);
+  EXPECT_FALSE(unanswered.take_due(kStart + 100 * kPatience));
+}
+
+TEST(UnansweredParticipants, OneAnnouncementIsForAllWhoAreSilent) {
+  UnansweredParticipants unanswered;
+  unanswered.discovered(gid(1, 0), kStart);
+  unanswered.discovered(gid(2, 0), kStart + kPatience / 2);
+  EXPECT_TRUE(unanswered.take_due(kStart + 2 * kPatience));
+  EXPECT_FALSE(unanswered.take_due(kStart + 2 * kPatience));
+  EXPECT_EQ(unanswered.next(), kStart + 4 * kPatience);
+}
+
+TEST(UnansweredParticipants, AnEndpointOfAParticipantIsItsAnswer) {
+  UnansweredParticipants unanswered;
+  unanswered.discovered(gid(1, 0), kStart);
+  unanswered.discovered(gid(2, 0), kStart + kPatience);
+  unanswered.settled(gid(1, 7));
+  EXPECT_EQ(unanswered.next(), kStart + 2 * kPatience);
+  unanswered.settled(gid(2, 0));
+  EXPECT_EQ(unanswered.next(), std::nullopt);
+}
+
+class SharedMemoryPorts : public testing::Test {
+ protected:
+  SharedMemoryPorts() {
+    prefix_.value[2] = 0x7f;
+    prefix_.value[3] = 0x01;
+  }
+
+  // The only one of its kind.
+  static rtps::Locator_t shared_memory(const rtps::LocatorList_t& locators) {
+    rtps::Locator_t found;
+    for (const rtps::Locator_t& locator : locators) {
+      if (locator.kind == LOCATOR_KIND_SHM) {
+        EXPECT_NE(found.kind, LOCATOR_KIND_SHM);
+        found = locator;
+      }
+    }
+    EXPECT_EQ(found.kind, LOCATOR_KIND_SHM);
+    return found;
+  }
+
+  rtps::GuidPrefix_t prefix_;
+};
+
+TEST_F(SharedMemoryPorts, AreNewForEveryParticipantAndOfThisHost) {
+  fdds::DomainParticipantQos first;
+  fdds::DomainParticipantQos second;
+  choose_shared_memory_ports(3, prefix_, first);
+  choose_shared_memory_ports(3, prefix_, second);
+  std::set<std::uint32_t> ports;
+  for (const auto* qos : {&first, &second}) {
+    const auto& wire = qos->wire_protocol();
+    for (const auto* locators : {&wire.builtin.metatrafficUnicastLocatorList, &wire.default_unicast_locator_list}) {
+      const rtps::Locator_t locator = shared_memory(*locators);
+      EXPECT_THAT(std::vector<int>(locator.address, locator.address + 3), testing::ElementsAre('U', 0x7f, 0x01));
+      EXPECT_GT(locator.port, 0xffffU);
+      ports.insert(locator.port);
+    }
+  }
+  EXPECT_EQ(ports.size(), 4U);
+}
+
+TEST_F(SharedMemoryPorts, LeaveTheWellKnownOnesOfUdpAndMulticast) {
+  fdds::DomainParticipantQos qos;
+  choose_shared_memory_ports(3, prefix_, qos);
+  const auto& wire = qos.wire_protocol();
+  // Port 0 stands for the one that Fast DDS finds.
+  EXPECT_EQ(*wire.builtin.metatrafficUnicastLocatorList.begin(), rtps::Locator_t());
+  EXPECT_EQ(*wire.default_unicast_locator_list.begin(), rtps::Locator_t());
+  constexpr std::uint32_t kMulticastOfDomain3 = 7400 + 3 * 250;
+  EXPECT_EQ(wire.builtin.metatrafficMulticastLocatorList.size(), 2U);
+  for (const rtps::Locator_t& locator : wire.builtin.metatrafficMulticastLocatorList) {
+    EXPECT_EQ(locator.port, kMulticastOfDomain3);
+  }
+  EXPECT_EQ(shared_memory(wire.builtin.metatrafficMulticastLocatorList).address[0], 'M');
+}
+
+TEST_F(SharedMemoryPorts, LeaveTheLocatorsOfAProfile) {
+  fdds::DomainParticipantQos qos;
+  const rtps::Locator_t mine(9000);
+  qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(mine);
+  qos.wire_protocol().default_multicast_locator_list.push_back(mine);
+  const fdds::DomainParticipantQos before = qos;
+  choose_shared_memory_ports(0, prefix_, qos);
+  EXPECT_TRUE(qos == before);
+}
+
+}  // namespace
