@@ -37,7 +37,7 @@ std::string describe(const tracing::EventCut& cut, double budget) {
   const std::string what = cut.event_class.empty() ? "there is nothing left to drop"
                                                    : fmt::format("events '{}' are no longer recorded: {}",
                                                                  cut.event_class, fmt::join(cut.events, " "));
-  return fmt::format("{} events a second cost {:.2f} % of a processor, more than max-overhead {} %: {}", cut.rate,
+  return fmt::format("{} events a second cost {:.2f} % of a processor, more than max-overhead {:g} %: {}", cut.rate,
                      100 * cut.share, 100 * budget, what);
 }
 

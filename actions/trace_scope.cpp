@@ -360,7 +360,7 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"snapshot-on-late-callback", fmt::format("{}", choices_.callback_deadline)},
           {"snapshot-on-late-message", fmt::format("{}", choices_.message_deadline)},
           {"snapshot-limit", static_cast<std::int64_t>(config_.snapshot_limit)},
-          {"max-overhead", config_.max_overhead == 0 ? "" : fmt::format("{}%", 100 * config_.max_overhead)},
+          {"max-overhead", config_.max_overhead == 0 ? "" : fmt::format("{:g}%", 100 * config_.max_overhead)},
           {"drop-order", config_.drop_order},
           {"dual-session", config_.dual_session}};
 }
