@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/sysinfo.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,13 @@ class TraceCost : public testing::Test {
     return "<executable name=\"" + name + "\" output=\"screen\" cmd=\"" TRACED_NODE " " +
            std::to_string(events_per_second) + " " + std::to_string(seconds) + "\"/>\n";
   }
+
+  // The environment has no cache directory of its own.
+  static json measurements() {
+    return json::parse(read_file(fs::path(std::getenv("HOME")) / ".cache/launch/event_cost.json"));
+  }
+
+  void SetUp() override { unsetenv("XDG_CACHE_HOME"); }
 
   Sandbox sandbox_;
 };
@@ -101,7 +109,7 @@ TEST_F(TraceCost, ALaunchWithoutLossesSaysWhatTracingCost) {
                                         "processor; most in traced_load \\[[0-9]+\\], .* % of its own processor "
                                         "time, .* µs for each callback \\([0-9]+ ns for each event\\)"));
 
-  const json kept = json::parse(read_file(sandbox_.directory() / ".cache/launch/event_cost.json"));
+  const json kept = measurements();
   ASSERT_THAT(kept, SizeIs(1)) << "measured once";
   EXPECT_EQ(kept[0]["ns_per_event"], told["event_cost"]["ns"]);
 }
@@ -114,8 +122,7 @@ TEST_F(TraceCost, CalibrateMeasuresAgain) {
                             "kept in .*/\\.cache/launch/event_cost\\.json\n$"));
   EXPECT_EQ(run_command({LAUNCH_PROGRAM, "trace", "calibrate", "-c"}).exit_code, 0);
   EXPECT_EQ(run_command({LAUNCH_PROGRAM, "trace", "calibrate"}).exit_code, 0);
-  EXPECT_THAT(json::parse(read_file(sandbox_.directory() / ".cache/launch/event_cost.json")), SizeIs(2))
-      << "one for each set of context fields";
+  EXPECT_THAT(measurements(), SizeIs(2)) << "one for each set of context fields";
   EXPECT_THAT(run_command({LAUNCH_PROGRAM, "trace", "list"}).out, testing::Not(HasSubstr("calibration")));
 }
 
