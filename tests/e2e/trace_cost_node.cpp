@@ -1,6 +1,6 @@
 // Usage: trace_cost_node MILLISECONDS
-// One callback that takes no time, then one that takes so long, a message that was published an hour ago, and waits for
-// a signal.
+// One callback that takes no time, then one that takes so long; of three messages that were published an hour ago one
+// is not there, one stays within the middleware, and one gets to rcl. Then it waits for a signal.
 #include <time.h>
 #include <unistd.h>
 
@@ -39,7 +39,9 @@ int main(int argc, char** argv) {
   run_callback(0x2, std::atoll(argv[1]) * 1'000'000);
   const std::int64_t hour_ago = nanoseconds(CLOCK_REALTIME) - std::int64_t{3600} * 1'000'000'000;
   TRACETOOLS_TRACEPOINT(rmw_take, handle(0x3), nullptr, hour_ago, false);
+  TRACETOOLS_TRACEPOINT(rmw_take, handle(0x6), handle(0x7), hour_ago, true);
   TRACETOOLS_TRACEPOINT(rmw_take, handle(0x4), handle(0x5), hour_ago, true);
+  TRACETOOLS_TRACEPOINT(rcl_take, handle(0x5));
   std::puts("done");
   std::fflush(stdout);
   pause();

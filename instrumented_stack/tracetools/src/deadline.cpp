@@ -27,6 +27,14 @@ struct Started {
 };
 thread_local constinit Started started{};
 
+// What this thread has taken last.
+struct Taken {
+  const void* subscription;
+  const void* message;
+  std::int64_t source_timestamp;
+};
+thread_local constinit Taken taken{};
+
 std::int64_t nanoseconds(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
@@ -60,11 +68,17 @@ void detail::check_callback(const void* callback) noexcept {
   }
 }
 
-void detail::check_message(const void* rmw_subscription_handle, const void* message,
-                           std::int64_t source_timestamp) noexcept {
-  const std::int64_t age = nanoseconds(CLOCK_REALTIME) - source_timestamp;
+void detail::note_message(const void* rmw_subscription_handle, const void* message,
+                          std::int64_t source_timestamp) noexcept {
+  taken = {.subscription = rmw_subscription_handle, .message = message, .source_timestamp = source_timestamp};
+}
+
+void detail::check_message(const void* message) noexcept {
+  if (taken.message != message || taken.source_timestamp <= 0) return;
+  const std::int64_t age = nanoseconds(CLOCK_REALTIME) - taken.source_timestamp;
+  taken.source_timestamp = 0;
   if (age > message_deadline) {
-    lttng_ust_tracepoint(ros2_deadline, message, rmw_subscription_handle, message, age, message_deadline);
+    lttng_ust_tracepoint(ros2_deadline, message, taken.subscription, message, age, message_deadline);
   }
 }
 

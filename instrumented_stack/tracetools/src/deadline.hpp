@@ -17,7 +17,8 @@ extern std::int64_t callback_deadline;  // ns, 0: none
 extern std::int64_t message_deadline;
 void note_callback_start() noexcept;
 void check_callback(const void* callback) noexcept;
-void check_message(const void* rmw_subscription_handle, const void* message, std::int64_t source_timestamp) noexcept;
+void note_message(const void* rmw_subscription_handle, const void* message, std::int64_t source_timestamp) noexcept;
+void check_message(const void* message) noexcept;
 }  // namespace detail
 
 /// Around each callback, on its thread; callbacks may nest. Without a deadline a load and a branch.
@@ -28,12 +29,15 @@ inline void callback_ends(const void* callback) noexcept {
   if (detail::callback_deadline != 0) detail::check_callback(callback);
 }
 
-/// `source_timestamp`: nanoseconds since the epoch on the publisher's system clock.
+/// A message was taken from the middleware, then handed on to rcl, by the same thread; what the middleware takes for
+/// itself is not handed on, and may be old. `source_timestamp`: nanoseconds since the epoch on the publisher's system
+/// clock, 0 or less when unknown.
 inline void message_taken(const void* rmw_subscription_handle, const void* message, std::int64_t source_timestamp,
                           bool taken) noexcept {
-  if (detail::message_deadline != 0 && taken) {
-    detail::check_message(rmw_subscription_handle, message, source_timestamp);
-  }
+  if (detail::message_deadline != 0 && taken) detail::note_message(rmw_subscription_handle, message, source_timestamp);
+}
+inline void message_handed_on(const void* message) noexcept {
+  if (detail::message_deadline != 0) detail::check_message(message);
 }
 
 }  // namespace tracetools

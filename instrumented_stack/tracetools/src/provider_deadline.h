@@ -22,7 +22,7 @@ LTTNG_UST_TRACEPOINT_EVENT(ros2_deadline, callback,
     lttng_ust_field_integer(int64_t, duration, duration_arg)
     lttng_ust_field_integer(int64_t, deadline, deadline_arg)))
 
-/* A message was taken that was published so long before. */
+/* A message was taken and handed on to rcl that was published so long before. */
 LTTNG_UST_TRACEPOINT_EVENT(ros2_deadline, message,
   LTTNG_UST_TP_ARGS(
     const void *, rmw_subscription_handle_arg,

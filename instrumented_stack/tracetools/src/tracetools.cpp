@@ -78,6 +78,10 @@ inline void watch<tracetools::event::rmw_take>(const void* handle, const void* m
                                                bool taken) {
   tracetools::message_taken(handle, message, source_timestamp, taken);
 }
+template <>
+inline void watch<tracetools::event::rcl_take>(const void* message) {
+  tracetools::message_handed_on(message);
+}
 }  // namespace
 
 #define IS_WANTED(name, enabled) \
