@@ -3,17 +3,15 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
-#include <iterator>
 #include <new>
-#include <numeric>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "identifier.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
+#include "rmw/wait_again.h"
 #include "waitable.hpp"
 
 using rmw_fastrtps::GuardCondition;
@@ -37,10 +35,42 @@ std::optional<Waiter::TimePoint> deadline_after(const rmw_time_t* timeout) {
 // The state behind rmw_wait_set_t.
 struct WaitSet {
   Waiter waiter;
-  // Room for the entities of a wait.
+  // The entities of the last wait, without null entries.
   std::vector<Waitable*> waitables;
   std::vector<std::size_t> ready;  // indices
+  std::size_t first_guard_condition = 0;
 };
+
+// Finds what is ready of `waitables`, waiting for it if need be.
+void find_ready(WaitSet& wait_set, const rmw_time_t* timeout) {
+  auto& [waiter, waitables, ready, first_guard_condition] = wait_set;
+  ready.clear();
+  const bool may_block = timeout == nullptr || timeout->sec != 0 || timeout->nsec != 0;
+  if (may_block) {
+    const auto deadline = deadline_after(timeout);
+    waiter.watch(waitables);
+    waiter.find_ready(waitables, ready);
+    // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
+    while (ready.empty() && waiter.wait_until(deadline)) {
+      waiter.find_ready(waitables, ready);
+    }
+  } else if (waiter.watches(waitables)) {
+    waiter.find_ready(waitables, ready);
+  } else {
+    for (std::size_t i = 0; i < waitables.size(); ++i) {
+      if (waitables[i]->is_ready()) {
+        ready.push_back(i);
+      }
+    }
+  }
+}
+
+// Resets guard conditions, which are ready once per trigger; leaves out those that another thread has reset.
+void consume_guard_conditions(WaitSet& wait_set) {
+  std::erase_if(wait_set.ready, [&](std::size_t i) {
+    return i >= wait_set.first_guard_condition && !static_cast<GuardCondition*>(wait_set.waitables[i])->consume();
+  });
+}
 
 // The entities of one call of rmw_wait(), null entries left out by each function.
 class Entities {
@@ -65,52 +95,30 @@ class Entities {
   }
 
   // The entities that are there, one list after the other.
-  void collect(std::vector<Waitable*>& waitables) const {
-    waitables.clear();
+  void collect(WaitSet& wait_set) const {
+    wait_set.waitables.clear();
     const auto append = [&](std::span<void*> list) {
       for (void* entity : list) {
         if (entity != nullptr) {
-          waitables.push_back(static_cast<Waitable*>(entity));
+          wait_set.waitables.push_back(static_cast<Waitable*>(entity));
         }
       }
     };
     std::for_each(level_triggered_.begin(), level_triggered_.end(), append);
+    wait_set.first_guard_condition = wait_set.waitables.size();
     append(guard_conditions_);
   }
 
-  // Whether collect() would give `waitables`.
-  bool are(const std::vector<Waitable*>& waitables) const {
-    if (waitables.size() != size()) {
-      return false;
-    }
-    auto next = waitables.begin();
-    const auto are_next = [&](std::span<void*> list) {
-      const auto begin = std::exchange(next, next + std::ssize(list));
-      return std::equal(list.begin(), list.end(), begin);
-    };
-    return std::all_of(level_triggered_.begin(), level_triggered_.end(), are_next) && are_next(guard_conditions_);
-  }
-
-  // Nulls what is not among `ready`, indices of `waitables`, collect()'s list, and resets guard conditions. False if
-  // nothing is left.
-  bool keep(const std::vector<Waitable*>& waitables, const std::vector<std::size_t>& ready) const {
-    const bool no_nulls = waitables.size() == size();
-    auto next = ready.begin();
-    std::size_t index = 0;  // in `waitables`
+  // Nulls what is not among the ready ones.
+  void keep_ready(const WaitSet& wait_set) const {
+    auto next = wait_set.ready.begin();
+    std::size_t index = 0;
     const auto keep_in = [&](std::span<void*> list) {
-      if (no_nulls) {
-        std::fill(list.begin(), list.end(), nullptr);
-        for (; next != ready.end() && *next < index + list.size(); ++next) {
-          list[*next - index] = waitables[*next];
-        }
-        index += list.size();
-        return;
-      }
       for (void*& entity : list) {
         if (entity == nullptr) {
           continue;
         }
-        if (next != ready.end() && *next == index) {
+        if (next != wait_set.ready.end() && *next == index) {
           ++next;
         } else {
           entity = nullptr;
@@ -119,27 +127,10 @@ class Entities {
       }
     };
     std::for_each(level_triggered_.begin(), level_triggered_.end(), keep_in);
-    bool any = next != ready.begin();
-    if (next == ready.end()) {
-      std::fill(guard_conditions_.begin(), guard_conditions_.end(), nullptr);
-      return any;
-    }
     keep_in(guard_conditions_);
-    for (void*& entity : guard_conditions_) {
-      if (entity != nullptr && !static_cast<GuardCondition*>(static_cast<Waitable*>(entity))->consume()) {
-        entity = nullptr;
-      }
-      any |= entity != nullptr;
-    }
-    return any;
   }
 
  private:
-  std::size_t size() const {
-    return std::accumulate(level_triggered_.begin(), level_triggered_.end(), guard_conditions_.size(),
-                           [](std::size_t sum, std::span<void*> list) { return sum + list.size(); });
-  }
-
   std::array<std::span<void*>, 4> level_triggered_;  // of subscriptions, services, clients and events
   std::span<void*> guard_conditions_;
 };
@@ -199,28 +190,23 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
                    const rmw_time_t* wait_timeout) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
   const Entities entities(subscriptions, guard_conditions, services, clients, events);
-  auto& [waiter, waitables, ready] = *static_cast<WaitSet*>(wait_set->data);
-  if (!entities.are(waitables)) {
-    entities.collect(waitables);
-  }
-  ready.clear();
-  const bool may_block = wait_timeout == nullptr || wait_timeout->sec != 0 || wait_timeout->nsec != 0;
-  if (may_block) {
-    const auto deadline = deadline_after(wait_timeout);
-    waiter.watch(waitables);
-    waiter.find_ready(waitables, ready);
-    // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-    while (ready.empty() && waiter.wait_until(deadline)) {
-      waiter.find_ready(waitables, ready);
-    }
-  } else if (waiter.watches(waitables)) {
-    waiter.find_ready(waitables, ready);
-  } else {
-    for (std::size_t i = 0; i < waitables.size(); ++i) {
-      if (waitables[i]->is_ready()) {
-        ready.push_back(i);
-      }
-    }
-  }
-  return entities.keep(waitables, ready) ? RMW_RET_OK : RMW_RET_TIMEOUT;
+  WaitSet& state = *static_cast<WaitSet*>(wait_set->data);
+  entities.collect(state);
+  find_ready(state, wait_timeout);
+  consume_guard_conditions(state);
+  entities.keep_ready(state);
+  return state.ready.empty() ? RMW_RET_TIMEOUT : RMW_RET_OK;
+}
+
+rmw_ret_t rmw_wait_again(rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout, const size_t** ready,
+                         size_t* ready_count) {
+  RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ready, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ready_count, RMW_RET_INVALID_ARGUMENT);
+  WaitSet& state = *static_cast<WaitSet*>(wait_set->data);
+  find_ready(state, wait_timeout);
+  consume_guard_conditions(state);
+  *ready = state.ready.data();
+  *ready_count = state.ready.size();
+  return state.ready.empty() ? RMW_RET_TIMEOUT : RMW_RET_OK;
 }

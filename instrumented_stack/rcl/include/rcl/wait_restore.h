@@ -11,7 +11,8 @@ extern "C" {
 rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set);
 
 // Instead of clearing and adding: the wait set is as it was when rcl_wait_set_keep() was called, and more can be added.
-// All that was kept must still live. RCL_RET_WAIT_SET_EMPTY if nothing was kept.
+// All that was kept must still live. Its entries may be null until the wait, which leaves those of it that are ready.
+// RCL_RET_WAIT_SET_EMPTY if nothing was kept.
 rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set);
 
 #ifdef __cplusplus

@@ -1,0 +1,98 @@
+// How long a message takes from publish() to the end of its callback in a single-threaded executor, with few idle
+// subscriptions beside the one that gets it, and with many. Both executors are in one process and take turns, batch by
+// batch, so that whatever the machine does meanwhile meets both.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/u_int64.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+using std_msgs::msg::UInt64;
+
+constexpr std::size_t kFew = 3;
+constexpr std::size_t kMany = 1500;
+constexpr std::size_t kOfANode = 100;  // subscriptions
+constexpr int kBatches = 40;
+constexpr std::size_t kMessages = 100;  // of a batch
+
+class Nodes {
+ public:
+  Nodes(const std::string& name, std::size_t idle) {
+    for (std::size_t i = 0; i < idle; ++i) {
+      if (i % kOfANode == 0) {
+        add_node(name + std::to_string(i / kOfANode));
+      }
+      subscriptions_.push_back(
+          nodes_.back()->create_subscription<UInt64>(name + "_idle" + std::to_string(i), 10, [](const UInt64&) {}));
+    }
+    publisher_ = nodes_.front()->create_publisher<UInt64>(name, 10);
+    subscriptions_.push_back(
+        nodes_.back()->create_subscription<UInt64>(name, 10, [this](const UInt64&) { ++received_; }));
+    const auto change = nodes_.front()->get_graph_event();
+    while (publisher_->get_subscription_count() == 0) {
+      nodes_.front()->wait_for_graph_change(change, std::chrono::seconds(1));
+    }
+    executor_.spin_all(std::chrono::nanoseconds(0));
+  }
+
+  // In microseconds.
+  double time_of_a_message() {
+    const auto start = std::chrono::steady_clock::now();
+    received_ = 0;
+    for (std::size_t i = 1; i <= kMessages; ++i) {
+      publisher_->publish(UInt64());
+      while (received_ < i) {
+        executor_.spin_once();
+      }
+    }
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    return took.count() / kMessages;
+  }
+
+ private:
+  void add_node(const std::string& name) {
+    nodes_.push_back(std::make_shared<rclcpp::Node>(name));
+    executor_.add_node(nodes_.back());
+  }
+
+  rclcpp::executors::SingleThreadedExecutor executor_;
+  std::vector<rclcpp::Node::SharedPtr> nodes_;
+  std::vector<rclcpp::SubscriptionBase::SharedPtr> subscriptions_;
+  rclcpp::Publisher<UInt64>::SharedPtr publisher_;
+  std::size_t received_ = 0;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  {
+    Nodes few("few", kFew);
+    Nodes many("many", kMany);
+    std::vector<double> with_few;
+    std::vector<double> with_many;
+    for (int i = 0; i < kBatches; ++i) {
+      with_few.push_back(few.time_of_a_message());
+      with_many.push_back(many.time_of_a_message());
+    }
+    const double floor = median(with_few);
+    const double time = median(with_many);
+    fmt::print("idle subscriptions    us per message    of few\n");
+    fmt::print("{:>18}{:>18.1f}{:>10.2f}\n{:>18}{:>18.1f}{:>10.2f}\n", kFew, floor, 1.0, kMany, time, time / floor);
+    fmt::print("Each idle one, with its event handlers, adds {:.1f} ns.\n", (time - floor) / (kMany - kFew) * 1e3);
+  }
+  rclcpp::shutdown();
+}
