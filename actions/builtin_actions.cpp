@@ -28,6 +28,7 @@ namespace launch {
   ACTION(on_process_io)                \
   ACTION(on_process_start)             \
   ACTION(on_shutdown)                  \
+  ACTION(on_state_transition)          \
   ACTION(push_ros_namespace)           \
   ACTION(push_ros_namespace_alias)     \
   ACTION(rep_env)                      \
@@ -46,6 +47,7 @@ namespace launch {
   ACTION(stop)                         \
   ACTION(timer)                        \
   ACTION(trace)                        \
+  ACTION(unregister_event_handler)     \
   ACTION(unset)                        \
   ACTION(unset_env)                    \
   ACTION(wait_for)

@@ -1,6 +1,10 @@
-// <on_process_start>, <on_process_exit>, <on_process_io>, <on_shutdown>: visit actions when something happens.
+// <on_process_start>, <on_process_exit>, <on_process_io>, <on_shutdown>, <on_state_transition>: visit actions when
+// something happens.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "actions/ros_names.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
 
@@ -19,6 +23,7 @@ class RegisterEventHandler : public Action {
 
   RegisterEventHandler(const Fields& fields, MakeEvent make_event)
       : Action(fields.where(), fields.condition()),
+        name_(fields.optional_text("name")),
         process_(fields.optional_text("process")),
         once_(fields.boolean("once", false)),
         actions_(fields.actions()),
@@ -31,6 +36,7 @@ class RegisterEventHandler : public Action {
     Scope& scope = context.scope();
     EventHandler handler;
     handler.event = make_event_(scope);
+    handler.name = name_ ? name_->perform(scope) : "";
     if (process_) {
       handler.process = process_->perform(scope);
       if (handler.process.empty()) {
@@ -46,6 +52,7 @@ class RegisterEventHandler : public Action {
   }
 
  private:
+  std::optional<Template> name_;
   std::optional<Template> process_;
   BooleanField once_;
   std::vector<ActionPtr> actions_;
@@ -95,8 +102,40 @@ ActionPtr make_on_shutdown(const Fields& fields) {
   });
 }
 
+// Those that a node stays in, and those that it is in on the way.
+const std::vector<std::string> kStates = {"unconfigured", "inactive",       "active",     "finalized",
+                                          "configuring",  "cleaningup",     "activating", "deactivating",
+                                          "shuttingdown", "errorprocessing"};
+
+std::string state_of(const std::optional<Template>& given, Scope& scope) {
+  if (!given) {
+    return {};
+  }
+  std::string state = given->perform(scope);
+  if (std::find(kStates.begin(), kStates.end(), state) == kStates.end()) {
+    throw LaunchError(fmt::format("a node with a managed life cycle has no state '{}'", state), given->where(),
+                      did_you_mean(state, kStates));
+  }
+  return state;
+}
+
+ActionPtr make_on_state_transition(const Fields& fields) {
+  const Template node = fields.text("node");
+  const std::optional<Template> start = fields.optional_text("start_state");
+  const std::optional<Template> goal = fields.optional_text("goal_state");
+  for (const std::optional<Template>& state : {start, goal}) {
+    if (Scope nothing; is_literal(state)) {
+      state_of(state, nothing);
+    }
+  }
+  return std::make_shared<RegisterEventHandler>(fields, [node, start, goal](Scope& scope) -> Event {
+    return OnStateTransition{resolve_name(node, scope), state_of(start, scope), state_of(goal, scope)};
+  });
+}
+
 ActionType handler(std::string tag, std::string help, std::vector<AttributeSpec> attributes,
                    std::function<ActionPtr(const Fields&)> make) {
+  attributes.push_back({"name", AttributeType::kText, false, "", "by which unregister_event_handler means it"});
   for (AttributeSpec& attribute : attributes) {
     attribute.extension = true;
   }
@@ -152,6 +191,17 @@ ActionType on_shutdown_action() {
                  "are asked to end.",
                  {{"timeout", AttributeType::kFloat, false, "5", "seconds that these processes may take"}},
                  make_on_shutdown);
+}
+
+ActionType on_state_transition_action() {
+  return handler("on_state_transition",
+                 "Visits its actions each time a node with a managed life cycle has changed its state.",
+                 {{"node", AttributeType::kText, true, "",
+                   "the node, of this launch or not; a relative name is below the namespace of the scope"},
+                  {"start_state", AttributeType::kText, false, "any", "the state that it has left"},
+                  {"goal_state", AttributeType::kText, false, "any", "the state that it has come to"},
+                  once_attribute()},
+                 make_on_state_transition);
 }
 
 }  // namespace launch

@@ -10,7 +10,8 @@ class LoadComposableNodes : public Action {
   explicit LoadComposableNodes(const Fields& fields)
       : Action(fields.where(), fields.condition()), target_(fields.text("target")), nodes_(fields) {
     if (nodes_.empty()) {
-      throw LaunchError("load_composable_node needs a composable_node", fields.where());
+      throw LaunchError("load_composable_node needs a composable_node", fields.where(),
+                        "write <composable_node pkg=\"…\" plugin=\"…\" name=\"…\"/> inside");
     }
   }
 

@@ -49,7 +49,8 @@ class ForLoop : public Action {
     std::int64_t length = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), length);
     if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
-      throw LaunchError(fmt::format("the length of a loop is a whole number, got '{}'", text), length_.where());
+      throw LaunchError(fmt::format("the length of a loop is a whole number, got '{}'", text), length_.where(),
+                        "0 or more; $(index NAME) counts from 0");
     }
     if (length <= 0 && context.scope().warn) {
       context.scope().warn(length_.where(), fmt::format("the loop has no turns: its length is {}", length));

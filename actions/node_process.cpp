@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "actions/parameter_file.hpp"
 #include "actions/ros_names.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -21,7 +22,8 @@ void append_global_parameters(ProcessSpec& spec, const Scope& scope) {
     const auto& file = std::get<ParameterFilePath>(parameter);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file.path, ignored)) {
-      throw LaunchError(fmt::format("parameter file path is not a file: {}", file.path), file.where);
+      throw LaunchError(fmt::format("parameter file path is not a file: {}", file.path), file.where,
+                        help_for_missing_file(file.path));
     }
     spec.argv.insert(spec.argv.end(), {"--params-file", file.path});
   }

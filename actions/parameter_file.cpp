@@ -116,7 +116,7 @@ void append_parameter_file(const std::string& path, const std::string& full_name
                            std::vector<NamedParameter>& parameters) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where);
+    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where, help_for_missing_file(path));
   }
   const auto file = SourceFile::read(path, where);
   append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),

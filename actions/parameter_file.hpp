@@ -10,6 +10,12 @@
 
 namespace launch {
 
+// What to do about a file that is not there.
+inline const char* help_for_missing_file(const std::string& path) {
+  return path.starts_with('/') ? ""
+                               : "a relative path is relative to the launcher's working directory; use $(dirname)/…";
+}
+
 // Appends what the file holds for the node of this fully qualified name: the sections whose pattern matches it, in the
 // order of the file, nested names joined by ".". A file without any `ros__parameters` is a mapping of parameters.
 // Throws LaunchError: at `where` when the file can't be read, else at the place in the file.

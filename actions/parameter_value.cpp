@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <cmath>
 #include <iterator>
 
 #include "launcher/frontend/frontend.hpp"
@@ -16,6 +14,7 @@ namespace launch {
 
 namespace {
 
+constexpr const char* kOtherType = "leave the type out to have the value typed as YAML";
 constexpr const char* kNoParameterType = "use a bool, an int, a float, a string, or a list of one of them";
 
 struct NamedType {
@@ -121,6 +120,10 @@ std::string_view type_text_of(ParameterType type) {
   }
 }
 
+std::string type_with_article(ParameterType type) {
+  return fmt::format("{} {}", type == ParameterType::kInt ? "an" : "a", type_text_of(type));
+}
+
 bool has_type(ParameterType type, const ParameterScalar& scalar) {
   return (type == ParameterType::kBool && std::holds_alternative<bool>(scalar)) ||
          (type == ParameterType::kInt && std::holds_alternative<std::int64_t>(scalar)) ||
@@ -136,80 +139,16 @@ void require_uniform(const std::vector<ParameterScalar>& items, const char* mess
   }
 }
 
-// Whether a node reads the text, unquoted, as the string that it is.
-bool reads_as_string(const std::string& text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:@+-";
-  constexpr std::string_view kOtherTypes[] = {"y",    "n",     "yes",  "no",  "on",       "off",
-                                              "true", "false", "null", "inf", "infinity", "nan"};
-  if (text.empty() || text.find_first_not_of(kPlain) != std::string::npos || text.ends_with(':')) {
-    return false;
-  }
-  std::string lower;
-  for (const char character : text) {
-    lower += static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
-  }
-  const bool begins_as_text =
-      std::isalpha(static_cast<unsigned char>(text.front())) || text.front() == '/' || text.front() == '_';
-  return begins_as_text && std::find(std::begin(kOtherTypes), std::end(kOtherTypes), lower) == std::end(kOtherTypes);
-}
-
-std::string scalar_to_yaml(const ParameterScalar& scalar) {
-  if (const bool* const boolean = std::get_if<bool>(&scalar)) {
-    return *boolean ? "true" : "false";
-  }
-  if (const std::int64_t* const number = std::get_if<std::int64_t>(&scalar)) {
-    return fmt::format("{}", *number);
-  }
-  if (const double* const number = std::get_if<double>(&scalar)) {
-    if (std::isnan(*number)) {
-      return ".nan";
-    }
-    if (std::isinf(*number)) {
-      return *number > 0 ? ".inf" : "-.inf";
-    }
-    std::string digits = fmt::format("{}", *number);
-    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
-  }
-  std::string quoted = "\"";
-  for (const char character : std::get<std::string>(scalar)) {
-    switch (character) {
-      case '"':
-      case '\\':
-        quoted += '\\';
-        quoted += character;
-        break;
-      case '\n':
-        quoted += "\\n";
-        break;
-      case '\t':
-        quoted += "\\t";
-        break;
-      default:
-        if (static_cast<unsigned char>(character) < 0x20 || character == 0x7f) {
-          quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(character));
-        } else {
-          quoted += character;
-        }
-    }
-  }
-  return quoted + '"';
-}
-
 }  // namespace
 
 ParameterValueSource::ParameterValueSource(const Value& value, const std::string& type,
                                            const std::optional<std::string>& separator, const SourceRange& type_where)
     : where_(value.where) {
-  const NamedType* named = nullptr;
-  std::vector<std::string> names;
-  for (const NamedType& candidate : kTypes) {
-    if (candidate.name == type) {
-      named = &candidate;
-    }
-    names.emplace_back(candidate.name);
-  }
-  if (named == nullptr) {
-    throw LaunchError(fmt::format("got invalid type identifier '{}'", type), type_where, did_you_mean(type, names));
+  const NamedType* const named = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                              [&](const NamedType& candidate) { return candidate.name == type; });
+  if (named == std::end(kTypes)) {
+    throw LaunchError(fmt::format("got invalid type identifier '{}'", type), type_where,
+                      "str, bool, int, float, list_of_str, list_of_bool, list_of_int, list_of_float or yaml");
   }
   type_ = named->type;
   type_is_list_ = named->list;
@@ -281,7 +220,7 @@ void ParameterValueSource::take_value(const Value& value) {
 
 void ParameterValueSource::take_items(const std::vector<Value>& values) {
   if (type_ != ParameterType::kAny && !type_is_list_) {
-    throw LaunchError(fmt::format("expected a {}, got a list", type_text_of(type_)), where_,
+    throw LaunchError(fmt::format("expected {}, got a list", type_with_article(type_)), where_,
                       fmt::format("use list_of_{}", type_text_of(type_)));
   }
   is_list_ = true;
@@ -314,7 +253,8 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   if (!is_text) {
     ParameterScalar value = to_parameter(scalar, where);
     if (type_ != ParameterType::kAny && !has_type(type_, value)) {
-      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), scalar.text.text()), where);
+      throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), scalar.text.text()), where,
+                        kOtherType);
     }
     return value;
   }
@@ -329,7 +269,7 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   }
   std::optional<ParameterScalar> value = convert(type_, text);
   if (!value) {
-    throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where);
+    throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType);
   }
   return std::move(*value);
 }
@@ -338,7 +278,7 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
   if (type_ != ParameterType::kAny) {
     std::optional<ParameterScalar> value = convert(type_, text);
     if (!value) {
-      throw LaunchError(fmt::format("expected a {}, got '{}'", type_text_of(type_), text), where);
+      throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType);
     }
     return std::move(*value);
   }
@@ -351,7 +291,7 @@ ParameterValue ParameterValueSource::typed_list(const std::string& text, const S
   const auto* const items = std::get_if<std::vector<ParameterScalar>>(&value);
   if (items == nullptr || !std::all_of(items->begin(), items->end(),
                                        [this](const ParameterScalar& item) { return has_type(type_, item); })) {
-    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where);
+    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where, kOtherType);
   }
   return value;
 }
@@ -412,35 +352,6 @@ ParameterValue typed_parameter(const std::string& text, const SourceRange& where
   }
   typed->where = where;
   return parameter_of(*typed);
-}
-
-std::string to_yaml(const ParameterValue& value) {
-  if (const auto* const scalar = std::get_if<ParameterScalar>(&value)) {
-    return scalar_to_yaml(*scalar);
-  }
-  std::string text;
-  for (const ParameterScalar& item : std::get<std::vector<ParameterScalar>>(value)) {
-    text += (text.empty() ? "" : ", ") + scalar_to_yaml(item);
-  }
-  return "[" + text + "]";
-}
-
-std::string to_argument(const ParameterValue& value) {
-  const auto* const scalar = std::get_if<ParameterScalar>(&value);
-  if (scalar == nullptr) {
-    return to_yaml(value);
-  }
-  if (const auto* const text = std::get_if<std::string>(scalar)) {
-    return reads_as_string(*text) ? *text : to_yaml(value);
-  }
-  // "True" is a boolean for nodes too; not-a-number and infinity aren't written alike.
-  return std::holds_alternative<bool>(*scalar) ? to_python_text(value) : to_yaml(value);
-}
-
-std::string quote_yaml_if_needed(const std::string& key) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
-  const bool plain = !key.empty() && key.find_first_not_of(kPlain) == std::string::npos && key.front() != '-';
-  return plain ? key : scalar_to_yaml(key);
 }
 
 }  // namespace launch

@@ -121,7 +121,8 @@ ProcessFields::ProcessFields(const Fields& fields)
   if (fields.has("on_exit")) {
     const std::string on_exit = fields.literal("on_exit");
     if (on_exit != "shutdown") {
-      throw LaunchError(fmt::format("on_exit can only be 'shutdown', got '{}'", on_exit), fields.where("on_exit"));
+      throw LaunchError(fmt::format("on_exit can only be 'shutdown', got '{}'", on_exit), fields.where("on_exit"),
+                        "to start again write respawn=\"true\"; for other actions on_process_exit");
     }
     shutdown_on_exit_ = true;
   }

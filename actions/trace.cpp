@@ -26,6 +26,7 @@ class Trace : public Action {
         events_kernel_(fields, "events-kernel"),
         syscalls_(fields, "syscalls"),
         context_fields_(fields, "context-fields"),
+        context_fields_kernel_(fields, "context-fields-kernel"),
         nodes_(fields, "nodes"),
         subbuffers_(fields.optional_text("subbuffers")),
         subbuffer_size_ust_(count_field(fields, "subbuffer-size-ust")),
@@ -78,7 +79,8 @@ class Trace : public Action {
   void perform_session(tracing::TraceConfig& config, Scope& scope) const {
     config.session_name = session_name_.perform(scope);
     if (config.session_name.empty()) {
-      throw LaunchError("the session name is empty", session_name_.where());
+      throw LaunchError("the session name is empty", session_name_.where(),
+                        "the directory of the trace is called so, too");
     }
     if (config.session_name.find('/') != std::string::npos) {
       throw LaunchError(fmt::format("the session name '{}' has a slash", config.session_name), session_name_.where(),
@@ -114,7 +116,8 @@ class Trace : public Action {
     if (context_fields_.given()) {
       config.context_fields_ust = context_fields_.perform(scope);
     }
-    config.context_fields_kernel = config.context_fields_ust;
+    config.context_fields_kernel =
+        context_fields_kernel_.given() ? context_fields_kernel_.perform(scope) : config.context_fields_ust;
     for (const ChannelFields& channel : channels_) {
       config.channels.push_back(channel.perform(scope));
     }
@@ -210,6 +213,7 @@ class Trace : public Action {
   WordsField events_kernel_;
   WordsField syscalls_;
   WordsField context_fields_;
+  WordsField context_fields_kernel_;
   WordsField nodes_;
   std::vector<ChannelFields> channels_;
   std::optional<Template> subbuffers_;
@@ -259,6 +263,8 @@ std::vector<AttributeSpec> trace_attributes() {
       {"events-kernel", AttributeType::kWords, false, "none", "kernel tracepoints"},
       {"syscalls", AttributeType::kWords, false, "none", "system calls"},
       {"context-fields", AttributeType::kWords, false, "procname vpid vtid", "fields added to every event"},
+      extension("context-fields-kernel", AttributeType::kWords, "as context-fields",
+                "fields added to every event of the kernel; context-fields is for userspace events then"),
       extension("nodes", AttributeType::kWords, "all",
                 "record these nodes and processes only, by name; * matches any text"),
       {"subbuffer-size-ust", AttributeType::kInteger, false, fmt::format("{}", defaults.subbuffer_size_ust), "bytes"},

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "actions/trace_overhead.hpp"
 #include "launcher/base/diagnostic.hpp"
@@ -15,6 +16,7 @@
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
+#include "tracing/session/session_daemon.hpp"
 
 namespace launch {
 
@@ -84,7 +86,8 @@ TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tra
       tracer_(std::move(tracer)),
       prefix_(std::move(prefix)),
       origin_(std::move(origin)),
-      choices_(std::move(choices)) {
+      choices_(std::move(choices)),
+      created_(std::time(nullptr)) {
   for (const auto& [deadline, event] :
        {std::pair(choices_.callback_deadline, kLateCallback), std::pair(choices_.message_deadline, kLateMessage)}) {
     if (deadline != 0) {
@@ -288,7 +291,9 @@ void TraceScope::tell_result(const Tell& tell) const {
 }
 
 std::vector<std::string> TraceScope::clean_up_command() const {
-  std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name()};
+  // It is told before the session is created: one that has the name already is somebody else's.
+  std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),
+                                      fmt::format("--created-since={}", created_)};
   if (counters_) {
     command.insert(command.end(), {"--event-counters", counters_->path().string()});
   }
@@ -311,6 +316,10 @@ void TraceScope::prepare(ProcessSpec& spec) const {
     // There is nothing to wait for.
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
     return;
+  }
+  if (!tracing::session_daemon_can_answer()) {
+    // It would wait for three seconds, three times, before its main().
+    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
   }
   if (!preload_.empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
@@ -340,6 +349,7 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"syscalls", config_.syscalls},
           {"channels", channel_names(config_)},
           {"context-fields", config_.context_fields_ust},
+          {"context-fields-kernel", config_.context_fields_kernel},
           {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
           {"init-channel", config_.init_channel},
           {"subbuffer-count-ust", static_cast<std::int64_t>(config_.subbuffer_count_ust)},

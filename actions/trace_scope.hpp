@@ -70,6 +70,7 @@ class TraceScope : public RunScope {
   std::string prefix_;
   SourceRange origin_;
   TraceChoices choices_;
+  std::int64_t created_;  // this scope, seconds since the epoch
   std::vector<std::string> preload_;
   std::shared_ptr<tracing::EventCounterDirectory> counters_;
   tracing::SetupReport setup_;

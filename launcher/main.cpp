@@ -10,9 +10,12 @@
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
+#include "launcher/cli/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/run_command.hpp"
+#include "launcher/cli/schema_command.hpp"
 #include "tracing/session/trace_command.hpp"
+#include "tracing/session/trace_completion.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
 
@@ -56,8 +59,8 @@ int main(int argc, char** argv) {
     return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process());
   }
   if (command == "complete") {
-    for (const std::string& word :
-         launch::completions({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process())) {
+    for (const std::string& word : launch::completions({argv + 2, argv + argc}, launch::builtin_actions(),
+                                                       environment_of_process(), tracing::trace_completions)) {
       fmt::print("{}\n", word);
     }
     return 0;

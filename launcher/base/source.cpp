@@ -35,7 +35,10 @@ SourceFile::SourceFile(std::string path, std::string text, SourceRange included_
 
 std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path, SourceRange included_from) {
   const auto fail = [&](int error) {
-    throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from);
+    throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from,
+                      included_from && !path.starts_with('/')
+                          ? "a relative path is relative to the launcher's working directory; use $(dirname)/…"
+                          : "");
   };
   const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!fd) {

@@ -1,4 +1,4 @@
-// `launch check`, `launch graph` and `launch schema`: what can be said of launch files without running them.
+// `launch check`: finds the errors of launch files without running them.
 #pragma once
 
 #include <string>
@@ -9,10 +9,8 @@
 
 namespace launch {
 
-// Each takes the words after its name and returns the exit code: 0, 1 after an error in a launch file, 2 after a wrong
-// command line.
+// Takes the words after its name. Returns the exit code: 0, 1 after an error in a launch file, 2 after a wrong command
+// line.
 int check_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment);
-int graph_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment);
-int schema_command(const std::vector<std::string>& words, const Registry& registry);
 
 }  // namespace launch

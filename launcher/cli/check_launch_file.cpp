@@ -39,11 +39,26 @@ class Checker {
       check(*load_launch_files({path}, registry_, context.scope()), context);
     } catch (const LaunchError& error) {
       add(error);
+      check_what_does_not_load(path);
     }
     return std::move(found_);
   }
 
  private:
+  // The words of a file are known also where it has other errors, unless it can't be read at all.
+  void check_what_does_not_load(const std::string& path) {
+    if (!options_.strict_ros2) {
+      return;
+    }
+    try {
+      for (Diagnostic& diagnostic : beyond_ros2(SourceFile::read(path), registry_)) {
+        add(std::move(diagnostic));
+      }
+    } catch (const LaunchError&) {
+      // It has been told.
+    }
+  }
+
   void add(Diagnostic diagnostic) {
     // A file that is included twice is checked twice.
     const std::string key =
@@ -71,7 +86,7 @@ class Checker {
         all.push_back(loaded.get());
       }
       for (const LaunchDescription* one : all) {
-        for (Diagnostic& diagnostic : beyond_ros2(*one, registry_)) {
+        for (Diagnostic& diagnostic : beyond_ros2(one->file, registry_)) {
           add(std::move(diagnostic));
         }
       }

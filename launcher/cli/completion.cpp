@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 const Words kCommands = {"check", "graph", "reference", "report", "schema", "trace"};
-const Words kTraceVerbs = {"calibrate", "events", "list",   "pause", "record_snapshot",
-                           "resume",    "start",  "status", "stop"};
 const Words kOptions = {"--debug",
                         "--dry-run",
                         "--dry-run=json",
@@ -48,7 +46,8 @@ bool is_launch_file(const fs::path& path) {
 
 class Completer {
  public:
-  Completer(const Registry& registry, const Environment& environment) : registry_(registry) {
+  Completer(const Registry& registry, const Environment& environment, const CompleteTrace& trace_words)
+      : registry_(registry), trace_words_(trace_words) {
     scope_.environment = environment;
     scope_.packages = std::make_shared<PackageIndex>(own_install_prefix());
   }
@@ -57,7 +56,7 @@ class Completer {
     const std::string& current = words.back();
     const std::string command = words.size() > 1 ? words.front() : "";
     if (command == "trace") {
-      return words.size() == 2 ? kTraceVerbs : Words{};
+      return trace_words_({words.begin() + 1, words.end()});
     }
     if (command == "schema") {
       return {"json", "xsd"};
@@ -120,19 +119,20 @@ class Completer {
   }
 
   const Registry& registry_;
+  const CompleteTrace& trace_words_;
   Scope scope_;
 };
 
 }  // namespace
 
 std::vector<std::string> completions(const std::vector<std::string>& words, const Registry& registry,
-                                     const Environment& environment) {
+                                     const Environment& environment, const CompleteTrace& trace_words) {
   if (words.empty()) {
     return {};
   }
   Words candidates;
   try {
-    candidates = Completer(registry, environment).candidates(words);
+    candidates = Completer(registry, environment, trace_words).candidates(words);
   } catch (const std::runtime_error&) {
     return {};  // the file has errors, or there is no such package: nothing to offer
   }

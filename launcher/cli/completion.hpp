@@ -1,6 +1,7 @@
 // `launch complete`: what the shells' completion (launcher/cli/completion/) offers for the last word of a command line.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@
 
 namespace launch {
 
+// Candidates for the last of the words after `launch trace`.
+using CompleteTrace = std::function<std::vector<std::string>(const std::vector<std::string>& words)>;
+
 // `words` are those after `launch`, the last one perhaps empty or begun. Names of files are left to the shell.
 std::vector<std::string> completions(const std::vector<std::string>& words, const Registry& registry,
-                                     const Environment& environment);
+                                     const Environment& environment, const CompleteTrace& trace_words);
 
 }  // namespace launch

@@ -200,6 +200,9 @@ std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_
     text += fmt::format("change state of {} ({})\n  {}\n\n", request.node, to_string(request.origin),
                         fmt::join(request.transitions, ", "));
   }
+  for (const CoroutineRequest& coroutine : plan.coroutines) {
+    text += fmt::format("coroutine {}\n\n", coroutine.object->describe());
+  }
   for (const PlannedHandler& planned : plan.handlers) {
     text += fmt::format("{} ({})\n", describe(planned.handler), to_string(planned.handler.where));
     std::string content = content_as_text(planned.plan, launcher_environment);
@@ -290,6 +293,9 @@ void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher
   root["python_includes"] = plan.python_includes;
   root["includes"] = plan.includes;
   root["shutdown"] = plan.shutdown;
+  for (const CoroutineRequest& coroutine : plan.coroutines) {
+    root["coroutines"].push_back(coroutine.object->describe());
+  }
   for (const ProcessCommand& command : plan.commands) {
     root["commands"].push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
   }

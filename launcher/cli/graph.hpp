@@ -2,20 +2,47 @@
 // and the topics that they are remapped to.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "launcher/core/launch_plan.hpp"
 
 namespace launch {
 
-// A graph in Graphviz's language.
-//
-// Boxes with a folded corner are launch files, with an arrow to what each includes and asks for. Ellipses are nodes,
-// components among them, inside their namespace; boxes are processes that are no nodes. A remap is a line from the node
-// to the new name, which all who use it share, labelled with the old one.
-std::string plan_as_dot(const LaunchPlan& plan);
+struct LaunchGraph {
+  struct Box {
+    std::string id;
+    std::vector<std::string> lines;  // what stands in it
+  };
+  enum class Relation {
+    kIncludes,  // a file to a file
+    kAsksFor,   // a file to a node or another process
+    kLoads,     // a container to a component
+    kRemaps,    // a node to the topic that one of its names, the label, stands for
+  };
+  struct Edge {
+    std::string from;
+    std::string to;
+    Relation relation;
+    std::string label;
+  };
 
-// The same drawn by Graphviz's `dot`. Throws LaunchError when that can't be run.
-std::string dot_as_svg(const std::string& dot);
+  std::map<std::string, Box> files;               // by their path; one that several places include stands here once
+  std::map<std::string, std::vector<Box>> nodes;  // by their namespace, components among them
+  std::vector<Box> processes;                     // that are no nodes
+  std::vector<Box> topics;                        // that something is remapped to, sorted
+  std::vector<Edge> edges;                        // in the order of the plan
+};
+
+LaunchGraph graph_of(const LaunchPlan& plan);
+
+// In Graphviz's language. Boxes with a folded corner are launch files, with an arrow to what each includes and asks
+// for. Ellipses are nodes inside their namespace; boxes are other processes. A remap is a line from the node to the new
+// name, labelled with the old one.
+std::string graph_as_dot(const LaunchGraph& graph);
+
+// As a picture, which needs no Graphviz: files on the left, nodes and processes in the middle, topics on the right.
+std::string graph_as_svg(const LaunchGraph& graph);
 
 }  // namespace launch

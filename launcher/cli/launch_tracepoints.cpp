@@ -16,6 +16,8 @@ launch_trace_kind kind_of(LaunchRecord::Kind kind) {
       return LAUNCH_TRACE_INCLUDE;
     case LaunchRecord::Kind::kVisit:
       return LAUNCH_TRACE_VISIT;
+    case LaunchRecord::Kind::kReady:
+      return LAUNCH_TRACE_READY;
     case LaunchRecord::Kind::kSpawn:
       return LAUNCH_TRACE_SPAWN;
     case LaunchRecord::Kind::kExec:
@@ -36,6 +38,7 @@ void fire(launch_trace_fire_function function, const LaunchRecord& record) {
                                     .time = record.time,
                                     .duration = record.duration,
                                     .name = record.name.c_str(),
+                                    .what = record.what.c_str(),
                                     .file = placed ? record.where.file->path().c_str() : "",
                                     .line = placed ? record.where.file->position(record.where.begin).line : 0,
                                     .pid = record.pid,

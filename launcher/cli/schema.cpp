@@ -5,35 +5,17 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "launcher/cli/xml_text.hpp"
+
 namespace launch {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += character;
-    }
-  }
-  return result;
-}
-
 std::string documented(const std::string& help, bool extension, const std::string& indent) {
   return fmt::format("{0}<xs:annotation><xs:documentation>{1}{2}</xs:documentation></xs:annotation>\n", indent,
-                     escaped(help), extension ? " (Not known to ros2 launch.)" : "");
+                     as_xml_text(help), extension ? " (Not known to ros2 launch.)" : "");
 }
 
 // The type of one element: its attributes, and in any order and number the elements that it holds.

@@ -78,10 +78,10 @@ class Walk {
 
 }  // namespace
 
-std::vector<Diagnostic> beyond_ros2(const LaunchDescription& description, const Registry& registry) {
+std::vector<Diagnostic> beyond_ros2(const std::shared_ptr<const SourceFile>& file, const Registry& registry) {
   Walk walk(registry);
-  if (description.file != nullptr && !description.file->path().ends_with(".py")) {
-    walk.actions(load_entity_tree(description.file).children);
+  if (file != nullptr && !file->path().ends_with(".py")) {
+    walk.actions(load_entity_tree(file).children);
   }
   return std::move(walk.found);
 }

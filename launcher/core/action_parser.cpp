@@ -1,9 +1,11 @@
 #include "launcher/core/action_parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "launcher/core/former_names.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
 namespace launch {
@@ -26,14 +28,6 @@ std::string expected_kind(AttributeType type) {
     default:
       return "str";
   }
-}
-
-std::vector<std::string> tags_of(const std::vector<ItemSpec>& items) {
-  std::vector<std::string> tags;
-  for (const ItemSpec& item : items) {
-    tags.push_back(item.tag);
-  }
-  return tags;
 }
 
 bool accepts(const AttributeSpec& spec, const Scalar& scalar) {
@@ -93,7 +87,39 @@ std::vector<Template> words_of_list(const Entity& entity, const Attribute& attri
   return words;
 }
 
+constexpr std::size_t kMostNames = 8;  // in a line of help
+
+// What to do about a name that is not among the known ones.
+std::string help_for_name(const std::string& name, const std::vector<std::string>& known, const std::string& former,
+                          std::string_view what) {
+  std::string help = former.empty() ? did_you_mean(name, known) : former;
+  if (help.empty() && !known.empty() && known.size() <= kMostNames) {
+    help = fmt::format("{} {}", what, fmt::join(known, ", "));
+  }
+  return help.empty() ? "`launch reference` tells what there is" : help;
+}
+
 }  // namespace
+
+const ItemSpec* ActionParser::Items::find(std::string_view tag) const {
+  if (recursive != nullptr && recursive->tag == tag) {
+    return recursive;
+  }
+  const auto found =
+      std::find_if(declared.begin(), declared.end(), [&](const ItemSpec& spec) { return spec.tag == tag; });
+  return found == declared.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> ActionParser::Items::tags() const {
+  std::vector<std::string> tags;
+  for (const ItemSpec& item : declared) {
+    tags.push_back(item.tag);
+  }
+  if (recursive != nullptr) {
+    tags.push_back(recursive->tag);
+  }
+  return tags;
+}
 
 template <typename Step>
 void ActionParser::collect(Step step) {
@@ -134,13 +160,14 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
       tags.push_back(tag);
     }
     errors_.push_back({Severity::kError, fmt::format("unrecognized entity of the type '{}'", entity.type_name),
-                       entity.where, did_you_mean(entity.type_name, tags)});
+                       entity.where, help_for_name(entity.type_name, tags, help_for_former_tag(entity.type_name), "")});
     return nullptr;
   }
 
   const std::size_t errors_before = errors_.size();
   Fields fields(entity.where);
-  parse_attributes(entity, type->attributes, tags_of(type->items), true, fields);
+  const Items items{type->items};
+  parse_attributes(entity, type->attributes, items, true, fields);
   parse_condition(entity, fields);
 
   if (type->holds_actions && !entity.has_children_list) {
@@ -148,16 +175,14 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
                        entity.where, "add a `children:` list"});
   }
   for (const Entity& child : entity.children) {
-    const auto item = std::find_if(type->items.begin(), type->items.end(),
-                                   [&](const ItemSpec& spec) { return spec.tag == child.type_name; });
-    if (item != type->items.end()) {
+    if (const ItemSpec* const item = items.find(child.type_name)) {
       parse_item(child, *item, fields);
     } else if (type->holds_actions && (child.made != nullptr || registry_.find(child.type_name) != nullptr)) {
       if (ActionPtr action = parse_action(child)) {
         fields.actions_.push_back(std::move(action));
       }
     } else {
-      report_unknown_child(entity, child, type->items, type->holds_actions);
+      report_unknown_child(entity, child, items, type->holds_actions);
     }
   }
 
@@ -168,9 +193,8 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
   return action;
 }
 
-void ActionParser::report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items,
-                                        bool actions) {
-  std::vector<std::string> known = tags_of(items);
+void ActionParser::report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions) {
+  std::vector<std::string> known = items.tags();
   if (actions) {
     for (const auto& [tag, unused] : registry_.types()) {
       known.push_back(tag);
@@ -179,11 +203,16 @@ void ActionParser::report_unknown_child(const Entity& parent, const Entity& chil
   const std::string message =
       actions ? fmt::format("unrecognized entity of the type '{}'", child.type_name)
               : fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name);
-  errors_.push_back({Severity::kError, message, child.where, did_you_mean(child.type_name, known)});
+  const bool misplaced = !actions && registry_.find(child.type_name) != nullptr;
+  errors_.push_back(
+      {Severity::kError, message, child.where,
+       misplaced ? fmt::format("'{}' is an action: put it before or behind '{}'", child.type_name, parent.type_name)
+                 : help_for_name(child.type_name, known, actions ? help_for_former_tag(child.type_name) : "",
+                                 fmt::format("'{}' can hold", parent.type_name))});
 }
 
-void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs,
-                                    const std::vector<std::string>& items, bool conditions, Fields& fields) {
+void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
+                                    bool conditions, Fields& fields) {
   for (const Attribute& attribute : entity.attributes) {
     if (conditions && (attribute.name == "if" || attribute.name == "unless")) {
       continue;
@@ -199,12 +228,15 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
         known.insert(known.end(), {"if", "unless"});
       }
       // A YAML list without items looks like the empty value of an attribute.
-      const bool is_item = std::find(items.begin(), items.end(), attribute.name) != items.end();
+      const bool is_item = items.find(attribute.name) != nullptr;
       errors_.push_back(
           {Severity::kError,
            is_item ? fmt::format("expected '{}' of '{}' to be a list of mappings", attribute.name, entity.type_name)
                    : fmt::format("unexpected attribute '{}' in '{}'", attribute.name, entity.type_name),
-           attribute.name_where, is_item ? "leave it out when there is none" : did_you_mean(attribute.name, known)});
+           attribute.name_where,
+           is_item ? "leave it out when there is none"
+                   : help_for_name(attribute.name, known, help_for_former_attribute(entity.type_name, attribute.name),
+                                   fmt::format("'{}' has", entity.type_name))});
       continue;
     }
     collect([&] {
@@ -282,18 +314,13 @@ void ActionParser::parse_condition(const Entity& entity, Fields& fields) {
 
 void ActionParser::parse_item(const Entity& entity, const ItemSpec& spec, Fields& parent) {
   Fields fields(entity.where);
-  std::vector<ItemSpec> items = spec.items;
-  if (spec.recursive) {
-    items.push_back(spec);
-  }
-  parse_attributes(entity, spec.attributes, tags_of(items), spec.has_condition, fields);
+  const Items items{spec.items, spec.recursive ? &spec : nullptr};
+  parse_attributes(entity, spec.attributes, items, spec.has_condition, fields);
   if (spec.has_condition) {
     parse_condition(entity, fields);
   }
   for (const Entity& child : entity.children) {
-    const auto item = std::find_if(items.begin(), items.end(),
-                                   [&](const ItemSpec& candidate) { return candidate.tag == child.type_name; });
-    if (item != items.end()) {
+    if (const ItemSpec* const item = items.find(child.type_name)) {
       parse_item(child, *item, fields);
     } else {
       report_unknown_child(entity, child, items, false);

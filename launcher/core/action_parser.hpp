@@ -1,6 +1,8 @@
 // Checks an entity tree against the declarations of the registry and makes its actions.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
@@ -19,16 +21,24 @@ class ActionParser {
   std::vector<ActionPtr> parse(const std::vector<Entity>& entities);
 
  private:
+  // The structured items that an entity may hold.
+  struct Items {
+    const std::vector<ItemSpec>& declared;
+    const ItemSpec* recursive = nullptr;  // the item itself, if it may hold items of its own tag
+
+    const ItemSpec* find(std::string_view tag) const;
+    std::vector<std::string> tags() const;
+  };
+
   std::vector<ActionPtr> parse_actions(const std::vector<Entity>& entities);
   ActionPtr parse_action(const Entity& entity);
-  // `items` are the tags of structured items that may stand beside the attributes.
-  void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs,
-                        const std::vector<std::string>& items, bool conditions, Fields& fields);
+  // `items` are those that may stand beside the attributes.
+  void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
+                        bool conditions, Fields& fields);
   void parse_condition(const Entity& entity, Fields& fields);
   void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
   Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
-  void report_unknown_child(const Entity& parent, const Entity& child, const std::vector<ItemSpec>& items,
-                            bool actions);
+  void report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions);
   // Runs `step`, keeping the errors that it throws.
   template <typename Step>
   void collect(Step step);

@@ -15,7 +15,7 @@ bool Condition::holds(Scope& scope) const {
   if (!value) {
     throw LaunchError(
         fmt::format("invalid condition expression, expected one of [true, 1, false, 0] but got '{}'", text),
-        expression_->where());
+        expression_->where(), "yes, on and the like are no conditions; an expression: $(eval '...')");
   }
   return *value != negated_;
 }

@@ -78,7 +78,7 @@ class CycleSearch {
       text += fmt::format("'{}' waits for ", processes_[*step]->names.front());
     }
     throw LaunchError(fmt::format("no start order is possible: {}'{}'", text, processes_[closing.to]->names.front()),
-                      *closing.where);
+                      *closing.where, "remove one of these depends_on");
   }
 
   const std::vector<TrackedProcess*>& processes_;

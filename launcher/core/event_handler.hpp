@@ -27,13 +27,20 @@ struct OnProcessIo {
 struct OnShutdown {
   Duration timeout{0};  // at most so long
 };
+// A node with a managed life cycle has gone from one state to another; empty: any.
+struct OnStateTransition {
+  std::string node;  // its full name
+  std::string start_state;
+  std::string goal_state;
+};
 // Something outside of the launch. Its handler is visited once.
 struct OnceReady {
   std::shared_ptr<ReadinessCondition> condition;
 };
 
 struct EventHandler {
-  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown, OnceReady> event;
+  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown, OnStateTransition, OnceReady> event;
+  std::string name;     // by which unregister_event_handler means it; empty: not at all
   std::string process;  // a name (process_table.hpp); empty: every process
   bool once = false;
   std::vector<ActionPtr> actions;

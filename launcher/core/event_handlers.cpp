@@ -17,6 +17,11 @@ struct Description {
     return fmt::format("on_process_io{} with {}", of_process(), io.pattern.describe());
   }
   std::string operator()(const OnShutdown&) const { return "on_shutdown"; }
+  std::string operator()(const OnStateTransition& transition) const {
+    std::string text = fmt::format("on_state_transition of '{}'", transition.node);
+    text += transition.start_state.empty() ? "" : " from " + transition.start_state;
+    return text + (transition.goal_state.empty() ? "" : " to " + transition.goal_state);
+  }
   std::string operator()(const OnceReady& ready) const { return "once " + ready.condition->describe(); }
 
   std::string of_process() const { return process.empty() ? " of any process" : fmt::format(" of '{}'", process); }
@@ -41,6 +46,14 @@ void EventHandlers::add(EventHandler handler) {
   watch_output_ |= std::holds_alternative<OnProcessIo>(handler.event);
   std::string process = handler.process;
   by_process_[std::move(process)].push_back({count_++, std::make_shared<const EventHandler>(std::move(handler))});
+}
+
+bool EventHandlers::remove(const std::string& name) {
+  std::size_t removed = 0;
+  for (auto& [process, handlers] : by_process_) {
+    removed += std::erase_if(handlers, [&](const Registered& each) { return each.handler->name == name; });
+  }
+  return removed != 0;
 }
 
 template <typename Concerned, typename Values>

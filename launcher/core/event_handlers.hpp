@@ -30,6 +30,8 @@ struct Invocation {
 class EventHandlers {
  public:
   void add(EventHandler handler);
+  // Forgets the handlers of that name; false when there is none.
+  bool remove(const std::string& name);
 
   std::vector<Invocation> on_event(const ProcessEvent& event);
   std::vector<Invocation> on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream,

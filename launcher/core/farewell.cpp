@@ -12,6 +12,10 @@ void check_farewell(const Requests& requests) {
                       requests.loads.empty() ? requests.transitions.front().origin : requests.loads.front().origin,
                       "run a program that does it, such as ros2 lifecycle");
   }
+  if (!requests.coroutines.empty()) {
+    throw LaunchError("a coroutine can't begin when the system ends", requests.coroutines.front().where,
+                      "use OpaqueFunction inside of OnShutdown");
+  }
   if (!requests.dependencies.empty()) {
     throw LaunchError("a process can't wait for others when the system ends", requests.dependencies.front().where,
                       "leave depends_on out inside of on_shutdown");

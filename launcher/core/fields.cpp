@@ -58,14 +58,15 @@ double NumberField::convert(const std::string& text) const {
   const auto result =
       whole_ ? std::from_chars(digits.data(), end, whole_value) : std::from_chars(digits.data(), end, value);
   if (digits.empty() || result.ec != std::errc() || result.ptr != end) {
-    throw LaunchError(fmt::format("expected a {}, got '{}'", whole_ ? "whole number" : "number", text),
-                      source_.where());
+    throw LaunchError(fmt::format("expected a {}, got '{}'", whole_ ? "whole number" : "number", text), source_.where(),
+                      whole_ ? "write digits, such as 3" : "write a number without its unit, such as 0.5");
   }
   if (whole_) {
     value = static_cast<double>(whole_value);
   }
   if (not_negative_ && !(value >= 0.0)) {
-    throw LaunchError(fmt::format("expected a number that is not negative, got '{}'", text), source_.where());
+    throw LaunchError(fmt::format("expected a number that is not negative, got '{}'", text), source_.where(),
+                      "write 0 or more");
   }
   return value;
 }

@@ -104,6 +104,11 @@ void LaunchContext::visit_left_out(const std::function<void()>& visit) {
   }
 }
 
+bool Requests::empty() const {
+  return scopes.empty() && processes.empty() && handlers.empty() && unregistered.empty() && commands.empty() &&
+         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && !shutdown;
+}
+
 Requests LaunchContext::take_requests() {
   return std::exchange(requests_, Requests{});
 }

@@ -15,6 +15,7 @@
 
 #include "launcher/core/action.hpp"
 #include "launcher/core/composable_node.hpp"
+#include "launcher/core/coroutines.hpp"
 #include "launcher/core/dependency.hpp"
 #include "launcher/core/event_handler.hpp"
 #include "launcher/core/launch_description.hpp"
@@ -49,14 +50,22 @@ struct NodeDescription {
   std::optional<std::string> name_space;
 };
 
+// Event handlers that shall hear of nothing more.
+struct UnregisterRequest {
+  std::string name;  // that they were given
+  SourceRange where;
+};
+
 // What one traversal asked for. Scopes begin before its processes start.
 struct Requests {
   std::vector<std::unique_ptr<RunScope>> scopes;
   std::vector<ProcessSpec> processes;
   std::vector<NodeDescription> nodes;
-  std::vector<Dependency> dependencies;  // of the processes
-  std::vector<EventHandler> handlers;    // registered before the processes start
-  std::vector<ProcessCommand> commands;  // for what ran before
+  std::vector<Dependency> dependencies;         // of the processes
+  std::vector<EventHandler> handlers;           // registered before the processes start
+  std::vector<UnregisterRequest> unregistered;  // before that
+  std::vector<ProcessCommand> commands;         // for what ran before
+  std::vector<CoroutineRequest> coroutines;
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;
   std::vector<TimerRequest> timers;
@@ -65,6 +74,9 @@ struct Requests {
   std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
   int includes = 0;                          // other launch files that were included
   std::vector<LaunchRecord> records;         // what the visit did
+
+  // Nothing is to be carried out.
+  bool empty() const;
 };
 
 class LaunchContext {

@@ -27,6 +27,9 @@ EventValues made_up_event(const EventHandler& handler) {
     values.emplace_back("stream", io->pattern.stream() == "stderr" ? "stderr" : "stdout");
   } else if (std::holds_alternative<OnShutdown>(handler.event)) {
     values = {{"reason", ""}};
+  } else if (const auto* const transition = std::get_if<OnStateTransition>(&handler.event)) {
+    values = {
+        {"node", transition->node}, {"start_state", transition->start_state}, {"goal_state", transition->goal_state}};
   } else if (std::holds_alternative<OnceReady>(handler.event)) {
     values.clear();
   }
@@ -89,6 +92,7 @@ class Planner {
     append(plan.commands, requests.commands);
     append(plan.loads, requests.loads);
     append(plan.transitions, requests.transitions);
+    append(plan.coroutines, requests.coroutines);
     append(plan.logs, requests.logs);
     append(plan.python_includes, requests.python_includes);
     plan.includes += requests.includes;

@@ -19,6 +19,7 @@ struct LaunchPlan {
   std::vector<ProcessCommand> commands;
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;
+  std::vector<CoroutineRequest> coroutines;  // of Python launch files
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // Python launch files, which count as empty
   int includes = 0;

@@ -13,6 +13,7 @@ struct LaunchRecord {
     kLoad,     // a launch file was read and checked, name: its path
     kInclude,  // another one was visited, name: its path
     kVisit,    // the launch file, or the children of a timer, were visited
+    kReady,    // what a process waits for is there, name: its own, what: the condition, where: the depends_on
     kSpawn,    // a process is about to be started, name: as all below its label
     kExec,     // its program runs
     kExit,     // it ended, value: its exit code, -N for signal N
@@ -22,6 +23,7 @@ struct LaunchRecord {
 
   Kind kind = Kind::kVisit;
   std::string name = {};
+  std::string what = {};   // ready
   SourceRange where = {};  // the line that asked for it; may be empty
   std::int32_t pid = 0;
   std::int32_t value = 0;

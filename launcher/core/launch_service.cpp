@@ -19,6 +19,10 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       loop_(loop),
       supervisor_(supervisor),
       errors_(std::move(errors)),
+      state_handlers_([this](std::vector<Invocation> invocations) { invoke(std::move(invocations)); },
+                      [this](const LaunchError& error) { fail(error); }),
+      coroutines_(
+          context, loop, [this] { on_step(); }, [this](const LaunchError& error) { fail(error); }),
       start_order_(loop,
                    {[this](ProcessSpec spec, TrackedProcess& process) { start_process(std::move(spec), process); },
                     [this](const LaunchError& error) { fail(error); },
@@ -31,6 +35,13 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                           ros_tasks_->on_skipped(name);
                         }
                       }
+                    },
+                    [this](const std::string& process, const Dependency& dependency) {
+                      record({.kind = LaunchRecord::Kind::kReady,
+                              .name = process,
+                              .what = describe(dependency),
+                              .where = dependency.where,
+                              .time = monotonic_time()});
                     }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }
@@ -147,20 +158,6 @@ void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
   carry_out(std::move(requests));
 }
 
-// In a later turn: handlers start and stop processes, which observers of their events should not.
-void LaunchService::invoke(std::vector<Invocation> invocations) {
-  for (Invocation& invocation : invocations) {
-    invocations_.push_back(std::move(invocation));
-    loop_.post([this] { run_invocation(); });
-  }
-}
-
-void LaunchService::run_invocation() {
-  const Invocation invocation = std::move(invocations_.front());
-  invocations_.pop_front();
-  visit(invocation.scope(), invocation.handler->actions);
-}
-
 void LaunchService::carry_out(Requests requests) {
   if (shutting_down_) {
     check_finished();
@@ -235,12 +232,11 @@ void LaunchService::start(Round round) {
   for (const ProcessCommand& command : requests.commands) {
     execute(command);
   }
+  for (const UnregisterRequest& request : requests.unregistered) {
+    unregister_handlers(request);
+  }
   for (EventHandler& handler : requests.handlers) {
-    if (std::holds_alternative<OnceReady>(handler.event)) {
-      wait_for(std::move(handler));
-    } else {
-      handlers_.add(std::move(handler));
-    }
+    register_handler(std::move(handler));
   }
   for (TimerRequest& request : requests.timers) {
     start_timer(std::move(request));
@@ -269,6 +265,11 @@ void LaunchService::start(Round round) {
   }
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
   start_ros_tasks(requests);
+  for (const CoroutineRequest& request : requests.coroutines) {
+    if (!shutting_down_) {
+      coroutines_.start(request);
+    }
+  }
   if (requests.shutdown) {
     shutdown(requests.shutdown->reason);
   }
@@ -307,20 +308,6 @@ void LaunchService::start_ros_tasks(Requests& requests) {
   for (TransitionRequest& request : requests.transitions) {
     ros_tasks_->change_state(std::move(request));
   }
-}
-
-void LaunchService::wait_for(EventHandler handler) {
-  const auto place = waits_.insert(waits_.end(), std::make_shared<const EventHandler>(std::move(handler)));
-  std::get<OnceReady>((*place)->event)
-      .condition->watch(loop_, [this, place](const std::optional<std::string>& failure) {
-        const std::shared_ptr<const EventHandler> ready = *place;
-        waits_.erase(place);
-        if (failure) {
-          fail(LaunchError(*failure, ready->where));
-        } else {
-          invoke({{ready, {}}});
-        }
-      });
 }
 
 void LaunchService::execute(const ProcessCommand& command) {

@@ -23,6 +23,7 @@
 #include "launcher/core/process_table.hpp"
 #include "launcher/core/ros_tasks.hpp"
 #include "launcher/core/start_order.hpp"
+#include "launcher/core/state_handlers.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
@@ -90,6 +91,10 @@ class LaunchService {
   void start_process(ProcessSpec spec, TrackedProcess& process);
   void start_timer(TimerRequest request);
   void start_ros_tasks(Requests& requests);
+  // Coroutines have run up to where they wait.
+  void on_step();
+  void register_handler(EventHandler handler);
+  void unregister_handlers(const UnregisterRequest& request);
   // Visits a handler once its condition holds.
   void wait_for(EventHandler handler);
   void execute(const ProcessCommand& command);
@@ -120,7 +125,9 @@ class LaunchService {
 
   ProcessTable table_;
   EventHandlers handlers_;
+  StateHandlers state_handlers_;
   std::list<std::shared_ptr<const EventHandler>> waits_;  // those for conditions
+  Coroutines coroutines_;
   StartOrder start_order_;
   std::deque<Invocation> invocations_;  // each has a post of its own
   bool output_observed_ = false;

@@ -25,6 +25,8 @@ void LaunchService::shutdown(const std::string& reason) {
     timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
     start_order_.clear();
     waits_.clear();
+    state_handlers_.clear();
+    coroutines_.cancel();
     if (ros_tasks_) {
       ros_tasks_->shutdown();
     }
@@ -107,7 +109,8 @@ void LaunchService::post_check() {
 
 void LaunchService::check_finished() {
   if (ending_ || scope_is_beginning_ || farewell_ || !waiting_.empty() || !timers_.empty() || !invocations_.empty() ||
-      !start_order_.empty() || supervisor_.active() != 0 || (ros_tasks_ && !ros_tasks_->idle())) {
+      !start_order_.empty() || supervisor_.active() != 0 || !coroutines_.idle() ||
+      (ros_tasks_ && !ros_tasks_->idle())) {
     return;
   }
   if (!shutting_down_ && handlers_.has_on_shutdown()) {

@@ -49,6 +49,14 @@ LaunchContext& PythonHost::context() {
   return *context_;
 }
 
+void PythonHost::visit(const std::vector<python::Entity>& entities) {
+  context().visit(file_.make_actions(entities));
+}
+
+void PythonHost::run_coroutine(python::ObjectPtr object) {
+  context().requests().coroutines.push_back({std::move(object), file_.shared_from_this(), file_.range({})});
+}
+
 void PythonHost::push(bool environment) {
   context().kept_scopes(environment).push_back(scope_);
 }

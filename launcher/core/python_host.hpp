@@ -25,6 +25,8 @@ class PythonHost : public python::Host {
   void message(const std::string& level, const std::string& logger, const std::string& text) override;
   void push(bool environment) override;
   void pop(bool environment) override;
+  void visit(const std::vector<python::Entity>& entities) override;
+  void run_coroutine(python::ObjectPtr object) override;
 
  private:
   LaunchContext& context();

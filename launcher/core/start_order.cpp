@@ -142,6 +142,7 @@ void StartOrder::settle(Watch& watch) {
     watch.settled = true;
     watch.timer.reset();
     --watch.owner->open;
+    callbacks_.holds(watch.owner->spec.name, watch.dependency);
     proceed_later(*watch.owner);
   }
 }

@@ -33,6 +33,8 @@ class StartOrder {
     std::function<void(LogLevel level, const std::string& process, const std::string& text)> tell;
     // A process won't start, and the launch goes on without it.
     std::function<void(const TrackedProcess& process)> skipped;
+    // What the process waits for is there. Called at once, before `start`.
+    std::function<void(const std::string& process, const Dependency& dependency)> holds;
   };
 
   // The loop must outlive this object.

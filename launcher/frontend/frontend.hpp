@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/frontend/entity.hpp"
@@ -25,6 +26,10 @@ class YamlSyntaxError : public LaunchError {
  public:
   using LaunchError::LaunchError;
 };
+
+// Whether a whole text is, as YAML, one plain scalar that stands for itself: true for the usual words, numbers and
+// templates, so that no parser has to look at them; false also for texts that only a parser can tell about.
+bool is_plain_scalar(std::string_view text);  // plain_scalar.cpp
 
 // Types a whole text as YAML 1.1 flow or block content: a scalar or a list (parameter values: "[1, 2]", "- 1").
 // Throws YamlSyntaxError when it isn't valid YAML, LaunchError for a mapping.

@@ -12,6 +12,8 @@
 
 namespace launch {
 
+struct XmlTag;
+
 inline constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 bool is_xml_blank(char c);
@@ -47,6 +49,9 @@ struct XmlCursor {
 
 // Reads <?xml ... ?>, which stands at the cursor.
 void read_xml_declaration(XmlCursor& cursor);
+
+// Reads the attributes of a start tag, up to its end; true when it ends with "/>". `tag_begin` is its "<".
+bool read_xml_attributes(XmlCursor& cursor, XmlTag& tag, std::size_t tag_begin);  // xml_attributes.cpp
 
 // Decodes the attribute value in [begin, end): entities, white space.
 LocatedText decode_xml_attribute(XmlCursor& cursor, std::size_t begin, std::size_t end);

@@ -16,6 +16,7 @@ Entity build(const tinyxml2::XMLElement& element, std::vector<XmlTag>::iterator&
   Entity entity;
   entity.type_name = element.Name();
   entity.where = tag.where;
+  entity.attributes.reserve(tag.attributes.size());
   for (XmlAttribute& attribute : tag.attributes) {
     // Namespace declarations are no attributes to a namespace-aware parser.
     if (attribute.name == "xmlns" || attribute.name.starts_with("xmlns:")) {

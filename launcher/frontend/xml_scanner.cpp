@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "launcher/base/utf8.hpp"
 #include "launcher/frontend/input_text.hpp"
 #include "launcher/frontend/xml_cursor.hpp"
 
@@ -181,7 +180,7 @@ class XmlScanner : private XmlCursor {
       error(fmt::format("a second root element <{}>", tag.name), begin + 1, position,
             "an XML file has one root element; put this one inside it");
     }
-    const bool closed = attributes(tag, begin);
+    const bool closed = read_xml_attributes(*this, tag, begin);
     if (stopped) {
       return;
     }
@@ -197,114 +196,6 @@ class XmlScanner : private XmlCursor {
     if (open_.size() > kMaximumDepth) {
       fatal(fmt::format("elements are nested more than {} levels deep", kMaximumDepth), begin, position);
     }
-  }
-
-  // Reads up to the end of a start tag; true when it ends with "/>".
-  bool attributes(XmlTag& tag, std::size_t tag_begin) {
-    while (true) {
-      const bool blank = skip_blanks();
-      if (position >= text.size()) {
-        fatal(fmt::format("the tag <{}> is not closed", tag.name), tag_begin, tag_begin + 1 + tag.name.size(),
-              "add '>' or '/>' at its end");
-        return false;
-      }
-      if (at(">")) {
-        ++position;
-        return false;
-      }
-      if (at("/>")) {
-        position += 2;
-        return true;
-      }
-      const std::size_t begin = position;
-      if (!is_xml_name_start(text[begin])) {
-        unexpected_in_tag(tag, tag_begin);
-        return skip_tag();
-      }
-      const std::string_view name = take_name();
-      if (!blank) {
-        error(fmt::format("no white space before the attribute '{}'", name), begin, position,
-              tag.attributes.empty() ? "" : "is a quote missing before it?");
-        return skip_tag();
-      }
-      if (!attribute(tag, name, begin)) {
-        return stopped ? false : skip_tag();
-      }
-    }
-  }
-
-  void unexpected_in_tag(const XmlTag& tag, std::size_t tag_begin) {
-    if (at("<")) {
-      error(fmt::format("the tag <{}> is not closed", tag.name), tag_begin, tag_begin + 1 + tag.name.size(),
-            fmt::format("add '>' or '/>' before the '<' on line {}", line(position)));
-      return;
-    }
-    const CodePoint character = decode_utf8(rest());
-    error(fmt::format("unexpected '{}' in the tag <{}>", rest().substr(0, character.size), tag.name), position,
-          position + character.size, "expected an attribute, '>' or '/>'");
-  }
-
-  // After an error inside a tag: goes on behind it, so that the rest of the file is checked, too.
-  bool skip_tag() {
-    const std::size_t end = text.find_first_of("<>", position);
-    position = std::min(end, text.size());
-    if (!at(">")) {
-      return true;
-    }
-    ++position;
-    return text[position - 2] == '/';
-  }
-
-  // Reads "= value" and adds the attribute. False when the tag can't be read on.
-  bool attribute(XmlTag& tag, std::string_view name, std::size_t begin) {
-    const std::size_t name_end = position;
-    skip_blanks();
-    if (!at("=")) {
-      error(fmt::format("the attribute '{}' of <{}> has no value", name, tag.name), begin, name_end,
-            fmt::format("write {}=\"...\"", name));
-      return false;
-    }
-    ++position;
-    skip_blanks();
-    const char quote = position < text.size() ? text[position] : '\0';
-    if (quote != '"' && quote != '\'') {
-      error(fmt::format("the value of the attribute '{}' must stand in quotes", name), position,
-            std::min(position + 1, text.size()));
-      return false;
-    }
-    const std::size_t value_begin = position + 1;
-    const std::size_t value_end = text.find(quote, value_begin);
-    if (value_end == std::string_view::npos) {
-      fatal(fmt::format("the value of the attribute '{}' is not closed", name), position, position + 1,
-            fmt::format("add {} at its end", quote));
-      return false;
-    }
-    position = value_end + 1;
-    const std::size_t less = text.find('<', value_begin);
-    if (less < value_end) {
-      error(fmt::format("'<' in the value of the attribute '{}'", name), less, less + 1,
-            fmt::format("write &lt; for the character, or add the quote {} that is missing before it", quote));
-      const bool quote_is_missing = position < text.size() && !is_xml_blank(text[position]) && !at(">") && !at("/>");
-      if (quote_is_missing) {
-        stopped = true;
-        return false;
-      }
-    }
-    XmlAttribute attribute;
-    attribute.name = name;
-    attribute.name_where = range(begin, name_end);
-    attribute.value = decode_xml_attribute(*this, value_begin, value_end);
-    const bool empty = value_begin == value_end;
-    attribute.value_where = empty ? range(value_begin - 1, value_end + 1) : range(value_begin, value_end);
-    const auto same = std::find_if(tag.attributes.begin(), tag.attributes.end(),
-                                   [&](const XmlAttribute& other) { return other.name == name; });
-    if (same != tag.attributes.end()) {
-      const SourceFile::Position first = file->position(same->name_where.begin);
-      error(fmt::format("duplicate attribute '{}' of <{}>", name, tag.name), begin, name_end,
-            fmt::format("it was given first at line {}, column {}", first.line, first.column));
-    }
-    tag.attributes.push_back(std::move(attribute));
-    return true;
   }
 
   void end_tag() {

@@ -301,6 +301,9 @@ Scalar yaml11_scalar(LocatedText located) {
 }
 
 Value yaml11_value(const LocatedText& text) {
+  if (is_plain_scalar(text.text())) {
+    return {yaml11_scalar(text), text.range()};
+  }
   std::vector<Diagnostic> errors;
   const YamlNode node = read_yaml(text, errors);
   if (!errors.empty()) {

@@ -14,6 +14,7 @@
 
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/input_text.hpp"
+#include "launcher/frontend/simple_yaml.hpp"
 #include "launcher/frontend/yaml_scalar_place.hpp"
 #include "launcher/frontend/yaml_syntax_error.hpp"
 
@@ -282,6 +283,13 @@ YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors) {
   if (std::optional<Diagnostic> bad = find_bad_character(source)) {
     throw YamlSyntaxError(std::vector<Diagnostic>{std::move(*bad)});
   }
+  if (std::optional<YamlNode> simple = read_simple_yaml(source)) {
+    return std::move(*simple);
+  }
+  return read_any_yaml(source, errors);
+}
+
+YamlNode read_any_yaml(const LocatedText& source, std::vector<Diagnostic>& errors) {
   const std::size_t offset = source.text().starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   TreeBuilder builder(source, offset, errors);
   try {

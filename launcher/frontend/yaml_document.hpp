@@ -35,4 +35,7 @@ std::string describe(const YamlNode& node);
 // Throws LaunchError for a syntax error. Other faults (duplicate keys) are added to `errors`.
 YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors);
 
+// The same by yaml-cpp, for any valid UTF-8; read_yaml() asks it for what is out of the ordinary (simple_yaml.hpp).
+YamlNode read_any_yaml(const LocatedText& source, std::vector<Diagnostic>& errors);
+
 }  // namespace launch

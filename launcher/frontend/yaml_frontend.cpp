@@ -17,7 +17,8 @@ class EntityBuilder {
  public:
   explicit EntityBuilder(std::vector<Diagnostic>& errors) : errors_(errors) {}
 
-  Entity root(const YamlNode& document) {
+  // Takes the texts out of the document.
+  Entity root(YamlNode& document) {
     Entity entity;
     if (document.kind != Kind::kMapping) {
       error(fmt::format("expected a mapping with the one key 'launch', found {}", describe(document)), document.where,
@@ -35,7 +36,7 @@ class EntityBuilder {
       error("expected the root key 'launch', found an empty mapping", document.where);
       return entity;
     }
-    const auto& [key, value] = document.entries.front();
+    auto& [key, value] = document.entries.front();
     if (!is_name(key) || key.scalar.text.text() != "launch") {
       error(fmt::format("expected 'launch' as root tag, found '{}'", key.scalar.text.text()), key.where,
             "a launch file begins with 'launch:'");
@@ -74,8 +75,8 @@ class EntityBuilder {
     return false;
   }
 
-  void actions(const YamlNode& list, std::vector<Entity>& result) {
-    for (const YamlNode& item : list.items) {
+  void actions(YamlNode& list, std::vector<Entity>& result) {
+    for (YamlNode& item : list.items) {
       if (item.kind != Kind::kMapping || item.entries.empty()) {
         error(fmt::format("expected an action, found {}",
                           item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
@@ -86,7 +87,7 @@ class EntityBuilder {
         several_keys(item);
         continue;
       }
-      const auto& [key, value] = item.entries.front();
+      auto& [key, value] = item.entries.front();
       if (check_name(key)) {
         action(key, value, result);
       }
@@ -111,7 +112,7 @@ class EntityBuilder {
                                 : fmt::format("write `- {}:` to make it an action of its own", other));
   }
 
-  void action(const YamlNode& key, const YamlNode& value, std::vector<Entity>& result) {
+  void action(const YamlNode& key, YamlNode& value, std::vector<Entity>& result) {
     Entity entity;
     entity.type_name = key.scalar.text.text();
     entity.where = key.where;
@@ -128,7 +129,7 @@ class EntityBuilder {
   }
 
   // The content of an entity: its attributes, or the list of its sub-actions.
-  void fill(Entity& entity, const YamlNode& key, const YamlNode& content) {
+  void fill(Entity& entity, const YamlNode& key, YamlNode& content) {
     if (content.kind == Kind::kSequence) {
       entity.has_children_list = true;
       actions(content, entity.children);
@@ -140,14 +141,14 @@ class EntityBuilder {
       return;
     }
     entity.has_children_list = false;
-    for (const YamlEntry& entry : content.entries) {
+    for (YamlEntry& entry : content.entries) {
       if (check_name(entry.key)) {
         attribute(entity, entry.key, entry.value);
       }
     }
   }
 
-  void attribute(Entity& entity, const YamlNode& key, const YamlNode& value) {
+  void attribute(Entity& entity, const YamlNode& key, YamlNode& value) {
     const std::string& name = key.scalar.text.text();
     if (name == "children") {
       entity.has_children_list = true;
@@ -177,8 +178,8 @@ class EntityBuilder {
   }
 
   // A list of mappings: one child for each, named after the key.
-  void structured_items(Entity& entity, const YamlNode& key, const YamlNode& list) {
-    for (const YamlNode& item : list.items) {
+  void structured_items(Entity& entity, const YamlNode& key, YamlNode& list) {
+    for (YamlNode& item : list.items) {
       if (item.kind != Kind::kMapping) {
         error(fmt::format("expected a mapping in the list '{}', found {}", key.scalar.text.text(), describe(item)),
               item.where);
@@ -195,12 +196,12 @@ class EntityBuilder {
     }
   }
 
-  Value to_value(const YamlNode& node) {
+  Value to_value(YamlNode& node) {
     if (node.kind == Kind::kScalar) {
-      return {node.scalar, node.where};
+      return {std::move(node.scalar), std::move(node.where)};
     }
     std::vector<Value> items;
-    for (const YamlNode& item : node.items) {
+    for (YamlNode& item : node.items) {
       if (item.kind == Kind::kMapping) {
         error("a mapping inside a nested list", item.where);
         continue;
@@ -218,7 +219,7 @@ class EntityBuilder {
 Entity parse_yaml(const std::shared_ptr<const SourceFile>& file) {
   const auto size = static_cast<std::uint32_t>(file->text().size());
   std::vector<Diagnostic> errors;
-  const YamlNode document = read_yaml(LocatedText(file->text(), {file, 0, size}), errors);
+  YamlNode document = read_yaml(LocatedText(file->text(), {file, 0, size}), errors);
   if (document.is_null()) {
     throw LaunchError("the file is empty", {file, 0, 0}, "a launch file begins with 'launch:'");
   }

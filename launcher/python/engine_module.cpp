@@ -61,6 +61,11 @@ std::string perform(const py::object& value, const std::optional<py::dict>& conf
   return guarded([&] { return host().perform(text, variables); });
 }
 
+void visit(const py::object& entities) {
+  const std::vector<Entity> read = read_entities(entities);
+  guarded([&] { host().visit(read); });
+}
+
 Host::Variables& variables(bool environment) {
   return environment ? host().environment() : host().configurations();
 }
@@ -110,6 +115,9 @@ PYBIND11_EMBEDDED_MODULE(_launch_engine, module) {
   module.def("message", [](const std::string& level, const std::string& logger, const std::string& text) {
     host().message(level, logger, text);
   });
+  module.def("visit", launch::python::visit);
+  module.def("run_coroutine",
+             [](py::object object) { host().run_coroutine(launch::python::make_object(std::move(object))); });
   module.def("push", [](bool environment) { host().push(environment); });
   module.def("pop", [](bool environment) { host().pop(environment); });
 }

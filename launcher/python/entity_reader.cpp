@@ -12,11 +12,18 @@ namespace {
 class PythonObject : public Object {
  public:
   explicit PythonObject(py::object object) : object_(std::move(object)) {}
+  PythonObject(const PythonObject&) = delete;
+  PythonObject& operator=(const PythonObject&) = delete;
+  ~PythonObject() override {
+    const py::gil_scoped_acquire lock;
+    object_ = py::object();
+  }
 
   std::string perform(Host& host) override {
     return run_python(host, [&] { return object_.attr("_perform")().cast<std::string>(); });
   }
   std::string describe() override {
+    const py::gil_scoped_acquire lock;
     try {
       return object_.attr("describe")().cast<std::string>();
     } catch (const std::exception&) {
@@ -25,6 +32,9 @@ class PythonObject : public Object {
   }
   std::vector<Entity> execute(Host& host) override {
     return run_python(host, [&] { return read_entities(object_.attr("_execute")()); });
+  }
+  void start(Host& host) override {
+    run_python(host, [&] { object_.attr("_start")(); });
   }
 
  private:
@@ -98,6 +108,10 @@ Entity read_entity(const py::tuple& tuple) {
 }
 
 }  // namespace
+
+ObjectPtr make_object(py::object object) {
+  return std::make_shared<PythonObject>(std::move(object));
+}
 
 std::vector<Entity> read_entities(const py::handle& entities) {
   std::vector<Entity> result;

@@ -12,6 +12,9 @@ namespace launch::python {
 // A list of (tag, place, attributes, children, object, process name), as launch/_entities.py gives them.
 std::vector<Entity> read_entities(const pybind11::handle& entities);
 
+// For what the launch will ask Python about later.
+ObjectPtr make_object(pybind11::object object);
+
 // Text: a str, a substitution, or a tuple of them, which is pasted together.
 Text read_text(const pybind11::handle& value);
 

@@ -2,8 +2,10 @@
 // launching without Python costs and needs no Python.
 #include <dlfcn.h>
 #include <pybind11/embed.h>
+#include <pybind11/stl.h>
 
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -30,6 +32,7 @@ void start_interpreter() {
   if (PyStatus_Exception(status)) {
     throw std::runtime_error(status.err_msg != nullptr ? status.err_msg : "Python can't be initialised");
   }
+  PyEval_SaveThread();  // threads that Python starts run while the launcher waits
 }
 
 // The folder `python` beside this library, with the packages that launch files import.
@@ -71,6 +74,7 @@ class CPython : public launch::python::Runtime {
  public:
   std::string evaluate(const std::string& expression, const std::string& modules) override {
     start();
+    const py::gil_scoped_acquire lock;
     try {
       return ::evaluate(expression, modules);
     } catch (py::error_already_set& error) {
@@ -91,6 +95,18 @@ class CPython : public launch::python::Runtime {
       }
       return launch::python::read_entities(py::module_::import("launch._load").attr("load")(path, text));
     });
+  }
+
+  launch::python::Pause step_coroutines(launch::python::Host& host) override {
+    return launch::python::run_python(host, [] {
+      const auto state = py::module_::import("launch._coroutines").attr("step")().cast<py::tuple>();
+      return launch::python::Pause{state[0].cast<std::size_t>(), state[1].cast<int>(),
+                                   state[2].cast<std::optional<double>>()};
+    });
+  }
+
+  void cancel_coroutines(launch::python::Host& host) override {
+    launch::python::run_python(host, [] { py::module_::import("launch._coroutines").attr("cancel")(); });
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -82,6 +83,10 @@ class Host {
   // visit and when nothing is kept.
   virtual void push(bool environment) = 0;
   virtual void pop(bool environment) = 0;
+  // Visits actions now.
+  virtual void visit(const std::vector<Entity>& entities) = 0;
+  // Has the object, a coroutine, started once the traversal is carried out.
+  virtual void run_coroutine(ObjectPtr object) = 0;
 };
 
 // A Python object that the launch asks for something. Throws Error.
@@ -93,6 +98,15 @@ class Object {
   virtual std::string describe() = 0;
   // What an action asks for in its place.
   virtual std::vector<Entity> execute(Host& host) = 0;
+  // Starts the coroutine that the object is.
+  virtual void start(Host& host) = 0;
+};
+
+// The coroutines after a step.
+struct Pause {
+  std::size_t running = 0;        // how many have not ended
+  int descriptor = -1;            // readable: a step has something to do
+  std::optional<double> seconds;  // until a step has something to do by itself
 };
 
 // A Python launch file or a Python object failed. what() is one line.
@@ -118,6 +132,10 @@ class Runtime {
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.
   virtual std::vector<Entity> load(const std::string& path, const std::string& text, Host& host) = 0;
+  // Runs the coroutines until all of them wait. Throws Error: what one of them has thrown.
+  virtual Pause step_coroutines(Host& host) = 0;
+  // Asks all of them to end, which takes further steps.
+  virtual void cancel_coroutines(Host& host) = 0;
 };
 
 // What the module exports. Never null; lives as long as the program. Starts nothing: the first call of the runtime

@@ -92,7 +92,7 @@ std::string find_exec(const SubstitutionCall& call) {
   const std::string name = call.text(0);
   std::string path = PackageIndex::find_on_path(name, call.scope().environment);
   if (path.empty()) {
-    call.fail(fmt::format("executable '{}' not found on the PATH", name), {});
+    call.fail(fmt::format("executable '{}' not found on the PATH", name), "install it, or extend the PATH");
   }
   return path;
 }

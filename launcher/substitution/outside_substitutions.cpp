@@ -52,7 +52,8 @@ std::string command(const SubstitutionCall& call) {
   }
   const std::string said = output.error.empty() ? std::string() : fmt::format("it wrote: {}", last_line(output.error));
   if (output.status != 0) {
-    call.fail(fmt::format("executing command '{}' failed: {}", line, describe_status(output.status)), said);
+    call.fail(fmt::format("executing command '{}' failed: {}", line, describe_status(output.status)),
+              said.empty() ? "it wrote nothing to standard error" : said);
   }
   if (!output.error.empty() && on_stderr == "fail") {
     call.fail(fmt::format("executing command '{}' failed: it wrote to standard error", line),
@@ -77,8 +78,9 @@ std::string eval(const SubstitutionCall& call) {
         help = fmt::format("Python writes booleans True and False; compare the text: \"$(var x)\" == \"{}\"", word);
       }
     }
-    call.fail(fmt::format("failed to evaluate the Python expression '{}': {}", expression, error.what()),
-              std::move(help));
+    call.fail(
+        fmt::format("failed to evaluate the Python expression '{}': {}", expression, error.what()),
+        help.empty() ? "substitutions are pasted in as text: put quotes around what is to be a text" : std::move(help));
   }
 }
 
@@ -87,7 +89,10 @@ std::string file_content(const SubstitutionCall& call) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
   if (!file || !(content << file.rdbuf())) {
-    call.fail(fmt::format("file not found: '{}'", path), {});
+    call.fail(fmt::format("file not found: '{}'", path),
+              path.starts_with('/')
+                  ? ""
+                  : "a relative path is relative to the launcher's working directory; use $(dirname)/…");
   }
   return std::move(content).str();
 }

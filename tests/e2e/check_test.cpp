@@ -1,6 +1,5 @@
 // What can be said of launch files without running them: check, print, graph, schema, dry runs as scripts, completion.
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <nlohmann/json.hpp>
 
@@ -253,24 +252,28 @@ TEST_F(WithoutRunning, GraphHasNodesFilesNamespacesAndRemaps) {
                 path +
                 "\" -> \"process 0\" [color=gray];\n"
                 "}\n");
-  const CommandResult no_dot =
-      run_command(Command{{LAUNCH_PROGRAM, "graph", "--format", "svg", path}, {{"PATH", "/nowhere"}}});
-  EXPECT_EQ(no_dot.exit_code, 1);
-  EXPECT_EQ(no_dot.err,
-            "error: the graph can't be drawn: Graphviz's dot can't be run\n"
-            "      = help: install the package graphviz, or take the DOT output\n");
 }
 
-// A fake of Graphviz's dot, which stands in for the real one.
-TEST_F(WithoutRunning, GraphIsDrawnByDot) {
-  const std::string path = file("a.launch.xml", "<launch/>\n");
-  const std::string dot = file("dot", "#!/bin/sh\necho \"<svg>$1 $(grep -c digraph \"$2\")</svg>\"\n");
-  std::filesystem::permissions(dot, std::filesystem::perms::owner_all);
-  const std::string search = sandbox_.directory().string() + ":" + ::getenv("PATH");
-  const CommandResult result = run_command(
-      {{LAUNCH_PROGRAM, "graph", "--format", "svg", "-o", "a.svg", path}, {{"PATH", search}}, sandbox_.directory()});
+TEST_F(WithoutRunning, GraphIsAPictureToo) {
+  const std::string inner = file("inner.launch.xml",
+                                 "<launch><node pkg=\"demo_nodes\" exec=\"talker\" name=\"mouth\" namespace=\"head\">"
+                                 "<remap from=\"chatter\" to=\"/a&lt;b\"/></node></launch>\n");
+  const std::string path = file("a.launch.xml",
+                                "<launch><executable cmd=\"sleep 1\"/><include file=\"$(dirname)/inner.launch.xml\"/>"
+                                "<node_container pkg=\"rclcpp_components\" exec=\"component_container\" name=\"c\" "
+                                "namespace=\"\"><composable_node pkg=\"p\" plugin=\"p::A\" name=\"part\"/>"
+                                "</node_container></launch>\n");
+  const CommandResult result = launch({"graph", "--format", "svg", "-o", "a.svg", path});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(read_file(sandbox_.directory() / "a.svg"), "<svg>-Tsvg 1</svg>\n");
+  EXPECT_EQ(result.out, "");
+  const std::string picture = read_file(sandbox_.directory() / "a.svg");
+  for (const char* const text :
+       {">a.launch.xml<", ">inner.launch.xml<", ">/head<", ">/head/mouth<", ">demo_nodes talker<", ">/a&lt;b<",
+        ">chatter<", ">sleep<", ">/c<", ">/part<", ">p::A in /c<", "class=\"loads\"", "class=\"remaps\""}) {
+    EXPECT_THAT(picture, HasSubstr(text));
+  }
+  const CommandResult valid = run_command(Command{{"xmllint", "--noout", "a.svg"}, {}, sandbox_.directory()});
+  EXPECT_EQ(valid.exit_code, 0) << valid.err;
 }
 
 TEST_F(WithoutRunning, SchemasAcceptTheExamplesAndRefuseErrors) {
@@ -317,6 +320,12 @@ TEST_F(WithoutRunning, CompletionKnowsCommandsPackagesFilesAndArguments) {
   EXPECT_EQ(launch({"complete", "launch_examples", "01_ping_pong.launch.xml", ""}).out, "count:=\nperiod_ms:=\n");
   EXPECT_EQ(launch({"complete", "check", "launch_examples", "01_ping_pong.launch.xml", "c"}).out, "count:=\n");
   EXPECT_EQ(launch({"complete", "trace", "re"}).out, "record_snapshot\nresume\n");
+  EXPECT_EQ(launch({"complete", "trace", "start", "x", "--subbuffer-size"}).out,
+            "--subbuffer-size-kernel\n--subbuffer-size-ust\n");
+  EXPECT_EQ(launch({"complete", "trace", "stop", "--f"}).out, "--fail-on-loss\n");
+  EXPECT_EQ(launch({"complete", "trace", "start", "x", "-u", "ros2:rcl_i", "ros2:rcl_n"}).out, "ros2:rcl_node_init\n");
+  EXPECT_EQ(launch({"complete", "trace", "-c", "vt"}).out, "vtid\n");
+  EXPECT_EQ(launch({"complete", "trace", "stop", ""}).out, "") << "no session daemon is started to ask it";
   EXPECT_EQ(launch({"complete", "no_such_package", ""}).out, "");
   const std::string path =
       file("a.launch.xml",

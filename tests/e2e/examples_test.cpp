@@ -86,6 +86,12 @@ INSTANTIATE_TEST_SUITE_P(
             Example{"21_trace_channels", {}, {"trace is complete: no events lost"}},
             Example{"22_lost_events", {}, {"trace is incomplete: ", "lost in ust channel ros2"}},
             Example{"23_dual_session", {}, {"/dual/snapshot"}},
+            Example{"26_trace_action",
+                    {},
+                    {"answered after", "process[ping-2] was required", "trace is complete: no events lost"}},
+            Example{"27_late_start",
+                    {},
+                    {"I heard: [Hello World: ", "writing tracing session to: ", ", 2 processes, none lost)"}},
             Example{"29_deadline", {}, {"snapshot written to: ", "(a message was taken after more than 0.01 ms)"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });

@@ -81,10 +81,14 @@ TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) 
   std::size_t exited = 0;
   const long application = number_in(lines, {"ros2:rcl_init"}, "vtid", fired);
   ASSERT_GT(application, 0);
-  const std::string tid = "tid = " + std::to_string(application) + " }";
+  const std::string tid = "vtid = " + std::to_string(application) + " }";
   // sched_process_exec, then the application's own event, then its exit_group, each with its thread.
-  EXPECT_EQ(number_in(lines, {"sched_process_exec: ", tid, "traced_app"}, "tid", exec), application);
-  EXPECT_EQ(number_in(lines, {"syscall_entry_exit_group: ", tid}, "tid", exited), application);
+  EXPECT_EQ(number_in(lines, {"sched_process_exec: ", tid, "traced_app"}, "vtid", exec), application);
+  EXPECT_EQ(
+      number_in(lines,
+                {"syscall_entry_exit_group: ", tid, "procname = \"traced_app\", vpid = " + std::to_string(application)},
+                "vtid", exited),
+      application);
   EXPECT_LT(exec, fired);
   EXPECT_LT(fired, exited);
   std::size_t switched = 0;
@@ -108,6 +112,80 @@ TEST_F(KernelTrace, UnknownEventsAreAnErrorAtTheTraceAndLeaveNothing) {
             "");
 }
 
+TEST_F(KernelTrace, ContextFieldsThatTracefsDoesNotTellAreAnErrorAtTheTrace) {
+  const CommandResult result = launch("<trace session-name=\"" + session_ +
+                                      "\" events-kernel=\"sched_switch\" context-fields-kernel=\"tid nice\"/>");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err,
+              HasSubstr(":2:2: error: tracing setup failed: context field 'nice' of kernel events cannot be "
+                        "recorded without LTTng's kernel modules\n"));
+  EXPECT_THAT(result.err, HasSubstr("= help: give context-fields-kernel some of procname, pid, tid, vpid and vtid; or "
+                                    "install lttng-modules-dkms"));
+}
+
+TEST_F(KernelTrace, SeveralTracesRecordEachItsOwnEvents) {
+  const CommandResult result = launch(
+      "<trace session-name=\"" + session_ + "a\" events-kernel=\"sched_process_exec\"/>" + "<trace session-name=\"" +
+      session_ + "b\" events-kernel=\"sched_process_exit\" context-fields-kernel=\"pid tid\"/>" +
+      "<executable cmd=\"true\"/>");
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  std::size_t found = 0;
+  const auto first = lines_of(sandbox_.trace_directory() / (session_ + "a"));
+  const auto second = lines_of(sandbox_.trace_directory() / (session_ + "b"));
+  EXPECT_GT(number_in(first, {"sched_process_exec: ", "/true\"", "procname = \"true\""}, "vpid", found), 0);
+  EXPECT_EQ(number_in(first, {"sched_process_exit: "}, "vpid", found), -1);
+  EXPECT_GT(number_in(second, {"sched_process_exit: ", "comm = \"true\""}, "pid", found), 0);
+  EXPECT_EQ(number_in(second, {"sched_process_exec: "}, "pid", found), -1);
+}
+
+TEST_F(KernelTrace, WhatHappensDuringAPauseIsNotRecorded) {
+  const auto trace = [this](const std::string& verb, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> argv = {LAUNCH_PROGRAM, "trace", verb, session_};
+    argv.insert(argv.end(), more.begin(), more.end());
+    const CommandResult result = run_command(argv);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  const auto run_as = [this](const std::string& name) {
+    const fs::path copy = sandbox_.directory() / name;
+    fs::copy_file("/bin/true", copy);
+    run_command({copy.string()});
+  };
+  const auto recorded = [this](const std::string& name) {
+    std::size_t found = 0;
+    return number_in(lines_of(sandbox_.trace_directory() / session_), {"sched_process_exec: ", "/" + name + "\""},
+                     "vpid", found) > 0;
+  };
+  trace("start", {"-k", "sched_process_exec"});
+  run_as("before");
+  trace("pause");
+  EXPECT_TRUE(recorded("before")) << "what is recorded can be read in a pause";
+  run_as("meanwhile");
+  trace("resume");
+  run_as("after");
+  trace("stop");
+  EXPECT_TRUE(recorded("before"));
+  EXPECT_FALSE(recorded("meanwhile"));
+  EXPECT_TRUE(recorded("after"));
+}
+
+TEST_F(KernelTrace, WhoIsNotRootIsToldWhatToDo) {
+  const fs::path path = sandbox_.directory() / "system.launch.xml";
+  write_file(path, "<launch>\n<trace session-name=\"run\" events-kernel=\"sched_switch\"/>\n</launch>\n");
+  fs::permissions(sandbox_.directory(), fs::perms::all);
+  for (const auto& entry : fs::directory_iterator(sandbox_.directory())) fs::permissions(entry.path(), fs::perms::all);
+  const CommandResult result =
+      run_command({"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", LAUNCH_PROGRAM, path.string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(
+      result.err,
+      path.string() +
+          R"(:2:2: error: tracing setup failed: kernel events cannot be recorded: root's session daemon alone records them, and this user has none
+    2 | <trace session-name="run" events-kernel="sched_switch"/>
+      |  ^~~~~
+      = help: run as root; or let root start lttng-sessiond, join the group `tracing` (sudo usermod -aG tracing USER), and log in again
+)");
+}
+
 TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
   for (const std::string format : {"xml", "yaml"}) {
     const CommandResult result = run_command({LAUNCH_PROGRAM, EXAMPLES_DIRECTORY "/24_kernel.launch." + format});
@@ -123,7 +201,8 @@ TEST_F(KernelTrace, RecordsFromACommandUntilAnotherStopsIt) {
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   std::size_t found = 0;
   EXPECT_GT(
-      number_in(lines_of(sandbox_.trace_directory() / session_), {"sched_process_exec: ", "/true\""}, "tid", found), 0);
+      number_in(lines_of(sandbox_.trace_directory() / session_), {"sched_process_exec: ", "/true\""}, "vtid", found),
+      0);
 }
 
 }  // namespace

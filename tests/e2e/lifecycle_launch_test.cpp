@@ -98,6 +98,48 @@ TEST_F(LifecycleLaunch, AProcessStartsOnceTheGraphShowsWhatItNeeds) {
   EXPECT_LT(result.out.find("Publishing: 'Hello World: 1'"), result.out.find("heard"));
 }
 
+TEST_F(LifecycleLaunch, APythonFileLeadsANodeFromStateToState) {
+  const auto path = sandbox_.directory() / "system.launch.py";
+  write_file(path, R"py(
+from launch import LaunchDescription
+from launch.actions import EmitEvent, LogInfo, RegisterEventHandler, Shutdown, UnregisterEventHandler
+from launch.events import matches_action
+from launch_ros.actions import LifecycleNode
+from launch_ros.event_handlers import OnStateTransition
+from launch_ros.events.lifecycle import ChangeState
+from lifecycle_msgs.msg import Transition
+
+
+def generate_launch_description():
+    talker = LifecycleNode(package='lifecycle', executable='lifecycle_talker', name='talker', namespace='/left')
+
+    def change(transition):
+        return EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_action(talker), transition_id=transition))
+
+    def tell(event, context):
+        return LogInfo(msg=f'{event.action is talker}: {event.start_state} to {event.goal_state}')
+
+    every = OnStateTransition(target_lifecycle_node=talker, entities=tell)
+    return LaunchDescription([
+        RegisterEventHandler(every),
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=talker, goal_state='inactive',
+            entities=[UnregisterEventHandler(every), change(Transition.TRANSITION_ACTIVATE)])),
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=talker, start_state='activating', goal_state='active',
+            entities=[LogInfo(msg='it is active'), Shutdown(reason='done')])),
+        talker,
+        change(Transition.TRANSITION_CONFIGURE),
+    ])
+)py");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, path.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("True: unconfigured to configuring"));
+  EXPECT_THAT(result.out, HasSubstr("True: configuring to inactive"));
+  EXPECT_THAT(result.out, Not(HasSubstr("inactive to activating")));
+  EXPECT_THAT(result.out, HasSubstr("it is active"));
+}
+
 TEST_F(LifecycleLaunch, WhatNeverComesEndsTheLaunchAfterItsTime) {
   const std::string file =
       write(R"xml(<executable cmd="true"><depends_on service="/nobody/answers" timeout="0.5"/></executable>)xml");

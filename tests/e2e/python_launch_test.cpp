@@ -1,5 +1,6 @@
 // Python launch files, with real processes and real traces.
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include <set>
 
@@ -55,6 +56,28 @@ class PythonLaunch : public testing::Test {
 
   Sandbox sandbox_;
 };
+
+TEST_F(PythonLaunch, TheTraceActionRecordsTheRun) {
+  const CommandResult result = launch({EXAMPLES_DIRECTORY "/26_trace_action.launch.py"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+  const Found found = trace_of("trace_action-");
+  EXPECT_THAT(found.events, testing::IsSupersetOf({"ros2:rcl_init", "ros2:rcl_node_init", "lttng_ust_libc:malloc"}));
+  EXPECT_THAT(found.processes, testing::IsSupersetOf({"ping", "pong"}));
+}
+
+TEST_F(PythonLaunch, DomainsOfContextFieldsMustBeKnown) {
+  const std::string file = write("bad.launch.py", R"(from launch import LaunchDescription
+from tracetools_launch.action import Trace
+
+
+def generate_launch_description():
+    return LaunchDescription([Trace(session_name='run', context_fields={'kernel': [], 'user': ['vpid']})])
+)");
+  const CommandResult result = launch({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("context_fields has a domain 'user': there are userspace and kernel"));
+}
 
 TEST_F(PythonLaunch, IncludesXmlWhichIncludesYamlAndEachRecordsATrace) {
   const CommandResult result =
@@ -210,6 +233,96 @@ TEST_F(PythonLaunch, ArgumentsAreShownAndChecked) {
       launch({"--dry-run", "--strict-args", EXAMPLES_DIRECTORY "/13_python.launch.py", "pair:=2"});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'pairs'?"));
+}
+
+TEST_F(PythonLaunch, CoroutinesRunBesideTheProcesses) {
+  const CommandResult result = launch({write("coroutine.launch.py", R"py(
+import asyncio
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, LogInfo, OpaqueCoroutine, RegisterEventHandler
+from launch.event_handlers import OnProcessIO
+from launch.events import Shutdown
+from launch.logging import get_logger
+
+
+def generate_launch_description():
+    heard = {'event': asyncio.Event()}
+
+    async def watch(context, name, end=False):
+        log = get_logger('coroutine')
+        log.info(f'{name} {context.launch_configurations["x"]} begins')
+        await heard['event'].wait()
+        process = await asyncio.create_subprocess_exec('echo', 'from a child', stdout=asyncio.subprocess.PIPE)
+        text = (await process.communicate())[0].decode().strip()
+        number = await asyncio.get_running_loop().run_in_executor(None, lambda: 6 * 7)
+        log.info(f'{text}, {number}')
+        if end:
+            await context.emit_event(Shutdown(reason='all is heard'))
+
+    def on_line(event):
+        heard['event'].set()
+
+    from launch.actions import SetLaunchConfiguration
+    return LaunchDescription([
+        SetLaunchConfiguration('x', 'here'),
+        ExecuteProcess(cmd=['sh', '-c', 'sleep 0.2; echo ready; exec sleep 1000'], name='worker'),
+        RegisterEventHandler(OnProcessIO(on_stdout=on_line)),
+        OpaqueCoroutine(coroutine=watch, args=['it'], kwargs={'end': True}),
+        LogInfo(msg='visited'),
+    ])
+)py")});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_LT(result.out.find("visited"), result.out.find("[coroutine]: it here begins"));
+  EXPECT_LT(result.out.find("it here begins"), result.out.find("[coroutine]: from a child, 42"));
+}
+
+TEST_F(PythonLaunch, ACoroutineThatFailsEndsTheSystemAtItsLine) {
+  const std::string file = write("fails.launch.py", R"py(
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, OpaqueCoroutine
+
+
+async def work():
+    raise ValueError('no map')
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        ExecuteProcess(cmd=['sleep', '1000']),
+        OpaqueCoroutine(coroutine=work, ignore_context=True),
+    ])
+)py");
+  const CommandResult result = launch({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, file +
+                            ":7:5: error: ValueError: no map\n"
+                            "    7 |     raise ValueError('no map')\n"
+                            "      |     ^~~~~~~~~~~~~~~~~~~~~~~~~~\n");
+}
+
+TEST_F(PythonLaunch, AShutdownCancelsCoroutines) {
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, write("waits.launch.py", R"py(
+import asyncio
+from launch import LaunchDescription
+from launch.actions import OpaqueCoroutine
+
+
+async def work(context):
+    try:
+        print('waiting')
+        await asyncio.Event().wait()
+    finally:
+        print('cancelled')
+
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueCoroutine(coroutine=work)])
+)py")}});
+  ASSERT_TRUE(run.wait_for_output("waiting"));
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("cancelled"));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ class Recorder : public tracing::TraceSink {
     recorded.timestamp = event.timestamp_ns;
     recorded.vpid = event.vpid.value_or(0);
     recorded.vtid = event.vtid.value_or(0);
+    recorded.cpu_id = event.cpu_id.value_or(0);
     recorded.procname = event.procname.value_or("");
     for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) {
       const std::string& name = event.event_class->fields[i];

@@ -14,6 +14,7 @@ struct RecordedEvent {
   std::int64_t timestamp = 0;
   std::int64_t vpid = 0;
   std::int64_t vtid = 0;
+  std::int64_t cpu_id = 0;
   std::string procname;
   std::map<std::string, std::uint64_t> numbers;  // pointers, sizes, times, booleans
   std::map<std::string, std::string> texts;

@@ -2,6 +2,8 @@
 // wrong.
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -92,6 +94,33 @@ TEST_F(TraceControl, WhatTheLauncherDoesIsInTheTraceWithTheLineThatAskedForIt) {
   EXPECT_THAT(lines.back(), AllOf(HasSubstr("launch:exit"), HasSubstr("exit_code = -2")));
 }
 
+TEST_F(TraceControl, WhatAProcessWaitsForIsRecordedWhenItIsThere) {
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run"/>
+<executable name="server" cmd="echo up"/>
+<executable name="client" cmd="true">
+  <depends_on process="server" condition="output" pattern="up"/>
+</executable>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const std::vector<std::string> lines = events(sandbox_.trace_directory() / "run", "launch:");
+  const auto index = [&lines](const std::string& event, const std::string& process) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].find(" launch:" + event + ": {") != std::string::npos &&
+          lines[i].find("process = \"" + process + "\"") != std::string::npos) {
+        return i;
+      }
+    }
+    return lines.size();
+  };
+  const std::size_t ready = index("ready", "client");
+  ASSERT_LT(ready, lines.size());
+  EXPECT_THAT(lines[ready], HasSubstr(R"(condition = "\'server\' has written a line that matches \'up\'", file = ")" +
+                                      file + "\", line = 5 }"))
+      << "babeltrace2 escapes the quotes";
+  EXPECT_LT(index("exec", "server-1"), ready);
+  EXPECT_LT(ready, index("spawn", "client"));
+}
+
 TEST_F(TraceControl, LaunchEventsCanBeLeftOut) {
   const std::string file = write("system.launch.xml", R"xml(<trace session-name="run" launch-events="false"/>
 <executable cmd="sh -c ')xml" TRACED_APP R"xml( 3 10 &lt;/dev/null'"/>)xml");
@@ -149,6 +178,30 @@ TEST_F(TraceControl, TheLastEventBeforeEachOfTwentyCrashesIsInASnapshot) {
     }
   }
   EXPECT_THAT(seen, SizeIs(kCrashes));
+}
+
+// LTTng-UST gives a stopped daemon three seconds, three times, before main().
+TEST_F(TraceControl, AStoppedDaemonDoesNotHoldUpProcessesThatStartLater) {
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run"/>
+<executable name="first" cmd="sleep 1000"/>
+<on_process_exit process="first">
+  <executable name="second" output="screen" cmd=")xml" TRACED_APP R"xml( 3 10"/>
+</on_process_exit>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  const std::string started = "[first-1]: process started with pid [";
+  ASSERT_TRUE(run.wait_for_output(started)) << run.out() << run.err();
+  const pid_t first = std::stoi(run.out().substr(run.out().find(started) + started.size()));
+  const pid_t daemon =
+      std::stoi(read_file(geteuid() == 0 ? "/run/lttng/lttng-sessiond.pid"
+                                         : std::string(getenv("LTTNG_HOME")) + "/.lttng/lttng-sessiond.pid"));
+  kill(daemon, SIGSTOP);
+  ASSERT_EQ(waitpid(daemon, nullptr, WUNTRACED), daemon);
+  kill(first, SIGKILL);
+  ASSERT_TRUE(run.wait_for_output("process started with pid [")) << "the second";
+  EXPECT_TRUE(run.wait_for_output("fired", std::chrono::seconds(3))) << run.out();
+  kill(daemon, SIGCONT);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
 }
 
 TEST_F(TraceControl, NoMoreSnapshotsAreKeptThanAskedFor) {

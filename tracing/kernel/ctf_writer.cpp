@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -141,12 +142,30 @@ TraceClock clock_beside(const fs::path& directory) {
           .offset = (real.tv_sec - monotonic.tv_sec) * std::int64_t{1'000'000'000} + real.tv_nsec - monotonic.tv_nsec};
 }
 
-CtfWriter::CtfWriter(fs::path directory, const std::vector<EventFormat>& formats)
-    : directory_(std::move(directory)), uuid_(random_uuid()) {
+CtfWriter::CtfWriter(fs::path directory, const std::vector<EventFormat>& formats,
+                     const std::vector<std::string>& context_fields, ThreadTable& threads)
+    : directory_(std::move(directory)), context_fields_(context_fields), threads_(threads), uuid_(random_uuid()) {
+  const auto given = [this](const char* field) {
+    return std::find(context_fields_.begin(), context_fields_.end(), field) != context_fields_.end();
+  };
+  if (!given("tid") && !given("vtid")) context_fields_.emplace_back("tid");
   for (const EventFormat& format : formats) formats_.emplace(format.id, format);
 }
 
-void CtfWriter::append_record(std::string& packet, std::uint64_t time, std::span<const std::uint8_t> record) {
+void CtfWriter::append_context(std::string& packet, unsigned cpu, std::uint64_t time, std::int32_t thread) const {
+  Thread who = threads_.find(thread, time);
+  if (thread == 0) who = {.process = 0, .name = fmt::format("swapper/{}", cpu)};  // the idle thread of each processor
+  for (const std::string& field : context_fields_) {
+    if (field == "procname") {
+      packet.append(who.name.c_str(), who.name.size() + 1);
+    } else {
+      append(packet, field.ends_with("pid") ? who.process : thread);
+    }
+  }
+}
+
+void CtfWriter::append_record(std::string& packet, unsigned cpu, std::uint64_t time,
+                              std::span<const std::uint8_t> record) {
   std::uint16_t id = 0;
   std::int32_t thread = 0;
   if (record.size() < kPidOffset + sizeof thread) return;
@@ -156,15 +175,16 @@ void CtfWriter::append_record(std::string& packet, std::uint64_t time, std::span
   if (format == formats_.end()) return;
   append(packet, id);
   append(packet, time);
-  append(packet, thread);
+  append_context(packet, cpu, time, thread);
   for (const EventField& field : format->second.fields) append_field(packet, field, record);
   ++events_;
 }
 
 void CtfWriter::write_page(unsigned cpu, std::span<const std::uint8_t> page) {
   std::string events;
-  const RingPage read = read_ring_page(
-      page, [&](std::uint64_t time, std::span<const std::uint8_t> record) { append_record(events, time, record); });
+  const RingPage read = read_ring_page(page, [&](std::uint64_t time, std::span<const std::uint8_t> record) {
+    append_record(events, cpu, time, record);
+  });
   Stream& stream = streams_[cpu];
   stream.discarded += read.lost_records;
   lost_events_ += read.lost_records;
@@ -196,6 +216,11 @@ void CtfWriter::write_metadata(const TraceClock& clock) const {
     events +=
         fmt::format("event {{\n\tname = \"{}\";\n\tid = {};\n\tstream_id = 0;\n\tfields := struct {{\n{}\t}};\n}};\n\n",
                     format.name, id, fields);
+  }
+  std::string context;
+  for (const std::string& field : context_fields_) {
+    context += field == "procname" ? "\t\tstring _procname;\n"
+                                   : fmt::format("\t\tinteger {{ size = 32; align = 8; signed = 1; }} _{};\n", field);
   }
   write(directory_ / "metadata",
         fmt::format(R"(/* CTF 1.8 */
@@ -250,13 +275,12 @@ stream {{
 		clock_t timestamp;
 	}};
 	event.context := struct {{
-		integer {{ size = 32; align = 8; signed = 1; }} _tid;
-	}};
+{context}	}};
 }};
 
 {events})",
                     fmt::arg("uuid", as_text(uuid_)), fmt::arg("host", host_name()), fmt::arg("clock", clock.uuid),
-                    fmt::arg("offset", clock.offset), fmt::arg("events", events)),
+                    fmt::arg("offset", clock.offset), fmt::arg("context", context), fmt::arg("events", events)),
         std::ios::trunc);
 }
 

@@ -8,10 +8,12 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "tracing/kernel/event_format.hpp"
+#include "tracing/kernel/thread_table.hpp"
 
 namespace tracing::kernel {
 
@@ -25,10 +27,15 @@ struct TraceClock {
 // stamps; one of our own when there is none.
 TraceClock clock_beside(const std::filesystem::path& directory);
 
+// The context fields that can be told; vpid and vtid are those of the first namespace of processes.
+inline constexpr std::array<std::string_view, 5> kContextFields = {"procname", "pid", "tid", "vpid", "vtid"};
+
 class CtfWriter {
  public:
-  // The directory must exist. Throws std::system_error when a file can't be written.
-  CtfWriter(std::filesystem::path directory, const std::vector<EventFormat>& formats);
+  // The directory must exist. `context_fields` of every event: some of kContextFields, and always the thread. Throws
+  // std::system_error when a file can't be written.
+  CtfWriter(std::filesystem::path directory, const std::vector<EventFormat>& formats,
+            const std::vector<std::string>& context_fields, ThreadTable& threads);
 
   // One page of a processor's ring buffer becomes one packet. Pages of a processor come in their order.
   void write_page(unsigned cpu, std::span<const std::uint8_t> page);
@@ -44,10 +51,13 @@ class CtfWriter {
     std::uint64_t discarded = 0;
   };
 
-  void append_record(std::string& packet, std::uint64_t time, std::span<const std::uint8_t> record);
+  void append_context(std::string& packet, unsigned cpu, std::uint64_t time, std::int32_t thread) const;
+  void append_record(std::string& packet, unsigned cpu, std::uint64_t time, std::span<const std::uint8_t> record);
 
   std::filesystem::path directory_;
   std::unordered_map<std::uint16_t, EventFormat> formats_;
+  std::vector<std::string> context_fields_;
+  ThreadTable& threads_;
   std::array<std::uint8_t, 16> uuid_{};
   std::map<unsigned, Stream> streams_;
   std::uint64_t events_ = 0;

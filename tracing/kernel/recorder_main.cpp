@@ -1,9 +1,10 @@
-// launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME]…
+// launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME | context FIELD]…
 //
-// Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. Says "ready" once it
-// records, or "error: …" and "hint: …", and closes its output. While it runs DIRECTORY/../kernel-recorder.pid holds its
-// number; at the end kernel-recorder.json there says what it has recorded and lost. (Readers of CTF take every file of
-// DIRECTORY for a stream.)
+// Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. SIGUSR1 pauses it, with
+// everything written, SIGUSR2 lets it go on. Says "ready" once it records, or "error: …" and "hint: …", and closes its
+// output. While it runs DIRECTORY/../kernel-recorder.pid holds its number and what it does, "recording" or "paused": a
+// new file takes its place when that has changed. At the end kernel-recorder.json there says what it has recorded and
+// lost. (Readers of CTF take every file of DIRECTORY for a stream.)
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -22,6 +23,8 @@
 #include <vector>
 
 #include "tracing/kernel/ctf_writer.hpp"
+#include "tracing/kernel/ring_page.hpp"
+#include "tracing/kernel/thread_table.hpp"
 #include "tracing/kernel/tracefs.hpp"
 
 namespace {
@@ -51,10 +54,10 @@ struct RingBuffer {
 };
 
 // Blocked from the beginning, read from a descriptor.
-int termination_signals() {
+int control_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2}) sigaddset(&signals, signal);
   sigprocmask(SIG_BLOCK, &signals, nullptr);
   return signalfd(-1, &signals, SFD_CLOEXEC);
 }
@@ -69,14 +72,26 @@ std::vector<RingBuffer> open_buffers(const TracefsInstance& instance) {
   return buffers;
 }
 
-void drain(const RingBuffer& buffer, CtfWriter& writer) {
+// Everything that is there, of all processors: what threads are is learnt from all of it before any is written.
+void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTable& threads) {
   static std::array<std::uint8_t, kLargestPage> page;
-  for (ssize_t length; (length = read(buffer.file.get(), page.data(), page.size())) > 0;) {
-    writer.write_page(buffer.cpu, {page.data(), static_cast<std::size_t>(length)});
+  std::vector<std::pair<unsigned, std::vector<std::uint8_t>>> pages;
+  for (const RingBuffer& buffer : buffers) {
+    for (ssize_t length; (length = read(buffer.file.get(), page.data(), page.size())) > 0;) {
+      pages.emplace_back(buffer.cpu, std::vector<std::uint8_t>(page.begin(), page.begin() + length));
+    }
   }
+  for (const auto& [cpu, bytes] : pages) {
+    read_ring_page(bytes,
+                   [&](std::uint64_t time, std::span<const std::uint8_t> record) { threads.learn(time, record); });
+  }
+  for (const auto& [cpu, bytes] : pages) writer.write_page(cpu, bytes);
+  threads.forget_the_past();
 }
 
-void enable(TracefsInstance& instance, int argc, char** argv) {
+// Returns the context fields.
+std::vector<std::string> enable(TracefsInstance& instance, int argc, char** argv) {
+  std::vector<std::string> context_fields;
   for (int i = 3; i < argc;) {
     const std::string kind = argv[i];
     if (kind == "event" && i + 2 < argc) {
@@ -85,10 +100,14 @@ void enable(TracefsInstance& instance, int argc, char** argv) {
     } else if (kind == "syscall" && i + 1 < argc) {
       instance.enable_syscall(argv[i + 1]);
       i += 2;
+    } else if (kind == "context" && i + 1 < argc) {
+      context_fields.emplace_back(argv[i + 1]);
+      i += 2;
     } else {
       throw KernelTraceError("launch-kernel-recorder: bad arguments");
     }
   }
+  return context_fields;
 }
 
 void say(const std::string& text) {
@@ -99,26 +118,59 @@ void say(const std::string& text) {
   dup2(null.get(), STDOUT_FILENO);
 }
 
-void record(TracefsInstance& instance, const fs::path& directory, int signals) {
+// Whoever waits for a change watches the directory.
+void tell_state(const fs::path& beside, const char* state) {
+  const fs::path next = beside / "kernel-recorder.next";
+  std::ofstream(next) << getpid() << " " << state << "\n";
+  fs::rename(next, beside / "kernel-recorder.pid");
+}
+
+int next_signal(int signals) {
+  signalfd_siginfo signal{};
+  return read(signals, &signal, sizeof signal) == sizeof signal ? static_cast<int>(signal.ssi_signo) : SIGTERM;
+}
+
+void record(TracefsInstance& instance, const fs::path& directory, const std::vector<std::string>& context_fields,
+            int signals) {
   fs::create_directories(directory);
   const fs::path beside = directory.parent_path();
-  CtfWriter writer(directory, instance.formats());
+  ThreadTable threads(instance.watch_event("task/task_newtask"), instance.watch_event("task/task_rename"));
+  CtfWriter writer(directory, instance.formats(), context_fields, threads);
   const std::vector<RingBuffer> buffers = open_buffers(instance);
   std::vector<pollfd> watched = {{signals, POLLIN, 0}};
   for (const RingBuffer& buffer : buffers) watched.push_back({buffer.file.get(), POLLIN, 0});
-  std::ofstream(beside / "kernel-recorder.pid") << getpid() << "\n";
   instance.start();
+  tell_state(beside, "recording");
   say("ready\n");
 
-  while ((watched[0].revents & POLLIN) == 0) {
-    if (poll(watched.data(), watched.size(), -1) < 0 && errno != EINTR) break;
-    for (std::size_t i = 0; i < buffers.size(); ++i) {
-      if (watched[i + 1].revents != 0) drain(buffers[i], writer);
+  const auto stop_and_write = [&] {
+    instance.stop();
+    drain(buffers, writer, threads);
+    writer.write_metadata(clock_beside(beside / "ust"));
+  };
+  for (bool ended = false; !ended;) {
+    if (poll(watched.data(), watched.size(), -1) < 0) {
+      if (errno == EINTR) continue;
+      break;
+    }
+    if ((watched[0].revents & POLLIN) == 0) {
+      drain(buffers, writer, threads);
+      continue;
+    }
+    switch (next_signal(signals)) {
+      case SIGUSR1:
+        stop_and_write();
+        tell_state(beside, "paused");
+        break;
+      case SIGUSR2:
+        instance.start();
+        tell_state(beside, "recording");
+        break;
+      default:
+        ended = true;
     }
   }
-  instance.stop();
-  for (const RingBuffer& buffer : buffers) drain(buffer, writer);
-  writer.write_metadata(clock_beside(beside / "ust"));
+  stop_and_write();
   std::ofstream(beside / "kernel-recorder.json")
       << fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n", writer.events(), writer.lost_events(),
                      writer.bytes());
@@ -129,11 +181,11 @@ void record(TracefsInstance& instance, const fs::path& directory, int signals) {
 
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
-  const int signals = termination_signals();
+  const int signals = control_signals();
   try {
     TracefsInstance instance(argv[1]);
-    enable(instance, argc, argv);
-    record(instance, argv[2], signals);
+    const std::vector<std::string> context_fields = enable(instance, argc, argv);
+    record(instance, argv[2], context_fields, signals);
     return 0;
   } catch (const KernelTraceError& error) {
     say(fmt::format("error: {}\n{}", error.what(),

@@ -136,6 +136,11 @@ void TracefsInstance::enable(const fs::path& event, const std::string& filter) {
   enabled_.push_back(event);
 }
 
+EventFormat TracefsInstance::watch_event(const std::string& path) {
+  write(fs::path("events") / path / "enable", "1");
+  return parse_event_format(read_file(directory_ / "events" / path / "format"));
+}
+
 std::vector<EventFormat> TracefsInstance::formats() const {
   std::vector<EventFormat> formats;
   for (const fs::path& event : enabled_) formats.push_back(parse_event_format(read_file(event / "format")));

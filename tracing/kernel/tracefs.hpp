@@ -35,6 +35,8 @@ class TracefsInstance {
   void enable_event(const std::string& pattern, const std::string& filter);
   // A system call: its entry and its exit.
   void enable_syscall(const std::string& name);
+  // One event more, "task/task_newtask", which formats() does not name unless it is asked for by name, too.
+  EventFormat watch_event(const std::string& path);
   // What has been enabled, each once.
   std::vector<EventFormat> formats() const;
 

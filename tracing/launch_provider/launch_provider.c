@@ -15,6 +15,9 @@ __attribute__((visibility("default"))) void launch_trace_fire(const struct launc
     case LAUNCH_TRACE_VISIT:
       lttng_ust_tracepoint(launch, visit, e->time, e->duration, e->name, e->file, e->line);
       break;
+    case LAUNCH_TRACE_READY:
+      lttng_ust_tracepoint(launch, ready, e->time, e->name, e->what, e->file, e->line);
+      break;
     case LAUNCH_TRACE_SPAWN:
       lttng_ust_tracepoint(launch, spawn, e->time, e->name, e->file, e->line);
       break;

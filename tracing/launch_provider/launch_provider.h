@@ -12,6 +12,7 @@ enum launch_trace_kind {
   LAUNCH_TRACE_LOAD,
   LAUNCH_TRACE_INCLUDE,
   LAUNCH_TRACE_VISIT,
+  LAUNCH_TRACE_READY,
   LAUNCH_TRACE_SPAWN,
   LAUNCH_TRACE_EXEC,
   LAUNCH_TRACE_EXIT,
@@ -24,6 +25,7 @@ struct launch_trace_event {
   int64_t time;     /* CLOCK_MONOTONIC, ns */
   int64_t duration; /* ns */
   const char* name; /* a path or a process label */
+  const char* what; /* a condition */
   const char* file;
   uint32_t line;
   int32_t pid;

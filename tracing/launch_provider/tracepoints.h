@@ -45,6 +45,14 @@ LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, visit,
                                     LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
                                                       file, uint32_t, line))
 
+// What a process waits for is there: its `depends_on` of this line holds.
+LTTNG_UST_TRACEPOINT_EVENT(
+    launch, ready,
+    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, condition, const char*, file, uint32_t, line),
+    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
+                            lttng_ust_field_string(condition, condition) lttng_ust_field_string(file, file)
+                                lttng_ust_field_integer(uint32_t, line, line)))
+
 // A process is about to be started; its label is known once it runs.
 LTTNG_UST_TRACEPOINT_EVENT(
     launch, spawn, LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, file, uint32_t, line),

@@ -81,6 +81,7 @@ void enable_channel(const std::string& lttng_session_name, const ChannelPlan& pl
                                                                                  &lttng_channel_destroy);
   if (!channel) throw lttng_error(LTTNG_ERR_NOMEM, "create a channel");
   plan.channel.copy(channel->name, sizeof channel->name - 1);
+  channel->enabled = 1;
   channel->attr.overwrite = plan.overwrite ? 1 : 0;
   channel->attr.subbuf_size = plan.subbuffer_size;
   channel->attr.num_subbuf = plan.subbuffer_count;

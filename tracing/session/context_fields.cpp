@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string_view>
 #include <vector>
 
+#include "tracing/session/nearest_name.hpp"
 #include "tracing/session/perf_counters.hpp"
 #include "tracing/session/tracer.hpp"
 
@@ -73,32 +73,8 @@ std::string_view events_of(lttng_domain_type domain) {
   return domain == LTTNG_DOMAIN_KERNEL ? "kernel events" : "userspace events";
 }
 
-// Levenshtein's distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 std::string suggestion(std::string_view name, lttng_domain_type domain) {
-  std::string_view nearest;
-  std::size_t distance = name.size() / 3 + 2;  // farther away is no typing error
-  for (const KnownField& field : kKnownFields) {
-    if (!exists_in(field.available, domain)) continue;
-    if (const std::size_t d = edit_distance(name, field.name); d < distance) {
-      distance = d;
-      nearest = field.name;
-    }
-  }
+  const std::string nearest = nearest_name(name, context_field_names(domain));
   return nearest.empty() ? "lttng-add-context(1) lists the context fields" : fmt::format("did you mean `{}`?", nearest);
 }
 

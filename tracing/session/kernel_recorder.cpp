@@ -5,15 +5,19 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/inotify.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 
 namespace tracing {
 namespace {
@@ -27,11 +31,14 @@ constexpr int kLongestEnd = 30'000;  // ms
 std::vector<std::string> arguments_of(const fs::path& program, const std::string& session, const fs::path& recording,
                                       const std::vector<ChannelPlan>& plans) {
   std::vector<std::string> arguments = {program.string(), "launch-" + session, (recording / kFolder).string()};
+  std::set<std::string> fields;  // of all channels: they go into one
   for (const ChannelPlan& plan : plans) {
     if (plan.domain != LTTNG_DOMAIN_KERNEL) continue;
     for (const EventRule& rule : plan.events) arguments.insert(arguments.end(), {"event", rule.pattern, rule.filter});
     for (const std::string& name : plan.syscalls) arguments.insert(arguments.end(), {"syscall", name});
+    for (const std::string& field : plan.context_fields) fields.insert(field);
   }
+  for (const std::string& field : fields) arguments.insert(arguments.end(), {"context", field});
   return arguments;
 }
 
@@ -77,7 +84,61 @@ std::string line_after(const std::string& text, const std::string& key) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
+constexpr std::array<std::string_view, 5> kFields = {"procname", "pid", "tid", "vpid", "vtid"};  // ctf_writer.hpp
+
+struct Recorder {
+  pid_t pid = 0;  // 0: none
+  std::string state;
+};
+
+Recorder recorder_of(const fs::path& recording) {
+  Recorder recorder;
+  std::ifstream(recording / "kernel-recorder.pid") >> recorder.pid >> recorder.state;
+  return recorder;
+}
+
+// Sends the signal and waits until the recorder says that it is in that state.
+void bring_to(const std::string& state, int signal, const fs::path& recording) {
+  const Recorder recorder = recorder_of(recording);
+  if (recorder.pid <= 0 || recorder.state == state) return;
+  const int changes = inotify_init1(IN_CLOEXEC);
+  inotify_add_watch(changes, recording.c_str(), IN_MOVED_TO);
+  kill(recorder.pid, signal);
+  pollfd change{changes, POLLIN, 0};
+  while (recorder_of(recording).state != state) {
+    const int ready = poll(&change, 1, kLongestEnd);
+    std::array<char, 4096> event{};
+    if (ready > 0 && read(changes, event.data(), event.size()) > 0) continue;
+    if (ready < 0 && errno == EINTR) continue;
+    close(changes);
+    throw TraceError(fmt::format("the kernel recorder (process {}) does not answer", recorder.pid),
+                     "kernel events go on as they were");
+  }
+  close(changes);
+}
+
 }  // namespace
+
+void check_kernel_recorder_fields(const std::vector<ChannelPlan>& plans) {
+  for (const ChannelPlan& plan : plans) {
+    for (const std::string& field : plan.context_fields) {
+      if (plan.domain != LTTNG_DOMAIN_KERNEL || std::find(kFields.begin(), kFields.end(), field) != kFields.end()) {
+        continue;
+      }
+      throw TraceError(
+          fmt::format("context field '{}' of kernel events cannot be recorded without LTTng's kernel modules", field),
+          "give context-fields-kernel some of procname, pid, tid, vpid and vtid; or install lttng-modules-dkms");
+    }
+  }
+}
+
+void pause_kernel_recorder(const fs::path& recording) {
+  bring_to("paused", SIGUSR1, recording);
+}
+
+void resume_kernel_recorder(const fs::path& recording) {
+  bring_to("recording", SIGUSR2, recording);
+}
 
 void start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
                            const std::vector<ChannelPlan>& plans) {
@@ -90,8 +151,8 @@ void start_kernel_recorder(const fs::path& program, const std::string& session, 
 }
 
 std::optional<ChannelLoss> finish_kernel_recorder(const fs::path& recording) {
-  pid_t pid = 0;
-  if (!(std::ifstream(recording / "kernel-recorder.pid") >> pid) || pid <= 0) return std::nullopt;
+  const pid_t pid = recorder_of(recording).pid;
+  if (pid <= 0) return std::nullopt;
   const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
   if (pidfd >= 0) {
     kill(pid, SIGTERM);

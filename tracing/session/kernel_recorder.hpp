@@ -18,6 +18,15 @@ inline constexpr const char* kKernelRecorder = "launch-kernel-recorder";
 void start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
                            const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans);
 
+// What keeps these kernel channels from being recorded this way: a context field that tracefs does not tell. Throws
+// TraceError.
+void check_kernel_recorder_fields(const std::vector<ChannelPlan>& plans);
+
+// Let the recorder of `recording` rest, with everything written, and go on. Nothing happens when none runs there. Throw
+// TraceError when it does not answer within seconds.
+void pause_kernel_recorder(const std::filesystem::path& recording);
+void resume_kernel_recorder(const std::filesystem::path& recording);
+
 // Ends the recorder of `recording`, waits until everything is written, and returns what it has recorded and lost.
 // Nothing when none runs there.
 std::optional<ChannelLoss> finish_kernel_recorder(const std::filesystem::path& recording);

@@ -16,6 +16,7 @@
 #include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/installed_program.hpp"
+#include "tracing/session/kernel_checks.hpp"
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
@@ -28,6 +29,7 @@
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/tracer.hpp"
+#include "tracing/session/unreachable_processes.hpp"
 #include "tracing/session/verdict.hpp"
 
 namespace tracing {
@@ -207,6 +209,7 @@ class LttngTracer : public Tracer {
   std::vector<SessionSummary> sessions() override { return list_sessions(); }
   SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
   TraceableEvents traceable_events() override { return list_traceable_events(); }
+  std::vector<std::string> unreachable_processes() override { return unreachable_process_warnings(); }
   void save(const std::string& lttng_session_name, const std::string& directory) override {
     save_session(lttng_session_name, directory);
   }
@@ -229,24 +232,28 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
   std::string why;
   try {
     check_kernel_tracer();
-    return {};
   } catch (const TraceError& error) {
     // Snapshots and relay daemons are LTTng's own.
     if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.records_snapshots() || config.over_network())
       throw;
     why = error.what();
   }
+  if (why.empty()) {
+    check_kernel_names(channels, kernel_event_names(), syscall_names());
+    check_kernel_context_fields(channels, kernel_modules_version());
+    return {};
+  }
   std::vector<ChannelPlan> kernel;
   for (const ChannelPlan& channel : channels) {
     if (channel.domain == LTTNG_DOMAIN_KERNEL) kernel.push_back(channel);
   }
+  check_kernel_recorder_fields(kernel);
   std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
   if (channels.empty()) {
     throw TraceError("kernel events are recorded through tracefs, and only beside userspace events",
                      "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
   }
-  warnings.push_back(
-      fmt::format("{}; they are recorded through tracefs instead, with the thread as only context", why));
+  warnings.push_back(fmt::format("{}; they are recorded through tracefs instead", why));
   return kernel;
 }
 
@@ -333,10 +340,12 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
 void LttngTracer::pause(const std::string& name) {
   // Waits for the data: whoever pauses wants to look at the trace.
   check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
+  if (const auto session = find_session(name)) pause_kernel_recorder(session->path);
 }
 
 void LttngTracer::resume(const std::string& name) {
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
+  if (const auto session = find_session(name)) resume_kernel_recorder(session->path);
 }
 
 void LttngTracer::record_snapshot(const std::string& name) {

@@ -190,8 +190,17 @@ void check_daemon_is_here(const std::string& pid_file) {
   check_not_stopped(pid, process);
 }
 
+std::string session_daemon_directory() {
+  return std::filesystem::path(pid_file_of_daemon()).parent_path().string();
+}
+
 pid_t session_daemon_pid() {
   return read_pid(pid_file_of_daemon());
+}
+
+bool session_daemon_can_answer() {
+  const pid_t pid = session_daemon_pid();
+  return pid == 0 || read_process_stat(pid).state != 'T';
 }
 
 void check_daemon_not_stopped() {

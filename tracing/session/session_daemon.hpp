@@ -25,8 +25,14 @@ bool ensure_session_daemon();
 // file is no objection.
 void check_daemon_is_here(const std::string& pid_file);
 
+// Where programs find the daemon that serves this user.
+std::string session_daemon_directory();
+
 // The process of the daemon that serves this user; 0 when its pid file can't be read.
 pid_t session_daemon_pid();
+
+// False when it is known to be stopped. A program that starts would wait for it.
+bool session_daemon_can_answer();
 
 // Throws when the daemon is stopped: it would block every call for ever.
 void check_daemon_not_stopped();

@@ -13,10 +13,10 @@
 
 #include "tracing/session/channels.hpp"
 #include "tracing/session/context_fields.hpp"
+#include "tracing/session/kernel_checks.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
-#include "tracing/session/setup_checks.hpp"
 
 namespace tracing {
 namespace {
@@ -104,10 +104,13 @@ std::vector<SessionSummary> list_sessions() {
   const std::unique_ptr<lttng_session, Free> sessions(listed);
   std::vector<SessionSummary> summaries;
   for (int i = 0; i < count; ++i) {
+    std::uint64_t created = 0;
+    lttng_session_get_creation_time(&listed[i], &created);
     summaries.push_back({.name = listed[i].name,
                          .path = listed[i].path,
                          .active = listed[i].enabled != 0,
-                         .snapshot = listed[i].snapshot_mode != 0});
+                         .snapshot = listed[i].snapshot_mode != 0,
+                         .created = static_cast<std::int64_t>(created)});
   }
   return summaries;
 }
@@ -137,15 +140,8 @@ TraceableEvents list_traceable_events() {
   events.userspace = userspace_events();
   try {
     check_kernel_tracer();
-    lttng_event* listed = nullptr;
-    const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_KERNEL);
-    const int count = check_lttng(lttng_list_tracepoints(handle.get(), &listed), "list the kernel events");
-    const std::unique_ptr<lttng_event, Free> tracepoints(listed);
-    for (int i = 0; i < count; ++i) events.kernel.emplace_back(listed[i].name);
-    std::sort(events.kernel.begin(), events.kernel.end());
-    lttng_event* calls = nullptr;
-    events.syscalls = static_cast<std::size_t>(check_lttng(lttng_list_syscalls(&calls), "list the system calls"));
-    std::free(calls);
+    events.kernel = kernel_event_names();
+    events.syscalls = syscall_names().size();
   } catch (const TraceError& error) {
     events.why_no_kernel = error.what();
     events.kernel_remedy = error.remedy();

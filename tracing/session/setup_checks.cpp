@@ -7,12 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
 
-#include "tracing/session/channels.hpp"
 #include "tracing/session/perf_counters.hpp"
 #include "tracing/session/tracer.hpp"
 
@@ -89,17 +87,6 @@ std::uint64_t free_shared_memory() {
         "mount a tmpfs there that all users can write to; containers have one unless it was taken away");
   }
   return std::uint64_t{usage.f_bavail} * usage.f_frsize;
-}
-
-void check_kernel_tracer() {
-  const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_KERNEL);
-  lttng_event* tracepoints = nullptr;
-  const int count = lttng_list_tracepoints(handle.get(), &tracepoints);
-  std::free(tracepoints);
-  if (count >= 0) return;
-  throw TraceError(fmt::format("kernel events cannot be recorded: {}", lttng_strerror(count)),
-                   "install the kernel tracer (sudo apt-get install lttng-modules-dkms) and run as root or as a member "
-                   "of the group `tracing`; or trace without events-kernel and syscalls");
 }
 
 std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust) {

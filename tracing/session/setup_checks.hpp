@@ -18,9 +18,6 @@ void check_writable(const std::string& base_path);
 // Bytes that the buffers of userspace channels can take: the free space of /dev/shm. Throws when it can't be written.
 std::uint64_t free_shared_memory();
 
-// Events of the kernel can be recorded: its modules are there and this user may use them. Needs a session daemon.
-void check_kernel_tracer();
-
 // One for each thread counter that cannot be counted here: LTTng would record no event at all then, without an error.
 std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust);
 

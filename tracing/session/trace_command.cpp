@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -68,7 +69,8 @@ void print_session(const TraceOptions& options) {
 // A dual session's runtime half starts where the snapshot of its initialisation events was taken.
 void start(const TraceOptions& options, Tracer& tracer) {
   if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
-  const SetupReport report = tracer.start(options.config);
+  SetupReport report = tracer.start(options.config);
+  for (std::string& warning : tracer.unreachable_processes()) report.warnings.push_back(std::move(warning));
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!report.notes.empty()) fmt::print(stderr, "note: {}\n", report.notes);
 }
@@ -128,6 +130,14 @@ void print_calibration(const std::vector<std::string>& context_fields) {
              cost.lttng, event_cost_file().string());
 }
 
+// A session that existed before a launch is not the launch's.
+bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tracer) {
+  const std::vector<SessionSummary> sessions = tracer.sessions();
+  return std::any_of(sessions.begin(), sessions.end(), [&](const SessionSummary& session) {
+    return session.name == session_name && session.created < seconds;
+  });
+}
+
 void run_verb(const TraceOptions& options, Tracer& tracer) {
   const std::string session_name = options.config.lttng_session_name();
   switch (options.verb) {
@@ -144,9 +154,13 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
       return tracer.resume(session_name);
     case TraceVerb::kStop: {
-      EnterOrSignal signals;
       std::optional<EventCounterDirectory> counters;
       if (!options.config.event_counters.empty()) counters.emplace(options.config.event_counters);
+      if (options.created_since && is_older(session_name, *options.created_since, tracer)) {
+        print_line(fmt::format("trace session '{}' is left as it is: it is older", session_name));
+        return;
+      }
+      EnterOrSignal signals;
       return finish(options.config, tracer, [&signals] { return signals.take_signal(); });
     }
     case TraceVerb::kList:

@@ -167,6 +167,9 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   add_fail_on_loss(*stop, options);
   // Of a launcher that was killed, which tells its guardian this command; removed afterwards.
   stop->add_option("--event-counters", options.config.event_counters)->group("");
+  stop->add_option("--created-since", options.created_since,
+                   "leave the session as it is when it was created before (seconds since 1970)")
+      ->option_text("TIME");
   const std::map<CLI::App*, TraceVerb> verbs = {
       {start, TraceVerb::kStart},
       {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},
@@ -191,7 +194,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
     command.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
     const auto chosen = command.get_subcommands();
-    return ParserMessage{0, chosen.empty() ? command.help() : chosen.front()->help()};
+    return ParserMessage{0, chosen.empty() ? command.help() : chosen.front()->help("launch trace")};
   } catch (const CLI::ParseError& error) {
     return ParserMessage{kUsageError, error.what()};
   }

@@ -1,6 +1,8 @@
 // The command line of `launch trace`, parsed.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,7 +31,8 @@ struct TraceOptions {
   TraceConfig config;         // of the verbs without session options only the name is filled in; status: empty for all
   bool list_names = false;    // -l
   bool dual_session = false;  // -d
-  std::string directory;      // of the file that save writes and load reads; empty: LTTng's own
+  std::optional<std::int64_t> created_since;  // stop: leave a session alone that is older, seconds since the epoch
+  std::string directory;                      // of the file that save writes and load reads; empty: LTTng's own
 };
 
 // What the parser wants printed in place of running something: help on stdout (exit code 0), or an error on stderr (2).

@@ -119,6 +119,7 @@ struct SessionSummary {
   std::string path;  // of the trace; empty for a snapshot session
   bool active = false;
   bool snapshot = false;
+  std::int64_t created = 0;  // seconds since the epoch
 };
 
 struct ChannelDetails {
@@ -174,6 +175,8 @@ class Tracer {
   virtual std::vector<SessionSummary> sessions() = 0;
   virtual SessionDetails status(const std::string& lttng_session_name) = 0;
   virtual TraceableEvents traceable_events() = 0;
+  // Warnings of running programs that no session can record (unreachable_processes.hpp).
+  virtual std::vector<std::string> unreachable_processes() = 0;
   // Writes the session's configuration, not what it recorded, as SESSION.lttng into the directory; and creates the
   // session again from there, recording if it was. An empty directory is LTTng's own for the user.
   virtual void save(const std::string& lttng_session_name, const std::string& directory) = 0;

@@ -13,6 +13,7 @@
 #include "rmw/validate_namespace.h"
 #include "rmw/validate_node_name.h"
 #include "tracetools/tracetools.h"
+#include "type_cache.hpp"
 
 struct rcl_node_impl_s {
   rcl_node_options_t options = rcl_node_get_default_options();
@@ -21,6 +22,7 @@ struct rcl_node_impl_s {
   std::string fully_qualified_name;
   std::string logger_name;
   bool has_rosout = false;
+  rcl::TypeCache type_cache;
 };
 
 namespace {
@@ -214,6 +216,10 @@ rcl_ret_t rcl_node_get_domain_id(const rcl_node_t* node, size_t* domain_id) {
 
 rmw_node_t* rcl_node_get_rmw_handle(const rcl_node_t* node) {
   return rcl_node_is_valid_except_context(node) ? node->impl->rmw_handle : nullptr;
+}
+
+rcl::TypeCache* rcl::type_cache_of(const rcl_node_t* node) {
+  return rcl_node_is_valid_except_context(node) ? &node->impl->type_cache : nullptr;
 }
 
 uint64_t rcl_node_get_rcl_instance_id(const rcl_node_t* node) {

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "rcl/error_handling.h"
+#include "rcl/node_type_cache.h"
 #include "rmw/rmw.h"
+#include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
 struct rcl_publisher_impl_s {
@@ -11,6 +13,7 @@ struct rcl_publisher_impl_s {
   rmw_qos_profile_t actual_qos;
   rcl_context_t* context;
   rmw_publisher_t* rmw_handle;
+  const rosidl_type_description_t* type;
 };
 
 rcl_publisher_t rcl_get_zero_initialized_publisher(void) {
@@ -52,7 +55,9 @@ rcl_ret_t rcl_publisher_init(rcl_publisher_t* publisher, const rcl_node_t* node,
     return result;
   }
   actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  publisher->impl = new rcl_publisher_impl_s{*options, actual_qos, node->context, handle};
+  const rosidl_type_description_t* type = rmw_message_type_description(type_support);
+  (void)rcl_node_type_cache_register_type(node, type);
+  publisher->impl = new rcl_publisher_impl_s{*options, actual_qos, node->context, handle, type};
   TRACETOOLS_TRACEPOINT(rcl_publisher_init, static_cast<const void*>(publisher), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -66,6 +71,7 @@ rcl_ret_t rcl_publisher_fini(rcl_publisher_t* publisher, rcl_node_t* node) {
   rmw_ret_t result = RMW_RET_OK;
   if (publisher->impl != nullptr) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_publisher_fini, static_cast<const void*>(publisher));
+    (void)rcl_node_type_cache_unregister_type(node, publisher->impl->type);
     result = rmw_destroy_publisher(rcl_node_get_rmw_handle(node), publisher->impl->rmw_handle);
     delete publisher->impl;
     publisher->impl = nullptr;

@@ -1,7 +1,9 @@
 #include "rcl/service.h"
 
 #include "rcl/error_handling.h"
+#include "rcl/node_type_cache.h"
 #include "rmw/rmw.h"
+#include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
 struct rcl_service_impl_s {
@@ -9,6 +11,7 @@ struct rcl_service_impl_s {
   rmw_qos_profile_t request_qos;
   rmw_qos_profile_t response_qos;
   rmw_service_t* rmw_handle;
+  const rosidl_type_description_t* type;
 };
 
 rcl_service_t rcl_get_zero_initialized_service(void) {
@@ -56,7 +59,9 @@ rcl_ret_t rcl_service_init(rcl_service_t* service, const rcl_node_t* node,
   }
   request_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
   response_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  service->impl = new rcl_service_impl_s{*options, request_qos, response_qos, handle};
+  const rosidl_type_description_t* type = rmw_service_type_description(type_support);
+  (void)rcl_node_type_cache_register_type(node, type);
+  service->impl = new rcl_service_impl_s{*options, request_qos, response_qos, handle, type};
   TRACETOOLS_TRACEPOINT(rcl_service_init, static_cast<const void*>(service), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->service_name);
   return RCL_RET_OK;
@@ -70,6 +75,7 @@ rcl_ret_t rcl_service_fini(rcl_service_t* service, rcl_node_t* node) {
   rmw_ret_t result = RMW_RET_OK;
   if (service->impl != nullptr) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_service_fini, static_cast<const void*>(service));
+    (void)rcl_node_type_cache_unregister_type(node, service->impl->type);
     result = rmw_destroy_service(rcl_node_get_rmw_handle(node), service->impl->rmw_handle);
     delete service->impl;
     service->impl = nullptr;

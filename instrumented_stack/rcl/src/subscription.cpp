@@ -4,13 +4,16 @@
 #include <cstring>
 
 #include "rcl/error_handling.h"
+#include "rcl/node_type_cache.h"
 #include "rmw/rmw.h"
+#include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
 struct rcl_subscription_impl_s {
   rcl_subscription_options_t options;
   rmw_qos_profile_t actual_qos;
   rmw_subscription_t* rmw_handle;
+  const rosidl_type_description_t* type;
 };
 
 rcl_subscription_t rcl_get_zero_initialized_subscription(void) {
@@ -54,7 +57,10 @@ rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node
     return result;
   }
   actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  subscription->impl = new rcl_subscription_impl_s{*options, actual_qos, handle};
+  const rosidl_type_description_t* type = rmw_message_type_description(type_support);
+  (void)rcl_node_type_cache_register_type(node, type);
+  subscription->impl = new rcl_subscription_impl_s{*options, actual_qos, handle, type};
+  subscription->impl->options.rmw_subscription_options.content_filter_options = nullptr;  // of the caller
   TRACETOOLS_TRACEPOINT(rcl_subscription_init, static_cast<const void*>(subscription), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -68,6 +74,7 @@ rcl_ret_t rcl_subscription_fini(rcl_subscription_t* subscription, rcl_node_t* no
   rmw_ret_t result = RMW_RET_OK;
   if (subscription->impl != nullptr) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_subscription_fini, static_cast<const void*>(subscription));
+    (void)rcl_node_type_cache_unregister_type(node, subscription->impl->type);
     result = rmw_destroy_subscription(rcl_node_get_rmw_handle(node), subscription->impl->rmw_handle);
     delete subscription->impl;
     subscription->impl = nullptr;
@@ -165,10 +172,6 @@ bool rcl_subscription_is_valid(const rcl_subscription_t* subscription) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(subscription, "the subscription is null", return false);
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(subscription->impl, "the subscription is not initialized", return false);
   return true;
-}
-
-bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription) {
-  return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->is_cft_enabled;
 }
 
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription) {

@@ -4,6 +4,7 @@
 #include "init_named.hpp"
 #include "rcl/error_handling.h"
 #include "rcl/graph.h"
+#include "rcl/node_type_cache.h"
 #include "rcl_action/default_qos.h"
 #include "rcl_action/names.h"
 #include "rmw/qos_profiles.h"
@@ -128,6 +129,8 @@ rcl_ret_t rcl_action_client_init(rcl_action_client_t* action_client, rcl_node_t*
     delete impl;
     return result;
   }
+  impl->type = type_support->description;
+  (void)rcl_node_type_cache_register_type(node, impl->type);
   action_client->impl = impl;
   return RCL_RET_OK;
 }
@@ -140,6 +143,7 @@ rcl_ret_t rcl_action_client_fini(rcl_action_client_t* action_client, rcl_node_t*
   if (action_client->impl == nullptr) {
     return RCL_RET_OK;
   }
+  (void)rcl_node_type_cache_unregister_type(node, action_client->impl->type);
   const rcl_ret_t result = fini_all(*action_client->impl, node);
   delete action_client->impl;
   action_client->impl = nullptr;

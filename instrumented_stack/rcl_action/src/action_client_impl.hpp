@@ -6,10 +6,12 @@
 #include "rcl/client.h"
 #include "rcl/subscription.h"
 #include "rcl_action/action_client.h"
+#include "rosidl_runtime_c/type_description.h"
 
 struct rcl_action_client_impl_s {
   rcl_action_client_options_t options;
   std::string action_name;
+  const rosidl_type_description_t* type = nullptr;
   rcl_client_t goal_client = rcl_get_zero_initialized_client();
   rcl_client_t cancel_client = rcl_get_zero_initialized_client();
   rcl_client_t result_client = rcl_get_zero_initialized_client();

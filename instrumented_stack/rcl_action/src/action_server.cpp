@@ -5,6 +5,7 @@
 #include "action_server_impl.hpp"
 #include "init_named.hpp"
 #include "rcl/error_handling.h"
+#include "rcl/node_type_cache.h"
 #include "rcl_action/default_qos.h"
 #include "rcl_action/names.h"
 #include "rmw/qos_profiles.h"
@@ -142,6 +143,8 @@ rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t*
     delete impl;
     return result;
   }
+  impl->type = type_support->description;
+  (void)rcl_node_type_cache_register_type(node, impl->type);
   action_server->impl = impl;
   return RCL_RET_OK;
 }
@@ -154,6 +157,7 @@ rcl_ret_t rcl_action_server_fini(rcl_action_server_t* action_server, rcl_node_t*
   if (action_server->impl == nullptr) {
     return RCL_RET_OK;
   }
+  (void)rcl_node_type_cache_unregister_type(node, action_server->impl->type);
   const rcl_ret_t result = fini_all(*action_server->impl, node);
   delete action_server->impl;
   action_server->impl = nullptr;

@@ -7,10 +7,12 @@
 #include "rcl/publisher.h"
 #include "rcl/service.h"
 #include "rcl_action/action_server.h"
+#include "rosidl_runtime_c/type_description.h"
 
 struct rcl_action_server_impl_s {
   rcl_action_server_options_t options;
   std::string action_name;
+  const rosidl_type_description_t* type = nullptr;
   rcl_clock_t* clock = nullptr;
   rcl_service_t goal_service = rcl_get_zero_initialized_service();
   rcl_service_t cancel_service = rcl_get_zero_initialized_service();

@@ -129,6 +129,21 @@ rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_
   return set_timer(impl);
 }
 
+rcl_ret_t rcl_action_server_get_time_until_expiry(const rcl_action_server_t* action_server, int64_t* nanoseconds) {
+  if (!rcl_action_server_is_valid(action_server)) {
+    return RCL_RET_ACTION_SERVER_INVALID;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(nanoseconds, RCL_RET_INVALID_ARGUMENT);
+  const rcl_ret_t result = rcl_timer_get_time_until_next_call(&action_server->impl->expire_timer, nanoseconds);
+  if (result == RCL_RET_TIMER_CANCELED) {
+    rcl_reset_error();
+    *nanoseconds = -1;
+    return RCL_RET_OK;
+  }
+  *nanoseconds = std::max<int64_t>(*nanoseconds, 0);
+  return result;
+}
+
 rcl_ret_t rcl_action_process_cancel_request(const rcl_action_server_t* action_server,
                                             const rcl_action_cancel_request_t* request,
                                             rcl_action_cancel_response_t* response) {

@@ -1,5 +1,7 @@
 #include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
 
+#include <tracetools/tracetools.h>
+
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
@@ -152,6 +154,7 @@ void EventsExecutor::execute_event(const ExecutorEvent& event) {
         break;
       case WAITABLE_EVENT:
         if (const auto waitable = find_in(waitables_, event.entity_key)) {
+          TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable, static_cast<const void*>(waitable.get()));
           waitable->execute(waitable->take_data_by_entity_id(static_cast<size_t>(event.waitable_data)));
         }
         break;

@@ -1,6 +1,7 @@
 #include "rclcpp/guard_condition.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -28,9 +29,30 @@ GuardCondition::~GuardCondition() {
 }
 
 void GuardCondition::trigger() {
+  const std::lock_guard lock(trigger_mutex_);
+  if (on_trigger_callback_) {
+    on_trigger_callback_(1);
+    return;
+  }
+  ++unread_count_;
   const rcl_ret_t ret = rcl_trigger_guard_condition(&rcl_guard_condition_);
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "failed to trigger guard condition");
+  }
+}
+
+void GuardCondition::set_on_trigger_callback(std::function<void(size_t)> callback) {
+  const std::lock_guard lock(trigger_mutex_);
+  on_trigger_callback_ = std::move(callback);
+  if (on_trigger_callback_ && unread_count_ > 0) {
+    on_trigger_callback_(std::exchange(unread_count_, 0));
+  }
+}
+
+void GuardCondition::add_to_wait_set(rcl_wait_set_t& wait_set) {
+  const rcl_ret_t ret = rcl_wait_set_add_guard_condition(&wait_set, &rcl_guard_condition_, nullptr);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to add guard condition to wait set");
   }
 }
 

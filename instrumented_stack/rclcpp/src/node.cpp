@@ -18,7 +18,8 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
            const rcl_node_options_t& rcl_options)
     : options_(options),
       node_base_(std::make_shared<node_interfaces::NodeBaseInterface>(node_name, node_namespace, options.context(),
-                                                                      rcl_options, options.use_intra_process_comms())),
+                                                                      rcl_options, options.use_intra_process_comms(),
+                                                                      options.enable_topic_statistics())),
       logger_(rclcpp::get_logger(rcl_node_get_logger_name(node_base_->get_rcl_node_handle()))),
       node_graph_(std::make_shared<node_interfaces::NodeGraphInterface>(node_base_)),
       node_timers_(std::make_shared<node_interfaces::NodeTimersInterface>(node_base_)),

@@ -40,8 +40,11 @@ void throw_if_invalid_namespace(const std::string& node_namespace) {
 }  // namespace
 
 NodeBase::NodeBase(const std::string& node_name, const std::string& node_namespace, Context::SharedPtr context,
-                   const rcl_node_options_t& rcl_node_options, bool use_intra_process_default)
-    : context_(std::move(context)), use_intra_process_default_(use_intra_process_default) {
+                   const rcl_node_options_t& rcl_node_options, bool use_intra_process_default,
+                   bool enable_topic_statistics_default)
+    : context_(std::move(context)),
+      use_intra_process_default_(use_intra_process_default),
+      enable_topic_statistics_default_(enable_topic_statistics_default) {
   const std::shared_ptr<rcl_context_t> rcl_context = context_->get_rcl_context();
   if (!rcl_context) {
     throw std::runtime_error("a node needs an initialized context: call rclcpp::init() first");

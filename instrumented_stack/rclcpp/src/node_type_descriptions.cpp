@@ -1,8 +1,13 @@
 #include "rclcpp/node_interfaces/node_type_descriptions.hpp"
 
+#include <rcl/node_type_cache.h>
+
+#include <map>
+#include <string_view>
 #include <type_description_interfaces/srv/get_type_description.hpp>
 
 #include "rclcpp/create_service.hpp"
+#include "rclcpp/exceptions.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -10,7 +15,91 @@ namespace {
 
 using type_description_interfaces::srv::GetTypeDescription;
 
+using type_description_interfaces::msg::Field;
+using type_description_interfaces::msg::IndividualTypeDescription;
+using type_description_interfaces::msg::TypeSource;
+
 constexpr const char* kParameter = "start_type_description_service";
+
+// By name, which is the order in a TypeDescription.
+using Types = std::map<std::string_view, const rosidl_type_description_t*>;
+
+void add_nested_types(const rosidl_type_description_t& type, Types& types) {
+  for (size_t i = 0; i < type.field_count; ++i) {
+    const rosidl_type_description_t* nested = type.fields[i].nested_type;
+    if (nested != nullptr && types.emplace(nested->type_name, nested).second) {
+      add_nested_types(*nested, types);
+    }
+  }
+}
+
+IndividualTypeDescription to_message(const rosidl_type_description_t& type) {
+  IndividualTypeDescription message;
+  message.type_name = type.type_name;
+  message.fields.reserve(type.field_count);
+  for (size_t i = 0; i < type.field_count; ++i) {
+    const rosidl_field_description_t& field = type.fields[i];
+    Field& added = message.fields.emplace_back();
+    added.name = field.name;
+    added.type.type_id = field.type_id;
+    added.type.capacity = field.capacity;
+    added.type.string_capacity = field.string_capacity;
+    added.type.nested_type_name = field.nested_type != nullptr ? field.nested_type->type_name : "";
+    added.default_value = field.default_value;
+  }
+  return message;
+}
+
+TypeSource source_of(const rosidl_type_description_t& type) {
+  TypeSource message;
+  message.type_name = type.type_name;
+  message.encoding = type.encoding;
+  message.raw_file_contents = type.source;
+  return message;
+}
+
+bool is_type_hash(const std::string& text) {
+  constexpr std::string_view kPrefix = "RIHS01_";
+  return text.size() == kPrefix.size() + 64 && text.compare(0, kPrefix.size(), kPrefix) == 0 &&
+         text.find_first_not_of("0123456789abcdef", kPrefix.size()) == std::string::npos;
+}
+
+void describe(const rosidl_type_description_t& type, const GetTypeDescription::Request& request,
+              GetTypeDescription::Response& response) {
+  Types nested;
+  add_nested_types(type, nested);
+  response.type_description.type_description = to_message(type);
+  for (const auto& [name, nested_type] : nested) {
+    response.type_description.referenced_type_descriptions.push_back(to_message(*nested_type));
+  }
+  if (request.include_type_sources) {
+    response.type_sources.push_back(source_of(type));
+    for (const auto& [name, nested_type] : nested) {
+      response.type_sources.push_back(source_of(*nested_type));
+    }
+  }
+  response.successful = true;
+}
+
+void answer(const rcl_node_t* node, const GetTypeDescription::Request& request,
+            GetTypeDescription::Response& response) {
+  response.successful = false;
+  // The two reasons are those that nodes of ROS 2 give.
+  if (!is_type_hash(request.type_hash)) {
+    response.failure_reason = "Failed to parse type hash";
+    return;
+  }
+  const rosidl_type_description_t* type = nullptr;
+  const rcl_ret_t result = rcl_node_type_cache_get_type_info(node, request.type_hash.c_str(), &type);
+  if (result != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(result, "could not look up a type");
+  }
+  if (type == nullptr) {
+    response.failure_reason = "Type not currently in use by this node";
+    return;
+  }
+  describe(*type, request, response);
+}
 
 }  // namespace
 
@@ -30,9 +119,9 @@ NodeTypeDescriptions::NodeTypeDescriptions(const NodeBaseInterface::SharedPtr& n
   }
   service_ = create_service<GetTypeDescription>(
       node_base, services, "~/get_type_description",
-      [](std::shared_ptr<GetTypeDescription::Request> request, std::shared_ptr<GetTypeDescription::Response> response) {
-        response->successful = false;
-        response->failure_reason = "this node has no description of type '" + request->type_name + "'";
+      [node = node_base->get_shared_rcl_node_handle()](const std::shared_ptr<GetTypeDescription::Request> request,
+                                                       std::shared_ptr<GetTypeDescription::Response> response) {
+        answer(node.get(), *request, *response);
       },
       ServicesQoS(), nullptr);
 }

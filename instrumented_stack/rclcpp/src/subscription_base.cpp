@@ -3,6 +3,7 @@
 #include <rmw/rmw.h>
 #include <tracetools/tracetools.h>
 
+#include <chrono>
 #include <utility>
 
 #include "rclcpp/detail/resolve_use_intra_process.hpp"
@@ -10,8 +11,33 @@
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/experimental/intra_process_manager.hpp"
 #include "rclcpp/logging.hpp"
+#include "rclcpp/topic_statistics/subscription_topic_statistics.hpp"
 
 namespace rclcpp {
+
+namespace {
+
+std::vector<const char*> c_strings(const std::vector<std::string>& strings) {
+  std::vector<const char*> pointers;
+  for (const std::string& string : strings) {
+    pointers.push_back(string.c_str());
+  }
+  return pointers;
+}
+
+void set_filter(const ContentFilterOptions& filter, rcl_subscription_options_t& options) {
+  if (filter.filter_expression.empty()) {
+    return;
+  }
+  const std::vector<const char*> parameters = c_strings(filter.expression_parameters);
+  const rcl_ret_t ret = rcl_subscription_options_set_content_filter_options(
+      filter.filter_expression.c_str(), parameters.size(), parameters.data(), &options);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to set content_filter_options");
+  }
+}
+
+}  // namespace
 
 SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base,
                                    const rosidl_message_type_support_t& type_support, const std::string& topic,
@@ -23,10 +49,12 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
   rcl_options.rmw_subscription_options.ignore_local_publications = options.ignore_local_publications;
   rcl_options.rmw_subscription_options.require_unique_network_flow_endpoints =
       options.require_unique_network_flow_endpoints;
+  set_filter(options.content_filter_options, rcl_options);
 
   auto subscription = std::make_unique<rcl_subscription_t>(rcl_get_zero_initialized_subscription());
   const rcl_ret_t ret =
       rcl_subscription_init(subscription.get(), node_handle.get(), &type_support, topic.c_str(), &rcl_options);
+  (void)rcl_subscription_options_fini(&rcl_options);
   if (ret == RCL_RET_TOPIC_NAME_INVALID) {
     detail::throw_invalid_topic_name(topic);
   }
@@ -107,6 +135,41 @@ bool SubscriptionBase::check_taken(rcl_ret_t ret) const {
   return true;
 }
 
+void SubscriptionBase::set_content_filter(const std::string& filter_expression,
+                                          const std::vector<std::string>& expression_parameters) {
+  if (intra_process_) {
+    rcl_reset_error();
+    RCL_SET_ERROR_MSG("messages of intra-process communication cannot be filtered by content");
+    exceptions::throw_from_rcl_error(RCL_RET_UNSUPPORTED, "failed to set the content filter");
+  }
+  const std::vector<const char*> parameters = c_strings(expression_parameters);
+  auto options = rcl_get_zero_initialized_subscription_content_filter_options();
+  rcl_ret_t ret = rcl_subscription_content_filter_options_init(subscription_handle_.get(), filter_expression.c_str(),
+                                                               parameters.size(), parameters.data(), &options);
+  if (ret == RCL_RET_OK) {
+    ret = rcl_subscription_set_content_filter(subscription_handle_.get(), &options);
+    (void)rcl_subscription_content_filter_options_fini(subscription_handle_.get(), &options);
+  }
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to set the content filter");
+  }
+}
+
+ContentFilterOptions SubscriptionBase::get_content_filter() const {
+  auto options = rcl_get_zero_initialized_subscription_content_filter_options();
+  const rcl_ret_t ret = rcl_subscription_get_content_filter(subscription_handle_.get(), &options);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to get the content filter");
+  }
+  const auto& filter = options.rmw_subscription_content_filter_options;
+  ContentFilterOptions result;
+  result.filter_expression = filter.filter_expression;
+  result.expression_parameters.assign(filter.expression_parameters.data,
+                                      filter.expression_parameters.data + filter.expression_parameters.size);
+  (void)rcl_subscription_content_filter_options_fini(subscription_handle_.get(), &options);
+  return result;
+}
+
 std::vector<NetworkFlowEndpoint> SubscriptionBase::get_network_flow_endpoints() const {
   return detail::network_flow_endpoints(
       [this](rcutils_allocator_t* allocator, rmw_network_flow_endpoint_array_t* array) {
@@ -138,7 +201,7 @@ void SubscriptionBase::execute_loaned() {
     }
   });
   if (!is_delivered_twice(message_info)) {
-    callback().dispatch(message, message_info);
+    dispatch(message, message_info);
   }
 }
 
@@ -162,9 +225,21 @@ void SubscriptionBase::execute() {
     return;
   }
   if (taken && !is_delivered_twice(message_info)) {
-    any_callback.dispatch(message, message_info);
+    dispatch(message, message_info);
   }
   return_message(std::move(message));
+}
+
+void SubscriptionBase::dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
+  if (!statistics_) {
+    callback().dispatch(message, message_info);
+    return;
+  }
+  // The callback's own time is not the message's.
+  const auto now =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
+  callback().dispatch(message, message_info);
+  statistics_->handle_message(message_info.get_rmw_message_info(), Time(now.count(), RCL_SYSTEM_TIME));
 }
 
 std::shared_ptr<void> SubscriptionBase::borrow_message() {
@@ -199,7 +274,8 @@ void SubscriptionBase::trace_callback([[maybe_unused]] const void* subscription,
 
 bool SubscriptionBase::uses_intra_process(const SubscriptionOptionsBase& options,
                                           const node_interfaces::NodeBaseInterface& node_base) const {
-  if (!detail::resolve_use_intra_process(options, node_base)) {
+  if (!detail::resolve_use_intra_process(options, node_base) ||
+      !options.content_filter_options.filter_expression.empty()) {
     return false;
   }
   detail::require_intra_process_qos(get_actual_qos(), get_topic_name());

@@ -2,6 +2,8 @@
 
 #include <rcl_action/wait.h>
 
+#include <chrono>
+#include <type_traits>
 #include <utility>
 
 #include "action_msgs/msg/goal_status_array.hpp"
@@ -48,7 +50,9 @@ ServerBase::ServerBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr nod
     : node_base_(std::move(node_base)),
       clock_(std::move(clock)),
       logger_(logger.get_child("rclcpp_action")),
+      owner_(std::make_shared<Owner>()),
       server_(rcl_action_get_zero_initialized_server()) {
+  owner_->server = this;
   const std::lock_guard clock_lock(clock_->get_clock_mutex());
   const rcl_ret_t ret = rcl_action_server_init(&server_, node_base_->get_rcl_node_handle(), clock_->get_clock_handle(),
                                                type_support, name.c_str(), &options);
@@ -58,6 +62,10 @@ ServerBase::ServerBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr nod
 }
 
 ServerBase::~ServerBase() {
+  {
+    const std::lock_guard lock(owner_->mutex);
+    owner_->server = nullptr;
+  }
   clear_on_ready_callback();
   const std::lock_guard lock(mutex_);
   const std::lock_guard clock_lock(clock_->get_clock_mutex());
@@ -297,6 +305,7 @@ void ServerBase::publish_result(const GoalUUID& uuid, std::shared_ptr<void> resu
   require_ok(rcl_action_goal_handle_set_goal_terminal_timestamp(goal->second.get(), now),
              "could not note when a goal came to its end");
   require_ok(rcl_action_notify_goal_done(&server_), "could not note the end of a goal");
+  set_expiry();
 }
 
 void ServerBase::publish_status() {
@@ -341,6 +350,39 @@ void ServerBase::forget_expired_goals() {
       goals_.erase(uuid);
     }
   } while (count > 0);
+  set_expiry();
+}
+
+std::vector<std::shared_ptr<rclcpp::TimerBase>> ServerBase::get_timers() const {
+  const std::lock_guard lock(mutex_);
+  if (!expiry_) {
+    const auto forget = [owner = owner_] {
+      const std::lock_guard owner_lock(owner->mutex);
+      if (owner->server) {
+        owner->server->forget_expired_goals();
+      }
+    };
+    expiry_ = std::make_shared<rclcpp::GenericTimer<std::decay_t<decltype(forget)>>>(
+        clock_, std::chrono::hours(1), forget, node_base_->get_context(), false);
+    set_expiry();
+  }
+  return {expiry_};
+}
+
+void ServerBase::set_expiry() const {
+  if (!expiry_) {
+    return;
+  }
+  int64_t left = 0;
+  require_ok(rcl_action_server_get_time_until_expiry(&server_, &left), "could not tell when results expire");
+  if (left < 0) {
+    expiry_->cancel();
+    return;
+  }
+  int64_t previous = 0;
+  require_ok(rcl_timer_exchange_period(expiry_->get_timer_handle().get(), left, &previous),
+             "could not set when results expire");
+  expiry_->reset();
 }
 
 void ServerBase::warn(rcl_ret_t ret, const char* what) const {

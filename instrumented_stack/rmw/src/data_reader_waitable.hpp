@@ -16,11 +16,11 @@ namespace rmw_fastrtps {
 // The listener of `reader`, for data_available at least.
 class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, public Waitable {
  public:
-  void on_data_available(eprosima::fastdds::dds::DataReader*) override {
+  void on_data_available(eprosima::fastdds::dds::DataReader* from) override {
     arrivals_.fetch_add(1, std::memory_order_release);
     notify();
     if (on_new_data_.is_set()) {
-      on_new_data_.tell_available(reader->get_unread_count());
+      on_new_data_.tell_available(from->get_unread_count());
     }
   }
 

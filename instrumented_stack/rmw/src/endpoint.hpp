@@ -25,6 +25,9 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options);
 
+// The node whose mutex and graph a subscription uses when its reader changes.
+void set_node(const rmw_subscription_t& subscription, const rmw_node_t& node);
+
 void destroy_publisher(rmw_publisher_t* publisher);
 void destroy_subscription(rmw_subscription_t* subscription);
 

@@ -199,6 +199,7 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
   std::lock_guard lock(impl.mutex);
   rmw_subscription_t* subscription = rmw_fastrtps::create_subscription(*impl.participant, *type_support, topic_name,
                                                                        *qos_policies, *subscription_options);
+  rmw_fastrtps::set_node(*subscription, *node);
   try {
     rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*subscription)});
   } catch (...) {

@@ -1,60 +1,36 @@
 // Subscriptions: a DDS DataReader each.
-#include <fastdds/dds/core/LoanableSequence.hpp>
+#include "subscription.hpp"
+
 #include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/ContentFilteredTopic.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <stdexcept>
 
+#include "content_filter.hpp"
 #include "dds_gid.hpp"
-#include "endpoint.hpp"
 #include "identifier.hpp"
 #include "message_type.hpp"
 #include "network_flow.hpp"
 #include "participant.hpp"
 #include "qos.hpp"
-#include "reader_events.hpp"
 #include "rmw/error_handling.h"
 #include "topic_name.hpp"
 #include "tracetools/tracetools.h"
 
 namespace fdds = eprosima::fastdds::dds;
 
-using rmw_fastrtps::EndpointIdentity;
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
+using rmw_fastrtps::Loan;
 using rmw_fastrtps::Participant;
-using rmw_fastrtps::ReaderEvents;
 using rmw_fastrtps::StatusEvent;
+using rmw_fastrtps::Subscription;
+using rmw_fastrtps::subscription_of;
 using rmw_fastrtps::Waitable;
 
 namespace {
-
-// A sample that stays in the reader until it is returned.
-struct Loan {
-  fdds::LoanableSequence<unsigned char> samples;  // whatever the type: it gets pointers, never elements
-  fdds::SampleInfoSeq infos;
-};
-
-struct Subscription final : ReaderEvents {
-  rmw_subscription_t handle{};
-  std::string topic_name;  // of the handle
-  Participant* participant = nullptr;
-  fdds::Topic* topic = nullptr;
-  EndpointIdentity identity{};
-
-  std::mutex loans_mutex;
-  std::map<const void*, std::unique_ptr<Loan>> loans;
-};
-
-// rmw_wait() takes `data` as a Waitable.
-Subscription& subscription_of(const rmw_subscription_t& handle) {
-  return *static_cast<Subscription*>(static_cast<Waitable*>(handle.data));
-}
 
 void fill(rmw_message_info_t& message_info, const fdds::SampleInfo& sample) {
   message_info.source_timestamp = sample.source_timestamp.to_ns();
@@ -79,6 +55,7 @@ rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, const
                rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
   *taken = false;
+  const std::shared_lock lock(subscription.reader_mutex);
   fdds::SampleInfo sample;
   while (!*taken && subscription.take_next(&incoming, sample)) {
     *taken = is_wanted(handle, sample);
@@ -95,33 +72,60 @@ rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, const
 
 namespace rmw_fastrtps {
 
+namespace {
+
+void release_topics(Subscription& subscription) {
+  if (subscription.filtered_topic != nullptr) {
+    delete_filtered_topic(*subscription.filtered_topic);
+  }
+  subscription.participant->release_topic(*subscription.topic);
+}
+
+}  // namespace
+
+void create_reader(Subscription& subscription) {
+  fdds::TopicDescription* topic = subscription.topic;
+  if (subscription.filtered_topic != nullptr) {
+    topic = subscription.filtered_topic;
+  }
+  subscription.reader = subscription.participant->subscriber().create_datareader(topic, subscription.reader_qos,
+                                                                                 &subscription, ReaderEvents::mask());
+  const std::string& dds_topic = subscription.topic->get_name();
+  if (subscription.reader == nullptr) {
+    throw std::runtime_error("Fast DDS cannot create a reader on topic '" + dds_topic + "'");
+  }
+  subscription.identity = {to_gid(subscription.reader->guid()),
+                           {GraphCache::Kind::kReader, dds_topic, dds_type_name(*subscription.type),
+                            profile_of(subscription.reader->get_qos())}};
+}
+
 rmw_subscription_t* create_subscription(Participant& participant, const rosidl_message_type_support_t& type_support,
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options) {
   const auto& callbacks = callbacks_of(&type_support);
-  fdds::DataReaderQos qos = participant.reader_qos(topic_name, callbacks);
-  apply_profile(profile, qos);
-
   auto subscription = std::make_unique<Subscription>();
+  subscription->reader_qos = participant.reader_qos(topic_name, callbacks);
+  apply_profile(profile, subscription->reader_qos);
   const std::string dds_topic = profile.avoid_ros_namespace_conventions ? topic_name : mangled_topic(topic_name);
   subscription->participant = &participant;
+  subscription->type = &callbacks;
   subscription->topic = &participant.acquire_topic(dds_topic, callbacks);
-  subscription->reader =
-      participant.subscriber().create_datareader(subscription->topic, qos, subscription.get(), ReaderEvents::mask());
-  if (subscription->reader == nullptr) {
-    participant.release_topic(*subscription->topic);
-    throw std::runtime_error("Fast DDS cannot create a reader on topic '" + dds_topic + "'");
+  const ContentFilter filter = to_content_filter(options.content_filter_options);
+  try {
+    if (!filter.expression.empty()) {
+      subscription->filtered_topic = &create_filtered_topic(*subscription->topic, callbacks, filter);
+    }
+    create_reader(*subscription);
+  } catch (...) {
+    release_topics(*subscription);
+    throw;
   }
-  subscription->identity = {
-      to_gid(subscription->reader->guid()),
-      {GraphCache::Kind::kReader, dds_topic, dds_type_name(callbacks), profile_of(subscription->reader->get_qos())}};
   subscription->topic_name = topic_name;
-  subscription->handle = {kIdentifier,
-                          static_cast<Waitable*>(subscription.get()),
-                          subscription->topic_name.c_str(),
-                          options,
-                          is_plain(callbacks),
-                          false};
+  rmw_subscription_options_t kept_options = options;
+  kept_options.content_filter_options = nullptr;  // of the caller
+  subscription->handle = {
+      kIdentifier,         static_cast<Waitable*>(subscription.get()), subscription->topic_name.c_str(), kept_options,
+      is_plain(callbacks), subscription->filtered_topic != nullptr};
   TRACETOOLS_TRACEPOINT(rmw_subscription_init, static_cast<const void*>(&subscription->handle),
                         subscription->identity.gid.data());
   return &subscription.release()->handle;
@@ -135,7 +139,7 @@ void destroy_subscription(rmw_subscription_t* handle) {
   }
   subscription->reader->set_listener(nullptr);
   subscription->participant->subscriber().delete_datareader(subscription->reader);
-  subscription->participant->release_topic(*subscription->topic);
+  release_topics(*subscription);
 }
 
 const EndpointIdentity& identity_of(const rmw_subscription_t& subscription) {
@@ -174,6 +178,7 @@ rmw_ret_t rmw_take_loaned_message_with_info(const rmw_subscription_t* subscripti
   }
   Subscription& owner = subscription_of(*subscription);
   auto loan = std::make_unique<Loan>();
+  const std::shared_lock reader_lock(owner.reader_mutex);
   *taken = false;
   *loaned_message = nullptr;
   while (!*taken && owner.take_next_loan(loan->samples, loan->infos)) {
@@ -197,6 +202,7 @@ rmw_ret_t rmw_return_loaned_message_from_subscription(const rmw_subscription_t* 
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RMW_RET_INVALID_ARGUMENT);
   Subscription& owner = subscription_of(*subscription);
+  const std::shared_lock reader_lock(owner.reader_mutex);
   std::unique_ptr<Loan> loan;
   {
     const std::lock_guard lock(owner.loans_mutex);
@@ -220,8 +226,10 @@ rmw_ret_t rmw_subscription_get_network_flow_endpoints(const rmw_subscription_t* 
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(network_flow_endpoint_array, RMW_RET_INVALID_ARGUMENT);
+  Subscription& owner = subscription_of(*subscription);
+  const std::shared_lock lock(owner.reader_mutex);
   eprosima::fastdds::rtps::LocatorList locators;
-  if (subscription_of(*subscription).reader->get_listening_locators(locators) != ReturnCode_t::RETCODE_OK) {
+  if (owner.reader->get_listening_locators(locators) != ReturnCode_t::RETCODE_OK) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the locators of the reader on topic '%s' cannot be told",
                                          subscription->topic_name);
     return RMW_RET_ERROR;
@@ -258,14 +266,18 @@ rmw_ret_t rmw_subscription_count_matched_publishers(const rmw_subscription_t* su
 rmw_ret_t rmw_subscription_get_actual_qos(const rmw_subscription_t* subscription, rmw_qos_profile_t* qos) {
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos, RMW_RET_INVALID_ARGUMENT);
-  *qos = rmw_fastrtps::profile_of(subscription_of(*subscription).reader->get_qos());
+  Subscription& owner = subscription_of(*subscription);
+  const std::shared_lock lock(owner.reader_mutex);
+  *qos = rmw_fastrtps::profile_of(owner.reader->get_qos());
   return RMW_RET_OK;
 }
 
 rmw_ret_t rmw_subscription_set_on_new_message_callback(rmw_subscription_t* subscription, rmw_event_callback_t callback,
                                                        const void* user_data) {
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
-  subscription_of(*subscription).set_on_new_data(callback, user_data);
+  Subscription& owner = subscription_of(*subscription);
+  const std::shared_lock lock(owner.reader_mutex);
+  owner.set_on_new_data(callback, user_data);
   return RMW_RET_OK;
 }
 

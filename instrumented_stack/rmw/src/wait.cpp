@@ -41,27 +41,28 @@ struct WaitSet {
   std::size_t first_guard_condition = 0;
 };
 
-// Finds what is ready of `waitables`, waiting for it if need be.
-void find_ready(WaitSet& wait_set, const rmw_time_t* timeout) {
+enum class Occasion { kFirst, kAgain };
+
+// Finds what is ready of `waitables`, waiting for it if need be. Who only looks, once, need not be told by those that
+// become ready; who looks again and again is spared asking all of them each time.
+void find_ready(WaitSet& wait_set, const rmw_time_t* timeout, Occasion occasion) {
   auto& [waiter, waitables, ready, first_guard_condition] = wait_set;
   ready.clear();
   const bool may_block = timeout == nullptr || timeout->sec != 0 || timeout->nsec != 0;
-  if (may_block) {
-    const auto deadline = deadline_after(timeout);
-    waiter.watch(waitables);
-    waiter.find_ready(waitables, ready);
-    // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-    while (ready.empty() && waiter.wait_until(deadline)) {
-      waiter.find_ready(waitables, ready);
-    }
-  } else if (waiter.watches(waitables)) {
-    waiter.find_ready(waitables, ready);
-  } else {
+  if (!may_block && occasion == Occasion::kFirst && !waiter.watches(waitables)) {
     for (std::size_t i = 0; i < waitables.size(); ++i) {
       if (waitables[i]->is_ready()) {
         ready.push_back(i);
       }
     }
+    return;
+  }
+  const auto deadline = deadline_after(timeout);
+  waiter.watch(waitables);
+  waiter.find_ready(waitables, ready);
+  // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
+  while (may_block && ready.empty() && waiter.wait_until(deadline)) {
+    waiter.find_ready(waitables, ready);
   }
 }
 
@@ -192,7 +193,7 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
   const Entities entities(subscriptions, guard_conditions, services, clients, events);
   WaitSet& state = *static_cast<WaitSet*>(wait_set->data);
   entities.collect(state);
-  find_ready(state, wait_timeout);
+  find_ready(state, wait_timeout, Occasion::kFirst);
   consume_guard_conditions(state);
   entities.keep_ready(state);
   return state.ready.empty() ? RMW_RET_TIMEOUT : RMW_RET_OK;
@@ -204,7 +205,7 @@ rmw_ret_t rmw_wait_again(rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeou
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ready, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ready_count, RMW_RET_INVALID_ARGUMENT);
   WaitSet& state = *static_cast<WaitSet*>(wait_set->data);
-  find_ready(state, wait_timeout);
+  find_ready(state, wait_timeout, Occasion::kAgain);
   consume_guard_conditions(state);
   *ready = state.ready.data();
   *ready_count = state.ready.size();

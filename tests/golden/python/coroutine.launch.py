@@ -6,5 +6,5 @@ from launch_ros.actions import Node
 
 def generate_launch_description():
     return LaunchDescription([
-        OpaqueCoroutine(coroutine=None),
+        OpaqueCoroutine(coroutine=print),
     ])

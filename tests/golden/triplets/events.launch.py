@@ -1,11 +1,14 @@
 import signal
 
 from launch import LaunchDescription
-from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler, UnregisterEventHandler
 from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
-from launch_ros.actions import LifecycleTransition, Node
+from launch_extensions import RestartProcess, WaitFor
+from launch_ros.actions import LifecycleNode, LifecycleTransition, Node
+from launch_ros.event_handlers import OnStateTransition
+from launch_ros.events.lifecycle import ChangeState
 from lifecycle_msgs.msg import Transition
 
 
@@ -13,6 +16,13 @@ def generate_launch_description():
     first = ExecuteProcess(cmd=['echo', 'ready'], name='first')
     second = ExecuteProcess(cmd=['second'], output={'stdout': ['screen', 'own_log']}, env={'PATH': '/bin'},
                             required=True, nice=5)
+    managed = LifecycleNode(package='demo_nodes', executable='talker', name='other', namespace='/left')
+    waits = Node(package='demo_nodes', executable='listener', trace=False, depends_on=[
+        {'process': first, 'condition': 'exited', 'exit_code': 0, 'timeout': 2.5}, {'service': '/left/s'}])
+    on_transition = OnStateTransition(
+        target_lifecycle_node=managed, start_state='configuring', goal_state='inactive', handle_once=True,
+        entities=[EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_action(managed),
+                                              transition_id=Transition.TRANSITION_ACTIVATE))])
     return LaunchDescription([
         first,
         second,
@@ -28,4 +38,10 @@ def generate_launch_description():
         Node(package='demo_nodes', executable='talker', name='managed', namespace='/left'),
         LifecycleTransition(lifecycle_node_names=['/left/managed'], transition_ids=[
             Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]),
+        managed,
+        RegisterEventHandler(on_transition),
+        RegisterEventHandler(OnStateTransition(target_lifecycle_node=managed, transition='shutdown',
+                                               entities=[UnregisterEventHandler(on_transition)])),
+        waits,
+        WaitFor([RestartProcess(waits)], topic='/scan', message=True),
     ])

@@ -118,7 +118,8 @@ TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
   EXPECT_EQ(error_of("<on_shutdown timeout=\"-1\"/>"),
             "/test/system.launch.xml:2:23: error: expected a number that is not negative, got '-1'\n"
             "    2 | <on_shutdown timeout=\"-1\"/>\n"
-            "      |                       ^~");
+            "      |                       ^~\n"
+            "      = help: write 0 or more");
   EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>"),
             "/test/system.launch.xml:2:56: error: condition can be started, exited or output, got 'exite'\n"
             "    2 | <executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>\n"

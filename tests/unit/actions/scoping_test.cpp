@@ -97,7 +97,8 @@ TEST(Conditions, OtherWordsAreErrors) {
       "/test/system.launch.xml:2:10: error: invalid condition expression, expected one of [true, 1, false, 0] but "
       "got 'yes'\n"
       "    2 | <log if=\"yes\" message=\"x\"/>\n"
-      "      |          ^~~");
+      "      |          ^~~\n"
+      "      = help: yes, on and the like are no conditions; an expression: $(eval '...')");
 }
 
 TEST(Conditions, IfAndUnlessExcludeEachOther) {

@@ -114,6 +114,7 @@ TEST(Trace, ASubstitutionMayGiveSeveralNames) {
   EXPECT_THAT(std::get<Words>(settings.at("events-ust").value),
               ElementsAre("ros2:*callback*", "ros2:rcl_*_init", "a:b"));
   EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("vpid", "vtid"));
+  EXPECT_THAT(std::get<Words>(settings.at("context-fields-kernel").value), ElementsAre("vpid", "vtid"));
 }
 
 TEST(Trace, YamlTakesListsOfTextsAndListsOfChannels) {
@@ -123,12 +124,14 @@ TEST(Trace, YamlTakesListsOfTextsAndListsOfChannels) {
     session-name: run
     events-ust: ["$(var what)", "my:event if a == 1"]
     context-fields: [vpid]
+    context-fields-kernel: [pid, tid]
     channel:
     - {name: fast, events-ust: ["ros2:callback_*"], subbuffer-size: 8192}
     - {name: slow, events-ust: "a:b c:d"}
 )yaml"));
   EXPECT_THAT(std::get<Words>(settings.at("events-ust").value), ElementsAre("ros2:rmw_*", "my:event if a == 1"));
   EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("vpid"));
+  EXPECT_THAT(std::get<Words>(settings.at("context-fields-kernel").value), ElementsAre("pid", "tid"));
   EXPECT_THAT(std::get<Words>(settings.at("channels").value), ElementsAre("fast", "slow"));
 }
 

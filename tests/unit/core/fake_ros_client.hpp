@@ -47,6 +47,23 @@ class FakeRosClient : public launch::RosClient {
     return false;
   }
 
+  // Tells those that watch a node's state of a change; how many there are.
+  int change_state(const std::string& node, const std::string& from, const std::string& to) {
+    launch::RosAnswer answer;
+    answer.ok = true;
+    answer.previous_state = from;
+    answer.state = to;
+    const auto told = pending_;
+    int count = 0;
+    for (const auto& pending : told) {
+      if (!pending->cancelled && pending->text == text_of(launch::WatchTransitions{node})) {
+        ++count;
+        pending->done(answer);
+      }
+    }
+    return count;
+  }
+
   // "load /c talker", "change /n configure", else what the request waits for.
   static std::string text_of(const launch::RosRequest& request) {
     if (const auto* const load = std::get_if<launch::LoadNode>(&request)) {

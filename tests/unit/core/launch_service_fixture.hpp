@@ -95,9 +95,13 @@ class LaunchServiceTest : public testing::Test {
                           });
     LaunchService service(context, loop_, supervisor_,
                           [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
+    if (client != nullptr) {
+      service.use_ros_client(*client);
+    }
     return service.run(*parse_launch_description(file, registry_));
   }
 
+  RosClient* client = nullptr;  // of the launch
   Journal journal_;
   std::vector<std::string> messages_;
   std::vector<std::string> errors_;

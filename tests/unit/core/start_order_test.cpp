@@ -166,7 +166,8 @@ TEST_F(StartOrderTest, ACycleIsAnErrorBeforeAnythingStarts) {
   EXPECT_THAT(errors_, ElementsAre("/test/system.launch.xml:5:22: error: no start order is possible: 'b' waits for 'c' "
                                    "waits for 'b'\n"
                                    "    5 | <executable cmd=\"c\"><depends_on process=\"b\"/></executable>\n"
-                                   "      |                      ^~~~~~~~~~"));
+                                   "      |                      ^~~~~~~~~~\n"
+                                   "      = help: remove one of these depends_on"));
 }
 
 // What something outside the launch would be.
@@ -205,19 +206,25 @@ class Outside : public testing::Test {
   FakeEventLoop loop_;
   ProcessTable table_;
   std::vector<std::string> journal_;
-  StartOrder order_{loop_,
-                    {[this](ProcessSpec spec, TrackedProcess&) {
-                       journal_.push_back(fmt::format("{} start {}", loop_.now() / 1s, spec.name));
-                     },
-                     [this](const LaunchError& error) { journal_.push_back(error.diagnostics().front().message); },
-                     [this](LogLevel, const std::string& process, const std::string& text) {
-                       journal_.push_back(process + " " + text);
-                     }}};
+  StartOrder order_{
+      loop_,
+      {[this](ProcessSpec spec, TrackedProcess&) {
+         journal_.push_back(fmt::format("{} start {}", loop_.now() / 1s, spec.name));
+       },
+       [this](const LaunchError& error) { journal_.push_back(error.diagnostics().front().message); },
+       [this](LogLevel, const std::string& process, const std::string& text) {
+         journal_.push_back(process + " " + text);
+       },
+       [](const TrackedProcess&) {},
+       [this](const std::string& process, const Dependency& dependency) {
+         journal_.push_back(fmt::format("{} for {}: {}", loop_.now() / 1s, process, describe(dependency)));
+       }}};
 };
 
 TEST_F(Outside, AConditionIsWatched) {
   add(3s, std::nullopt, 4s, OnFailure::kShutdown);
-  EXPECT_THAT(journal_, ElementsAre("wolf waits until the moon is full", "3 start wolf"));
+  EXPECT_THAT(journal_,
+              ElementsAre("wolf waits until the moon is full", "3 for wolf: the moon is full", "3 start wolf"));
   EXPECT_TRUE(order_.empty());
 }
 

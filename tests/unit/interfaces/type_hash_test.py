@@ -5,7 +5,7 @@ import os
 import unittest
 
 from rosidl_generator.interface_parser import parse_file
-from rosidl_generator.type_hash import describe, referenced, type_hash
+from rosidl_generator.type_hash import describe, describe_file, referenced, type_hash
 
 INTERFACES = os.path.join(os.path.dirname(__file__), '../../../instrumented_stack/interfaces')
 
@@ -17,8 +17,7 @@ def shipped_descriptions():
     descriptions = {}
     for path, (package, namespace, _) in parts.items():
         with open(path, encoding='utf-8') as file:
-            for message in parse_file(path, file.read(), package, namespace, known).messages:
-                description = describe(message)
+            for description in describe_file(parse_file(path, file.read(), package, namespace, known)):
                 descriptions[description['type_name']] = description
     return descriptions
 
@@ -36,6 +35,10 @@ class TypeHash(unittest.TestCase):
                 ('std_msgs/msg/Empty', '20b625256f32d5dbc0d04fee44f43c41e51c70d3502f84b4a08e7a9c26a96312'),
                 ('example_interfaces/action/Fibonacci_FeedbackMessage',
                  'c1de71afd52e49a89c53d8262366884185bc0a02f78ce051c4e46b0a7fe59bb2'),
+                ('example_interfaces/srv/AddTwoInts',
+                 'e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a'),
+                ('example_interfaces/action/Fibonacci',
+                 '9508051da1ea4658de144b09bd0690ff3de52104683d847aed764d2915906f51'),
                 ('std_msgs/msg/String', 'df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18'),
                 ('geometry_msgs/msg/Twist', '9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a'),
                 ('geometry_msgs/msg/TwistStamped', '5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64')):

@@ -20,7 +20,7 @@ using nlohmann::json;
 std::vector<std::string> names() {
   std::vector<std::string> found;
   for (const auto& entry : fs::directory_iterator(GOLDEN_FILES "/triplets")) {
-    if (entry.path().extension() == ".py") {
+    if (entry.path().extension() == ".xml") {
       found.push_back(entry.path().stem().stem().string());
     }
   }
@@ -33,7 +33,7 @@ std::vector<std::string> names() {
 json comparable(json value) {
   if (value.is_object()) {
     value.erase("source");
-    for (const char* const key : {"event", "command"}) {
+    for (const char* const key : {"event", "command", "until"}) {
       if (value.contains(key)) {
         value[key] = std::regex_replace(value[key].get<std::string>(), std::regex("'[^']*'"), "a process");
       }
@@ -63,7 +63,10 @@ TEST_P(Triplets, AskForTheSame) {
   const json xml = plan(GetParam(), ".launch.xml");
   EXPECT_TRUE(!xml["processes"].empty() || !xml["logs"].empty()) << "the file asks for nothing";
   EXPECT_EQ(plan(GetParam(), ".launch.yaml"), xml);
-  EXPECT_EQ(plan(GetParam(), ".launch.py"), xml);
+  // What Python says with a function of its own has no third form.
+  if (fs::exists(GOLDEN_FILES "/triplets/" + GetParam() + ".launch.py")) {
+    EXPECT_EQ(plan(GetParam(), ".launch.py"), xml);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Triplets, testing::ValuesIn(names()), [](const auto& row) { return row.param; });

@@ -143,6 +143,39 @@ TEST_F(EventsExecutorTest, TakesItsEventsFromTheQueueItIsGiven) {
   EXPECT_THROW(EventsExecutor(nullptr), std::invalid_argument);
 }
 
+// Ready when its guard condition is triggered, of which it tells an executor that does not wait.
+class Bell : public rclcpp::Waitable {
+ public:
+  size_t get_number_of_ready_guard_conditions() override { return 1; }
+  void add_to_wait_set(rcl_wait_set_t& wait_set) override { condition.add_to_wait_set(wait_set); }
+  bool is_ready(const rcl_wait_set_t&) override { return true; }
+  std::shared_ptr<void> take_data() override { return nullptr; }
+  std::shared_ptr<void> take_data_by_entity_id(size_t) override { return nullptr; }
+  void execute(const std::shared_ptr<void>&) override { ++rings; }
+  void set_on_ready_callback(std::function<void(size_t, int)> callback) override {
+    condition.set_on_trigger_callback([callback](size_t count) { callback(count, 0); });
+  }
+  void clear_on_ready_callback() override { condition.set_on_trigger_callback(nullptr); }
+
+  rclcpp::GuardCondition condition;
+  int rings = 0;
+};
+
+TEST_F(EventsExecutorTest, HearsOfEveryTriggerOfAGuardCondition) {
+  EventsExecutor executor;
+  executor.add_node(node_);
+  const auto bell = std::make_shared<Bell>();
+  bell->condition.trigger();  // told when somebody listens
+  bell->condition.trigger();
+  node_->get_node_waitables_interface()->add_waitable(bell, nullptr);
+  ASSERT_TRUE(spin_until(executor, [&] { return bell->rings == 2; }));
+  std::thread ringing([&] { bell->condition.trigger(); });
+  EXPECT_TRUE(spin_until(executor, [&] { return bell->rings == 3; }));
+  ringing.join();
+  executor.spin_all(nanoseconds(0));
+  EXPECT_EQ(bell->rings, 3);
+}
+
 TEST_F(EventsExecutorTest, RefusesWaitablesThatCannotTell) {
   class Mute : public rclcpp::Waitable {
    public:

@@ -1,6 +1,5 @@
 // Parameters of one node, read and changed from another.
 #include <thread>
-#include <type_description_interfaces/srv/get_type_description.hpp>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
 
@@ -56,17 +55,21 @@ TEST_F(ParameterClient, RefusalsSayWhy) {
   EXPECT_EQ(owner_->get_parameter("speed").as_double(), 1.5);
 }
 
-TEST_F(ParameterClient, TypeDescriptionServiceSaysThatThereIsNone) {
-  using type_description_interfaces::srv::GetTypeDescription;
-  const auto client = asker_->create_client<GetTypeDescription>("/ns/owner/get_type_description");
-  ASSERT_TRUE(client->wait_for_service(kPatience));
-  auto request = std::make_shared<GetTypeDescription::Request>();
-  request->type_name = "std_msgs/msg/String";
-  auto future = client->async_send_request(request);
-  ASSERT_EQ(rclcpp::spin_until_future_complete(asker_, future, kPatience), rclcpp::FutureReturnCode::SUCCESS);
-  const auto response = future.get();
-  EXPECT_FALSE(response->successful);
-  EXPECT_EQ(response->failure_reason, "this node has no description of type 'std_msgs/msg/String'");
+TEST_F(ParameterClient, HearsOfChanges) {
+  rclcpp::AsyncParametersClient client(asker_, "/ns/owner");
+  std::vector<std::string> changed;
+  const auto subscription = client.on_parameter_event([&](const rcl_interfaces::msg::ParameterEvent& event) {
+    for (const auto& parameter : event.changed_parameters) {
+      changed.push_back(event.node + ": " + parameter.name);
+    }
+  });
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  rclcpp::executors::SingleThreadedExecutor executor;
+  executor.add_node(asker_);
+  ASSERT_TRUE(spin_until(executor, [&] { return subscription->get_publisher_count() == 2; }));
+  client.set_parameters({rclcpp::Parameter("speed", 2.5)});
+  ASSERT_TRUE(spin_until(executor, [&] { return !changed.empty(); }));
+  EXPECT_EQ(changed, std::vector<std::string>{"/ns/owner: speed"});
 }
 
 TEST_F(RosTest, NodeHasNoParameterServicesWhenItIsToldSo) {

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <rcl_action/graph.h>
 
 #include <example_interfaces/action/fibonacci.hpp>
 #include <memory>
@@ -270,6 +271,53 @@ TEST_F(ActionTest, IsServedByTheEventsExecutor) {
   goals_[0]->canceled(result_of({}));
   EXPECT_TRUE(spin_until(executor, [&] { return !codes.empty(); }));
   EXPECT_THAT(codes, ElementsAre(ResultCode::CANCELED));
+}
+
+TEST_F(ActionTest, ResultExpiresInTheEventsExecutor) {
+  executor_.remove_node(server_node_);
+  executor_.remove_node(client_node_);
+  rcl_action_server_options_t options = rcl_action_server_get_default_options();
+  options.result_timeout = 50'000'000;
+  start_server(options);
+  rclcpp::experimental::executors::EventsExecutor executor;
+  executor.add_node(server_node_);
+  executor.add_node(client_node_);
+  const auto accepted = client_->async_send_goal(Fibonacci::Goal());
+  ASSERT_TRUE(spin_until(executor, [&] {
+    return !goals_.empty() && accepted.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }));
+  const auto timers = std::static_pointer_cast<rclcpp::Waitable>(server_)->get_timers();
+  ASSERT_THAT(timers, SizeIs(1));
+  EXPECT_TRUE(timers[0]->is_canceled());
+  goals_[0]->succeed(result_of({}));
+  EXPECT_FALSE(timers[0]->is_canceled());
+  // Nobody asks: the timer alone ends what is kept, and then itself.
+  EXPECT_TRUE(spin_until(executor, [&] { return timers[0]->is_canceled(); }));
+  const auto result = client_->async_get_result(accepted.get());
+  ASSERT_TRUE(
+      spin_until(executor, [&] { return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  EXPECT_EQ(result.get().code, ResultCode::UNKNOWN);
+}
+
+TEST_F(ActionTest, IsFoundInTheGraph) {
+  start_server();
+  const auto names_and_types = [&](auto get, auto... of_node) {
+    rcl_allocator_t allocator = rcl_get_default_allocator();
+    rcl_names_and_types_t found = rcl_get_zero_initialized_names_and_types();
+    EXPECT_EQ(get(client_node_->get_node_base_interface()->get_rcl_node_handle(), &allocator, of_node..., &found),
+              RCL_RET_OK);
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < found.names.size; ++i) {
+      lines.push_back(std::string(found.names.data[i]) + ": " + found.types[i].data[0]);
+    }
+    EXPECT_EQ(rcl_names_and_types_fini(&found), RCL_RET_OK);
+    return lines;
+  };
+  const std::string action = "/fibonacci: example_interfaces/action/Fibonacci";
+  EXPECT_THAT(names_and_types(rcl_action_get_names_and_types), ElementsAre(action));
+  EXPECT_THAT(names_and_types(rcl_action_get_server_names_and_types_by_node, "server", "/"), ElementsAre(action));
+  EXPECT_THAT(names_and_types(rcl_action_get_server_names_and_types_by_node, "client", "/"), IsEmpty());
+  EXPECT_THAT(names_and_types(rcl_action_get_client_names_and_types_by_node, "client", "/"), ElementsAre(action));
 }
 
 // Goals end in threads of their own while others are sent, canceled and answered by several threads of the executor.

@@ -144,7 +144,8 @@ TEST_F(PackageIndexTest, SubstitutionsAddThePlaceAndASuggestion) {
   EXPECT_EQ(perform_error("$(find-exec talker)", scope),
             "t:1:1: error: executable 'talker' not found on the PATH\n"
             "    1 | $(find-exec talker)\n"
-            "      | ^~~~~~~~~~~~~~~~~~~\n");
+            "      | ^~~~~~~~~~~~~~~~~~~\n"
+            "      = help: install it, or extend the PATH\n");
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ class FakeTracer : public Tracer {
   std::vector<SessionSummary> sessions() override;
   SessionDetails status(const std::string& lttng_session_name) override;
   TraceableEvents traceable_events() override;
+  std::vector<std::string> unreachable_processes() override { return {}; }
   void save(const std::string& lttng_session_name, const std::string& directory) override;
   void load(const std::string& lttng_session_name, const std::string& directory) override;
 

@@ -26,9 +26,29 @@ typedef struct rcl_subscription_options_s {
   bool disable_loaned_message;
 } rcl_subscription_options_t;
 
+typedef struct rcl_subscription_content_filter_options_s {
+  rmw_subscription_content_filter_options_t rmw_subscription_content_filter_options;
+} rcl_subscription_content_filter_options_t;
+
+rcl_subscription_content_filter_options_t rcl_get_zero_initialized_subscription_content_filter_options(void);
+// With the allocator of the subscription.
+rcl_ret_t rcl_subscription_content_filter_options_init(const rcl_subscription_t* subscription,
+                                                       const char* filter_expression, size_t expression_parameters_argc,
+                                                       const char* const expression_parameter_argv[],
+                                                       rcl_subscription_content_filter_options_t* options);
+rcl_ret_t rcl_subscription_content_filter_options_fini(const rcl_subscription_t* subscription,
+                                                       rcl_subscription_content_filter_options_t* options);
+
 rcl_subscription_t rcl_get_zero_initialized_subscription(void);
 // Loans are disabled unless ROS_DISABLE_LOANED_MESSAGES is 0.
 rcl_subscription_options_t rcl_subscription_get_default_options(void);
+// Needed after rcl_subscription_options_set_content_filter_options().
+rcl_ret_t rcl_subscription_options_fini(rcl_subscription_options_t* option);
+// Copies the strings into the options. An empty expression wants every message.
+rcl_ret_t rcl_subscription_options_set_content_filter_options(const char* filter_expression,
+                                                              size_t expression_parameters_argc,
+                                                              const char* const expression_parameter_argv[],
+                                                              rcl_subscription_options_t* options);
 
 // Creates the subscription on the expanded and remapped topic. Fires rcl_subscription_init with that name and the
 // requested depth. RCL_RET_TOPIC_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
@@ -56,8 +76,13 @@ rmw_subscription_t* rcl_subscription_get_rmw_handle(const rcl_subscription_t* su
 const rmw_qos_profile_t* rcl_subscription_get_actual_qos(const rcl_subscription_t* subscription);
 rcl_ret_t rcl_subscription_get_publisher_count(const rcl_subscription_t* subscription, size_t* publisher_count);
 bool rcl_subscription_is_valid(const rcl_subscription_t* subscription);
-// Whether the middleware filters by content: it does not.
+// Whether there is a content filter, see rmw/subscription_content_filter_options.h.
 bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription);
+// As rmw_subscription_set_content_filter() and rmw_subscription_get_content_filter().
+rcl_ret_t rcl_subscription_set_content_filter(const rcl_subscription_t* subscription,
+                                              const rcl_subscription_content_filter_options_t* options);
+rcl_ret_t rcl_subscription_get_content_filter(const rcl_subscription_t* subscription,
+                                              rcl_subscription_content_filter_options_t* options);
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription);
 
 // `callback` is told of every message that arrives, and at once of those that wait to be taken. Null ends the calls:

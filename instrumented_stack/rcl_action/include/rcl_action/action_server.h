@@ -95,6 +95,9 @@ rcl_ret_t rcl_action_notify_goal_done(const rcl_action_server_t* action_server);
 rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_action_goal_info_t* expired_goals,
                                   size_t capacity, size_t* num_expired);
 
+// Nanoseconds of the server's clock until the next result expires, 0 if one has; -1 if none will.
+rcl_ret_t rcl_action_server_get_time_until_expiry(const rcl_action_server_t* action_server, int64_t* nanoseconds);
+
 // Which goals of the server `request` means and can be canceled. Changes no goal. The response must be finalized.
 rcl_ret_t rcl_action_process_cancel_request(const rcl_action_server_t* action_server,
                                             const rcl_action_cancel_request_t* request,

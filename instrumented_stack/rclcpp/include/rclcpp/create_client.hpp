@@ -3,8 +3,11 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "rclcpp/client.hpp"
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/node_interfaces/node_graph.hpp"
 #include "rclcpp/node_interfaces/node_services.hpp"
 
 namespace rclcpp {
@@ -17,6 +20,26 @@ typename Client<ServiceT>::SharedPtr create_client(
   auto client = std::make_shared<Client<ServiceT>>(node_base.get(), service_name, qos);
   node_services->add_client(client, group);
   return client;
+}
+
+// The same; the graph is not needed.
+template <typename ServiceT>
+typename Client<ServiceT>::SharedPtr create_client(
+    std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
+    std::shared_ptr<node_interfaces::NodeGraphInterface> /*node_graph*/,
+    std::shared_ptr<node_interfaces::NodeServicesInterface> node_services, const std::string& service_name,
+    const QoS& qos = ServicesQoS(), CallbackGroup::SharedPtr group = nullptr) {
+  return create_client<ServiceT>(std::move(node_base), std::move(node_services), service_name, qos, std::move(group));
+}
+
+// `node` is a Node, a pointer to one, or the like.
+template <typename ServiceT, typename NodeT>
+typename Client<ServiceT>::SharedPtr create_client(NodeT& node, const std::string& service_name,
+                                                   const QoS& qos = ServicesQoS(),
+                                                   CallbackGroup::SharedPtr group = nullptr) {
+  auto& actual_node = node_interfaces::dereferenced(node);
+  return create_client<ServiceT>(actual_node.get_node_base_interface(), actual_node.get_node_services_interface(),
+                                 service_name, qos, std::move(group));
 }
 
 }  // namespace rclcpp

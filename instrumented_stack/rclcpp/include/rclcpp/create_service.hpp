@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
 #include "rclcpp/node_interfaces/node_services.hpp"
 #include "rclcpp/service.hpp"
 
@@ -19,6 +20,16 @@ typename Service<ServiceT>::SharedPtr create_service(
       node_base.get(), service_name, AnyServiceCallback<ServiceT>(std::forward<CallbackT>(callback)), qos);
   node_services->add_service(service, group);
   return service;
+}
+
+// `node` is a Node, a pointer to one, or the like.
+template <typename ServiceT, typename NodeT, typename CallbackT>
+typename Service<ServiceT>::SharedPtr create_service(NodeT& node, const std::string& service_name, CallbackT&& callback,
+                                                     const QoS& qos = ServicesQoS(),
+                                                     CallbackGroup::SharedPtr group = nullptr) {
+  auto& actual_node = node_interfaces::dereferenced(node);
+  return create_service<ServiceT>(actual_node.get_node_base_interface(), actual_node.get_node_services_interface(),
+                                  service_name, std::forward<CallbackT>(callback), qos, std::move(group));
 }
 
 }  // namespace rclcpp

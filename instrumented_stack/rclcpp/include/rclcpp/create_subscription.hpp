@@ -7,32 +7,51 @@
 #include <utility>
 
 #include "rclcpp/detail/qos_parameters.hpp"
+#include "rclcpp/detail/topic_statistics.hpp"
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
 #include "rclcpp/subscription.hpp"
 
 namespace rclcpp {
 
-// `node` is a Node, a pointer to one, or the like. Throws exceptions::InvalidTopicNameError,
+// Without timers there are no statistics. Throws exceptions::InvalidTopicNameError,
 // exceptions::InvalidQosOverridesException, exceptions::RCLError, and what the constructor of SubscriptionT throws.
+template <typename MessageT, typename AllocatorT = std::allocator<void>,
+          typename SubscriptionT = Subscription<MessageT, AllocatorT>, typename CallbackT>
+std::shared_ptr<SubscriptionT> create_subscription(
+    const std::shared_ptr<node_interfaces::NodeParametersInterface>& node_parameters,
+    const std::shared_ptr<node_interfaces::NodeTopicsInterface>& node_topics, const std::string& topic_name,
+    const QoS& qos, CallbackT&& callback,
+    const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>(),
+    const std::shared_ptr<node_interfaces::NodeTimersInterface>& node_timers = nullptr) {
+  const auto node_base = node_topics->get_node_base_interface();
+  QoS actual_qos = qos;
+  if (!options.qos_overriding_options.get_policy_kinds().empty()) {
+    actual_qos = detail::declare_qos_parameters(options.qos_overriding_options, *node_parameters,
+                                                node_base->resolve_topic_or_service_name(topic_name, false), qos,
+                                                detail::QosEntity::Subscription);
+  }
+  AnySubscriptionCallback<MessageT, AllocatorT> any_callback(*options.get_allocator());
+  any_callback.set(std::forward<CallbackT>(callback));
+  auto statistics =
+      node_timers ? detail::make_topic_statistics(options, *node_base, *node_topics, *node_timers) : nullptr;
+  auto subscription =
+      std::make_shared<SubscriptionT>(node_base.get(), topic_name, actual_qos, std::move(any_callback), options);
+  subscription->set_topic_statistics(std::move(statistics));
+  node_topics->add_subscription(subscription, options.callback_group);
+  return subscription;
+}
+
+// `node` is a Node, a pointer to one, or the like. Throws std::invalid_argument for topic statistics with a period that
+// is not positive, and what the function above throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename SubscriptionT = Subscription<MessageT, AllocatorT>, typename CallbackT, typename NodeT>
 std::shared_ptr<SubscriptionT> create_subscription(
     NodeT&& node, const std::string& topic_name, const QoS& qos, CallbackT&& callback,
     const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
-  const auto node_base = node_interfaces::dereferenced(node).get_node_base_interface();
-  QoS actual_qos = qos;
-  if (!options.qos_overriding_options.get_policy_kinds().empty()) {
-    actual_qos = detail::declare_qos_parameters(
-        options.qos_overriding_options, *node_interfaces::dereferenced(node).get_node_parameters_interface(),
-        node_base->resolve_topic_or_service_name(topic_name, false), qos, detail::QosEntity::Subscription);
-  }
-  AnySubscriptionCallback<MessageT, AllocatorT> any_callback(*options.get_allocator());
-  any_callback.set(std::forward<CallbackT>(callback));
-  auto subscription =
-      std::make_shared<SubscriptionT>(node_base.get(), topic_name, actual_qos, std::move(any_callback), options);
-  node_interfaces::dereferenced(node).get_node_topics_interface()->add_subscription(subscription,
-                                                                                    options.callback_group);
-  return subscription;
+  auto& actual_node = node_interfaces::dereferenced(node);
+  return create_subscription<MessageT, AllocatorT, SubscriptionT>(
+      actual_node.get_node_parameters_interface(), actual_node.get_node_topics_interface(), topic_name, qos,
+      std::forward<CallbackT>(callback), options, actual_node.get_node_timers_interface());
 }
 
 }  // namespace rclcpp

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <rcl/guard_condition.h>
+#include <rcl/wait.h>
 
 #include <atomic>
+#include <cstddef>
+#include <functional>
 #include <memory>
+#include <mutex>
 
 #include "rclcpp/context.hpp"
 #include "rclcpp/contexts/default_context.hpp"
@@ -23,6 +27,14 @@ class GuardCondition {
   // Thread safe. Not to be called from a signal handler.
   void trigger();
 
+  // For executors that are told instead of waiting: from now on trigger() calls `callback` with 1, in its own thread,
+  // and wakes nobody else. It is called at once with the number of earlier triggers that nobody was told of. An empty
+  // one ends the calls. Not to be called from the callback of another thread's trigger.
+  void set_on_trigger_callback(std::function<void(size_t)> callback);
+
+  // Throws exceptions::RCLError.
+  void add_to_wait_set(rcl_wait_set_t& wait_set);
+
   const rcl_guard_condition_t& get_rcl_guard_condition() const { return rcl_guard_condition_; }
   // Sets whether a wait set uses this; the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
@@ -31,6 +43,9 @@ class GuardCondition {
   std::shared_ptr<rcl_context_t> rcl_context_;  // outlives the rcl guard condition
   rcl_guard_condition_t rcl_guard_condition_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::recursive_mutex trigger_mutex_;  // recursive: a callback may trigger again
+  std::function<void(size_t)> on_trigger_callback_;
+  size_t unread_count_ = 0;
 };
 
 }  // namespace rclcpp

@@ -12,7 +12,9 @@
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/clock.hpp"
 #include "rclcpp/create_client.hpp"
+#include "rclcpp/create_generic_client.hpp"
 #include "rclcpp/create_generic_publisher.hpp"
+#include "rclcpp/create_generic_service.hpp"
 #include "rclcpp/create_generic_subscription.hpp"
 #include "rclcpp/create_publisher.hpp"
 #include "rclcpp/create_service.hpp"
@@ -130,6 +132,22 @@ class Node : public std::enable_shared_from_this<Node> {
                                                      CallbackGroup::SharedPtr group = nullptr) {
     return rclcpp::create_client<ServiceT>(node_base_, node_services_, extend_name(service_name), qos,
                                            std::move(group));
+  }
+
+  // For types that are known by name only: "std_srvs/srv/SetBool". They throw std::runtime_error, too, for a type that
+  // cannot be found.
+  GenericClient::SharedPtr create_generic_client(const std::string& service_name, const std::string& service_type,
+                                                 const QoS& qos = ServicesQoS(),
+                                                 CallbackGroup::SharedPtr group = nullptr) {
+    return rclcpp::create_generic_client(node_base_, node_graph_, node_services_, extend_name(service_name),
+                                         service_type, qos, std::move(group));
+  }
+  template <typename CallbackT>
+  GenericService::SharedPtr create_generic_service(const std::string& service_name, const std::string& service_type,
+                                                   CallbackT&& callback, const QoS& qos = ServicesQoS(),
+                                                   CallbackGroup::SharedPtr group = nullptr) {
+    return rclcpp::create_generic_service(node_base_, node_services_, extend_name(service_name), service_type,
+                                          std::forward<CallbackT>(callback), qos, std::move(group));
   }
 
   // On the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative

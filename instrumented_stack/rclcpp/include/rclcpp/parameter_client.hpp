@@ -76,10 +76,10 @@ class AsyncParametersClient {
   template <typename CallbackT>
   Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr on_parameter_event(
       CallbackT&& callback, const QoS& qos = ParameterEventsQoS()) {
+    AnySubscriptionCallback<rcl_interfaces::msg::ParameterEvent> any_callback{std::allocator<void>()};
+    any_callback.set(std::forward<CallbackT>(callback));
     auto subscription = std::make_shared<Subscription<rcl_interfaces::msg::ParameterEvent>>(
-        node_base_.get(), "/parameter_events", qos,
-        AnySubscriptionCallback<rcl_interfaces::msg::ParameterEvent>(std::forward<CallbackT>(callback)),
-        SubscriptionOptions());
+        node_base_.get(), "/parameter_events", qos, std::move(any_callback), SubscriptionOptions());
     node_topics_->add_subscription(subscription, nullptr);
     return subscription;
   }
@@ -122,6 +122,10 @@ class SyncParametersClient {
   explicit SyncParametersClient(const std::shared_ptr<NodeT>& node, const std::string& remote_node_name = "",
                                 const QoS& qos = ParametersQoS())
       : SyncParametersClient(own_executor(*node), node, remote_node_name, qos) {}
+  // As constructors of nodes need it.
+  template <typename NodeT>
+  explicit SyncParametersClient(NodeT* node, const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
+      : executor_(own_executor(*node)), client_(node, remote_node_name, qos) {}
   template <typename NodeT>
   SyncParametersClient(Executor::SharedPtr executor, const std::shared_ptr<NodeT>& node,
                        const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())

@@ -33,6 +33,10 @@ class IntraProcessManager;
 class SubscriptionIntraProcessBase;
 }  // namespace experimental
 
+namespace topic_statistics {
+class SubscriptionTopicStatistics;
+}  // namespace topic_statistics
+
 class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
  public:
   RCLCPP_SMART_PTR_ALIASES_ONLY(SubscriptionBase)
@@ -61,8 +65,16 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // ROS_DISABLE_LOANED_MESSAGES is 0. Executors do so for callbacks that take a const reference, which cannot keep it.
   bool can_loan_messages() const { return rcl_subscription_can_loan_messages(subscription_handle_.get()); }
 
-  // Whether the middleware filters messages by content.
+  // Whether there is a content filter.
   bool is_cft_enabled() const { return rcl_subscription_is_cft_enabled(subscription_handle_.get()); }
+  // Which messages are wanted from now on, see ContentFilterOptions; an empty expression ends the filter. Messages that
+  // wait to be taken are lost when the subscription gets its first filter, or loses it. Any thread. Throws
+  // exceptions::RCLError, and nothing changes, for a filter that does not fit the messages, for an empty one where
+  // there is none, and for a subscription with intra-process communication.
+  void set_content_filter(const std::string& filter_expression,
+                          const std::vector<std::string>& expression_parameters = {});
+  // Throws exceptions::RCLError if there is no filter.
+  ContentFilterOptions get_content_filter() const;
 
   // Where messages of publishers of the same context arrive; null if they come through the middleware like all others.
   std::shared_ptr<Waitable> get_intra_process_waitable() const;
@@ -85,6 +97,11 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // Sets whether a wait set uses this; the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
+  // What measures this subscription's messages; null: nothing. To be called before it is executed.
+  void set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics) {
+    statistics_ = std::move(statistics);
+  }
+
   // The group that serves this subscription, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
@@ -95,7 +112,8 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // To be called by the most derived constructor, when the callback is where it will stay.
   void trace_creation(const AnySubscriptionCallbackBase& callback);
 
-  // Throws std::invalid_argument if intra-process communication is wanted and the QoS is not made for it.
+  // Not with a content filter, which is made for the bytes of messages. Throws std::invalid_argument if intra-process
+  // communication is wanted and the QoS is not made for it.
   bool uses_intra_process(const SubscriptionOptionsBase& options,
                           const node_interfaces::NodeBaseInterface& node_base) const;
   void join_intra_process(const node_interfaces::NodeBaseInterface& node_base,
@@ -104,6 +122,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
  private:
   void execute_loaned();
+  void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info);
   void trace_callback(const void* subscription, const AnySubscriptionCallbackBase& callback) const;
   // Whether the same message comes through intra-process communication.
   bool is_delivered_twice(const MessageInfo& message_info) const;
@@ -126,6 +145,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   EventHandlers event_handlers_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics_;
   const void* traced_callback_ = nullptr;  // as trace_creation() told it
   // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
   // run such a callback several times at once.

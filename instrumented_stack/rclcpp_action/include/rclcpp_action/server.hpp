@@ -17,6 +17,7 @@
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/logger.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/timer.hpp"
 #include "rclcpp/waitable.hpp"
 #include "rclcpp_action/server_goal_handle.hpp"
 #include "rclcpp_action/types.hpp"
@@ -50,6 +51,8 @@ class ServerBase : public rclcpp::Waitable {
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
   void execute(const std::shared_ptr<void>& data) override;
+  // One that forgets results after their time, for executors that do not wait for the timer of rcl.
+  std::vector<std::shared_ptr<rclcpp::TimerBase>> get_timers() const override;
 
  protected:
   // Throws rclcpp::exceptions::RCLError, for a wrong name among others.
@@ -90,6 +93,8 @@ class ServerBase : public rclcpp::Waitable {
   void answer_cancel_request(rmw_request_id_t header, const action_msgs::srv::CancelGoal::Request& request);
   void answer_result_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
   void forget_expired_goals();
+  // Lets the timer of get_timers() run as long as that of rcl. Needs the mutex.
+  void set_expiry() const;
   std::shared_ptr<rcl_action_goal_handle_t> accept(const GoalUUID& uuid, rcl_action_goal_info_t& info);
   void warn(rcl_ret_t ret, const char* what) const;
 
@@ -99,9 +104,17 @@ class ServerBase : public rclcpp::Waitable {
 
   std::array<rclcpp::detail::OnReadyCallback, 3> on_ready_;  // by EntityType
 
-  std::mutex mutex_;  // of everything below, the rcl server included
+  // Whom the timer of get_timers() works for; null when the server is being destroyed.
+  struct Owner {
+    std::mutex mutex;
+    ServerBase* server;
+  };
+  const std::shared_ptr<Owner> owner_;
+
+  mutable std::mutex mutex_;  // of everything below, the rcl server included
   rcl_action_server_t server_;
   Ready ready_;
+  mutable rclcpp::TimerBase::SharedPtr expiry_;                           // null until somebody asks for it
   std::map<GoalUUID, std::shared_ptr<rcl_action_goal_handle_t>> goals_;   // until they expire
   std::map<GoalUUID, std::shared_ptr<void>> results_;                     // of goals at their end
   std::map<GoalUUID, std::vector<rmw_request_id_t>> waiting_for_result_;  // of goals before it

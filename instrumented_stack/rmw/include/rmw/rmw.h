@@ -88,6 +88,15 @@ rmw_ret_t rmw_subscription_set_on_new_message_callback(rmw_subscription_t* subsc
                                                        const void* user_data);
 
 // Takes the next message without waiting; `taken` is false when there is none.
+// Which messages are wanted from now on; an empty expression ends the filter. RMW_RET_ERROR, and nothing changes, for a
+// filter that does not fit the type, for an empty one where there is none, and while messages are on loan. What the
+// subscription has not taken when it gets its first filter, or loses it, is lost: the middleware makes another reader.
+rmw_ret_t rmw_subscription_set_content_filter(rmw_subscription_t* subscription,
+                                              const rmw_subscription_content_filter_options_t* options);
+// Into zero initialised `options`, to be finalized by the caller. RMW_RET_ERROR if there is no filter.
+rmw_ret_t rmw_subscription_get_content_filter(const rmw_subscription_t* subscription, rcutils_allocator_t* allocator,
+                                              rmw_subscription_content_filter_options_t* options);
+
 rmw_ret_t rmw_take(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
                    rmw_subscription_allocation_t* allocation);
 rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_message, bool* taken,

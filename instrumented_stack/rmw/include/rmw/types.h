@@ -11,6 +11,7 @@
 #include "rcutils/allocator.h"
 #include "rmw/ret_types.h"
 #include "rmw/serialized_message.h"
+#include "rmw/subscription_content_filter_options.h"
 #include "rmw/time.h"
 
 #ifdef __cplusplus
@@ -46,6 +47,8 @@ typedef struct rmw_subscription_options_s {
   void* rmw_specific_subscription_payload;  // unused
   bool ignore_local_publications;           // drop messages of publishers of the same context
   rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints;
+  // Null: every message is wanted. Read during the creation only.
+  rmw_subscription_content_filter_options_t* content_filter_options;
 } rmw_subscription_options_t;
 
 typedef struct rmw_publisher_s {
@@ -62,7 +65,7 @@ typedef struct rmw_subscription_s {
   const char* topic_name;
   rmw_subscription_options_t options;
   bool can_loan_messages;
-  bool is_cft_enabled;
+  bool is_cft_enabled;  // whether there is a content filter
 } rmw_subscription_t;
 
 typedef struct rmw_service_s {

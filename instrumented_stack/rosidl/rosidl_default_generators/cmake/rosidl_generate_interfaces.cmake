@@ -3,7 +3,7 @@
 # Makes a package of messages, services and actions: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the
 # headers <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. Files are given as "msg/<Name>.msg",
 # "srv/<Name>.srv" or "action/<Name>.action", relative to the current folder. DEPENDENCIES are the packages whose
-# messages they use; outside the stack find_package them first. What actions need is added by itself.
+# messages they use; outside the stack find_package them first. What services and actions need is added by itself.
 # SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
 include_guard(GLOBAL)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
@@ -40,15 +40,20 @@ function(rosidl_generate_interfaces pkg)
     endif()
   endforeach()
 
-  if(types MATCHES "/action/")
-    foreach(dependency IN ITEMS action_msgs unique_identifier_msgs builtin_interfaces)
-      if(NOT TARGET ${dependency}::${dependency})
-        find_package(${dependency} REQUIRED)
-      endif()
-      list(APPEND ARG_DEPENDENCIES ${dependency})
-    endforeach()
-    list(REMOVE_DUPLICATES ARG_DEPENDENCIES)
+  set(implied "")
+  if(types MATCHES "/(srv|action)/")
+    list(APPEND implied service_msgs builtin_interfaces)
   endif()
+  if(types MATCHES "/action/")
+    list(APPEND implied action_msgs unique_identifier_msgs)
+  endif()
+  foreach(dependency IN LISTS implied)
+    if(NOT TARGET ${dependency}::${dependency})
+      find_package(${dependency} REQUIRED)
+    endif()
+    list(APPEND ARG_DEPENDENCIES ${dependency})
+  endforeach()
+  list(REMOVE_DUPLICATES ARG_DEPENDENCIES)
   set(known "")
   set(descriptions "")
   set(libraries "")

@@ -49,7 +49,9 @@ def main() -> int:
     for path in options.files:
         with open(path, encoding='utf-8') as source:
             try:
-                files.append(parse_file(path, source.read(), options.package, namespaces[path], known))
+                text = source.read()
+                files.append(parse_file(path, text, options.package, namespaces[path], known))
+                files[-1].source = text
             except InterfaceError as error:
                 errors.append(str(error))
     if errors:
@@ -60,7 +62,7 @@ def main() -> int:
     for path in options.descriptions:
         with open(path, encoding='utf-8') as of_dependency:
             descriptions.update(json.load(of_dependency))
-    own = [type_hash.describe(message) for file in files for message in file.messages]
+    own = [description for file in files for description in type_hash.describe_file(file)]
     descriptions.update((description['type_name'], description) for description in own)
     hashes = {description['type_name']: type_hash.type_hash(description, descriptions) for description in own}
     needed = {*(description['type_name'] for description in own), *type_hash.referenced(own, descriptions)}
@@ -76,7 +78,7 @@ def main() -> int:
     write_if_changed(os.path.join(include, cpp_source.codec_header_path(options.package)),
                      cpp_source.codec_header(options.package, files))
     write_if_changed(os.path.join(options.output, f'{options.package}__interfaces.cpp'),
-                     cpp_source.source(options.package, files, hashes))
+                     cpp_source.source(options.package, files, own, hashes))
     return 0
 
 

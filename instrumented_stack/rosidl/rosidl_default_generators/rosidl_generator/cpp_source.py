@@ -5,9 +5,10 @@ One file for all types, because most of the time to compile it goes into headers
 
 from typing import Iterable, List, Mapping
 
-from . import cpp_types
+from . import cpp_descriptions, cpp_types
 from .cpp_struct import constant_definitions
 from .interface_definition import InterfaceFile, Message
+from .type_hash import Description
 
 
 def codec_header_path(package: str) -> str:
@@ -36,7 +37,8 @@ def _namespaces(messages: Iterable[Message]) -> List[str]:
     return sorted({m.namespace for m in messages})
 
 
-def source(package: str, files: List[InterfaceFile], hashes: Mapping[str, str]) -> str:
+def source(package: str, files: List[InterfaceFile], descriptions: List[Description],
+           hashes: Mapping[str, str]) -> str:
     messages = [message for file in files for message in file.messages]
     packages = {package} | {str(t.package) for m in messages for t in m.messages_used}
     includes = [*(f'#include "{file.header}"' for file in files),
@@ -49,7 +51,8 @@ def source(package: str, files: List[InterfaceFile], hashes: Mapping[str, str]) 
             constant_definitions(m) + _printing(m) for m in messages if m.namespace == namespace)))
     parts.append('namespace rosidl_typesupport_fastrtps_cpp {\n\n' + '\n'.join(_codec(m) for m in messages)
                  + '\n}  // namespace rosidl_typesupport_fastrtps_cpp\n')
-    parts.append('namespace rosidl_typesupport_cpp {\n\n' + '\n'.join(_handles(file, hashes) for file in files)
+    parts.append(cpp_descriptions.definitions(files, descriptions, hashes))
+    parts.append('namespace rosidl_typesupport_cpp {\n\n' + '\n'.join(_handles(file) for file in files)
                  + '\n}  // namespace rosidl_typesupport_cpp\n')
     return '\n'.join(parts)
 
@@ -98,22 +101,23 @@ void CdrCodec<{cpp}>::add_to(MaxSize& size) {{
 '''
 
 
-def _handles(file: InterfaceFile, hashes: Mapping[str, str]) -> str:
+def _handles(file: InterfaceFile) -> str:
     text = ''.join(f'''template <>
 const rosidl_message_type_support_t* get_message_type_support_handle<{m.cpp}>() {{
   return rosidl_typesupport_fastrtps_cpp::message_type_support<{m.cpp}>(
-      "{m.package}::{m.namespace}", "{m.name}", "{hashes[f'{m.package}/{m.namespace}/{m.name}']}");
+      "{m.package}::{m.namespace}", "{m.name}", {cpp_descriptions.symbol(m)});
 }}
 ''' for m in file.messages)
     text += ''.join(f'''template <>
 const rosidl_service_type_support_t* get_service_type_support_handle<{s.cpp}>() {{
-  return rosidl_typesupport_fastrtps_cpp::service_type_support<{s.cpp}>("{s.package}::{s.namespace}", "{s.name}");
+  return rosidl_typesupport_fastrtps_cpp::service_type_support<{s.cpp}>(
+      "{s.package}::{s.namespace}", "{s.name}", {cpp_descriptions.symbol(s)});
 }}
 ''' for s in file.services)
     if file.action:
         text += f'''template <>
 const rosidl_action_type_support_t* get_action_type_support_handle<{file.action.cpp}>() {{
-  return action_type_support<{file.action.cpp}>();
+  return action_type_support<{file.action.cpp}>(&{cpp_descriptions.symbol(file.action)});
 }}
 '''
     return text

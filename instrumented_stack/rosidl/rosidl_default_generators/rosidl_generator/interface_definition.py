@@ -123,6 +123,7 @@ class InterfaceFile:
     messages: List[Message]
     services: List[Service] = field(default_factory=list)
     action: Optional[Action] = None
+    source: str = ''  # the text of the file
 
     @property
     def header(self) -> str:

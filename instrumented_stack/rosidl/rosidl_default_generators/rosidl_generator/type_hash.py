@@ -1,4 +1,4 @@
-"""Describes messages as type_description_interfaces does, and hashes the descriptions (RIHS01).
+"""Describes interfaces as type_description_interfaces does, and hashes the descriptions (RIHS01).
 
 The hash names the definition of a type: it is SHA-256 over a JSON text of the description, without defaults, and of
 those of all messages in it. Two ROS 2 systems have the same hash for the same definition.
@@ -8,7 +8,7 @@ import hashlib
 import json
 from typing import Any, Dict, Iterable, List, Mapping
 
-from .interface_definition import Message, Type
+from .interface_definition import InterfaceFile, Message, Service, Type
 
 # The values of type_description_interfaces/FieldType. `char` is an unsigned byte, as in its C++ type.
 TYPE_IDS = {'int8': 2, 'uint8': 3, 'char': 3, 'int16': 4, 'uint16': 5, 'int32': 6, 'uint32': 7, 'int64': 8, 'uint64': 9,
@@ -19,12 +19,42 @@ ARRAY = 48
 BOUNDED_SEQUENCE = 96
 UNBOUNDED_SEQUENCE = 144
 
-Description = Dict[str, Any]  # of one message: its name, and name and type of its fields
+Description = Dict[str, Any]  # of one interface: its name, and name and type of its fields
+
+
+def describe_file(file: InterfaceFile) -> List[Description]:
+    """Everything that a file defines: its messages, its services and their events, its action."""
+    descriptions = [describe(message) for message in file.messages]
+    for service in file.services:
+        descriptions += _describe_service(service)
+    if file.action:
+        name = f'{file.package}/action/{file.name}'
+        parts = ('goal', 'Goal'), ('result', 'Result'), ('feedback', 'Feedback'), ('send_goal_service', 'SendGoal'), (
+            'get_result_service', 'GetResult'), ('feedback_message', 'FeedbackMessage')
+        descriptions.append({'type_name': name, 'fields': [_nested(field, f'{name}_{part}') for field, part in parts]})
+    return descriptions
 
 
 def describe(message: Message) -> Description:
     return {'type_name': f'{message.package}/{message.namespace}/{message.name}',
             'fields': [{'name': field.name, 'type': _describe_type(field.type)} for field in message.members]}
+
+
+def _describe_service(service: Service) -> List[Description]:
+    """The service as an interface of three messages, and the third of them, by which services can be watched."""
+    name = f'{service.package}/{service.namespace}/{service.name}'
+    request, response, event = (f'{name}_{part}' for part in ('Request', 'Response', 'Event'))
+    return [
+        {'type_name': event, 'fields': [_nested('info', 'service_msgs/msg/ServiceEventInfo'),
+                                        _nested('request', request, BOUNDED_SEQUENCE, 1),
+                                        _nested('response', response, BOUNDED_SEQUENCE, 1)]},
+        {'type_name': name, 'fields': [_nested('request_message', request), _nested('response_message', response),
+                                       _nested('event_message', event)]}]
+
+
+def _nested(field: str, type_name: str, many: int = 0, capacity: int = 0) -> Dict[str, Any]:
+    return {'name': field, 'type': {'type_id': NESTED_TYPE + many, 'capacity': capacity, 'string_capacity': 0,
+                                    'nested_type_name': type_name}}
 
 
 def _describe_type(type_: Type) -> Description:

@@ -4,6 +4,7 @@ import types
 
 import _launch_engine
 from launch import _environment
+from launch._places import caller, resolve
 from launch._values import LaunchFileError
 
 
@@ -38,6 +39,21 @@ class LaunchContext:
     @property
     def is_shutdown(self):
         return False
+
+    @property
+    def asyncio_loop(self):
+        """The loop that coroutines of launch files run on."""
+        from launch import _coroutines
+        return _coroutines.loop()
+
+    def emit_event_sync(self, event):
+        """As EmitEvent does."""
+        if not hasattr(event, '_tags'):
+            raise LaunchFileError(f'this launcher can\'t emit {type(event).__name__}')
+        _launch_engine.visit(event._tags(resolve(caller()), []))
+
+    async def emit_event(self, event):
+        self.emit_event_sync(event)
 
     def perform_substitution(self, substitution):
         return substitution.perform(self)

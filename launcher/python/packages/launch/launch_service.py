@@ -1,5 +1,6 @@
 """What runs launch descriptions: here, only the launcher itself."""
 
+from launch import _names
 from launch._values import LaunchFileError
 
 
@@ -14,3 +15,6 @@ class LaunchIntrospector:
 
     def __init__(self, *_args, **_kwargs):
         raise LaunchFileError('there is no LaunchIntrospector here', 'launch --dry-run shows what would be done')
+
+
+_names.same_module(__name__, 'launch.launch_introspector')

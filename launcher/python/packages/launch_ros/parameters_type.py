@@ -7,3 +7,6 @@ SomeParametersDict = Any
 SomeParameterValue = Any
 Parameters = Any
 ParametersDict = Any
+SomeParameterFile = Any
+ParameterFile = Any
+ParameterValue = Any

@@ -4,3 +4,5 @@ from typing import Any
 
 SomeRemapRule = Any
 SomeRemapRules = Any
+RemapRule = Any
+RemapRules = Any

@@ -8,21 +8,39 @@ from launch.action import Action
 from tracetools_trace.tools import names
 
 
+def _attributes(given):
+    """Attributes of XML, whose names have hyphens."""
+    attributes = []
+    for name, value in given.items():
+        if isinstance(value, bool):
+            value = boolean(value, name)
+        elif isinstance(value, (int, float)):
+            value = number(value, name)
+        elif isinstance(value, (list, tuple)):
+            value = words(value, name)
+        else:
+            value = text(value, name)
+        attributes.append((name.replace('_', '-'), value))
+    return attributes
+
+
 class Trace(Action):
+    """`channels` are mappings with the attributes of <channel>; further arguments are further attributes of <trace>."""
 
     def __init__(self, *, session_name, append_timestamp=False, base_path=None, append_trace=False, events_ust=None,
                  events_kernel=None, syscalls=None, context_fields=None, subbuffer_size_ust=None,
-                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, **kwargs):
+                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, channels=(), **kwargs):
         options = {'condition': kwargs.pop('condition', None)}
         # What is left in kwargs are further attributes of <trace>, with underscores.
         super().__init__(**options)
+        context_fields_kernel = kwargs.pop('context_fields_kernel', None)
         if isinstance(context_fields, Mapping):
-            userspace, kernel = (context_fields.get(domain) for domain in (names.DOMAIN_TYPE_USERSPACE,
-                                                                           names.DOMAIN_TYPE_KERNEL))
-            if userspace is not None and kernel is not None and list(userspace) != list(kernel) and (
-                    events_kernel or syscalls):
-                raise LaunchFileError('context fields that differ between userspace and kernel are not supported')
-            context_fields = userspace if userspace is not None else kernel
+            domains = (names.DOMAIN_TYPE_USERSPACE, names.DOMAIN_TYPE_KERNEL)
+            for domain in context_fields:
+                if domain not in domains:
+                    raise LaunchFileError(f"context_fields has a domain '{domain}': there are {' and '.join(domains)}")
+            # A domain that is not named has none.
+            context_fields, context_fields_kernel = (context_fields.get(domain, []) for domain in domains)
 
         def given(values, what):
             return None if values is None else words([values] if isinstance(values, str) else values, what)
@@ -37,22 +55,17 @@ class Trace(Action):
             ('append-trace', asked(append_trace, 'append_trace')),
             ('events-ust', given(events_ust, 'events_ust')), ('events-kernel', given(events_kernel, 'events_kernel')),
             ('syscalls', given(syscalls, 'syscalls')), ('context-fields', given(context_fields, 'context_fields')),
+            ('context-fields-kernel', given(context_fields_kernel, 'context_fields_kernel')),
             ('subbuffer-size-ust', None if subbuffer_size_ust is None else number(subbuffer_size_ust,
                                                                                   'subbuffer_size_ust')),
             ('subbuffer-size-kernel', None if subbuffer_size_kernel is None else number(subbuffer_size_kernel,
                                                                                         'subbuffer_size_kernel')),
             ('snapshot-mode', asked(snapshot_mode, 'snapshot_mode')),
             ('dual-session', asked(dual_session, 'dual_session'))]
-        for name, value in kwargs.items():
-            if isinstance(value, bool):
-                value = boolean(value, name)
-            elif isinstance(value, (int, float)):
-                value = number(value, name)
-            elif isinstance(value, (list, tuple)):
-                value = words(value, name)
-            else:
-                value = text(value, name)
-            self._attributes.append((name.replace('_', '-'), value))
+        self._attributes += _attributes(kwargs)
+        self._channels = [_attributes(channel) for channel in channels]
 
     def _tags(self):
-        return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]))]
+        place = self._place_of('channels') or self._place()
+        return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]),
+                       [entity('channel', place, channel) for channel in self._channels])]

@@ -22,7 +22,8 @@ class NodeBase {
 
   // Throws exceptions::InvalidNodeNameError, exceptions::InvalidNamespaceError or exceptions::RCLError.
   NodeBase(const std::string& node_name, const std::string& node_namespace, Context::SharedPtr context,
-           const rcl_node_options_t& rcl_node_options, bool use_intra_process_default = false);
+           const rcl_node_options_t& rcl_node_options, bool use_intra_process_default = false,
+           bool enable_topic_statistics_default = false);
   ~NodeBase();
 
   const char* get_name() const { return rcl_node_get_name(node_handle_.get()); }
@@ -31,6 +32,8 @@ class NodeBase {
   Context::SharedPtr get_context() const { return context_; }
   // Whether publishers and subscriptions that do not say otherwise use intra-process communication.
   bool get_use_intra_process_default() const { return use_intra_process_default_; }
+  // Whether subscriptions that do not say otherwise publish statistics.
+  bool get_enable_topic_statistics_default() const { return enable_topic_statistics_default_; }
 
   rcl_node_t* get_rcl_node_handle() { return node_handle_.get(); }
   const rcl_node_t* get_rcl_node_handle() const { return node_handle_.get(); }
@@ -57,6 +60,7 @@ class NodeBase {
 
   Context::SharedPtr context_;
   bool use_intra_process_default_;
+  bool enable_topic_statistics_default_;
   std::shared_ptr<rcl_node_t> node_handle_;
   std::atomic_bool associated_with_executor_{false};
 

@@ -3,6 +3,7 @@
 
 #include "rosidl_runtime_c/message_type_support_struct.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
+#include "rosidl_runtime_c/type_description.h"
 
 /// The services and messages that carry an action. It has static storage duration.
 typedef struct rosidl_action_type_support_t {
@@ -11,6 +12,7 @@ typedef struct rosidl_action_type_support_t {
   const rosidl_service_type_support_t* cancel_service_type_support;
   const rosidl_message_type_support_t* feedback_message_type_support;
   const rosidl_message_type_support_t* status_message_type_support;
+  const rosidl_type_description_t* description;
 } rosidl_action_type_support_t;
 
 #endif  // ROSIDL_RUNTIME_C__ACTION_TYPE_SUPPORT_STRUCT_H_

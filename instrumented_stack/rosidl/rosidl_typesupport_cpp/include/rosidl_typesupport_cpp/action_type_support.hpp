@@ -13,13 +13,14 @@ const rosidl_action_type_support_t* get_action_type_support_handle();
 
 /// Made of the type supports of what carries the action.
 template <typename T>
-const rosidl_action_type_support_t* action_type_support() {
+const rosidl_action_type_support_t* action_type_support(const rosidl_type_description_t* description) {
   static const rosidl_action_type_support_t handle{
       get_service_type_support_handle<typename T::Impl::SendGoalService>(),
       get_service_type_support_handle<typename T::Impl::GetResultService>(),
       get_service_type_support_handle<typename T::Impl::CancelGoalService>(),
       get_message_type_support_handle<typename T::Impl::FeedbackMessage>(),
-      get_message_type_support_handle<typename T::Impl::GoalStatusMessage>()};
+      get_message_type_support_handle<typename T::Impl::GoalStatusMessage>(),
+      description};
   return &handle;
 }
 

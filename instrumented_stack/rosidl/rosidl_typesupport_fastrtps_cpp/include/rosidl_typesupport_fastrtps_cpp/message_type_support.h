@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "rosidl_runtime_c/message_type_support_struct.h"
+#include "rosidl_runtime_c/type_description.h"
 
 namespace eprosima::fastcdr {
 class Cdr;
@@ -36,6 +37,11 @@ typedef struct message_type_support_callbacks_t {
   uint32_t (*get_serialized_size)(const void* untyped_ros_message);
   /// The upper bound if `bounds_info` says that there is one; otherwise the size with all unbounded parts empty.
   size_t (*max_serialized_size)(char& bounds_info);
+  /// Null for a type of which only the name is known.
+  const rosidl_type_description_t* description_;
+  /// A new message with its defaults, to be given to destroy_message. Throws std::bad_alloc.
+  void* (*create_message)(void);
+  void (*destroy_message)(void* untyped_ros_message);
 } message_type_support_callbacks_t;
 
 #endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__MESSAGE_TYPE_SUPPORT_H_

@@ -3,6 +3,7 @@
 
 #include "rosidl_runtime_c/message_type_support_struct.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
+#include "rosidl_runtime_c/type_description.h"
 
 /// Names of a service type and the type supports of its two messages.
 typedef struct service_type_support_callbacks_t {
@@ -13,6 +14,7 @@ typedef struct service_type_support_callbacks_t {
   /// Of GetParameters_Request and GetParameters_Response.
   const rosidl_message_type_support_t* request_members_;
   const rosidl_message_type_support_t* response_members_;
+  const rosidl_type_description_t* description_;
 } service_type_support_callbacks_t;
 
 #endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__SERVICE_TYPE_SUPPORT_H_

@@ -35,6 +35,8 @@ struct Callbacks {
   static uint32_t size(const void* message) {
     return static_cast<uint32_t>(CdrCodec<Message>::end_after(*static_cast<const Message*>(message), 0));
   }
+  static void* create() { return new Message; }
+  static void destroy(void* message) { delete static_cast<Message*>(message); }
   static std::size_t max_size(char& bounds_info) {
     MaxSize size;
     CdrCodec<Message>::add_to(size);
@@ -54,22 +56,23 @@ const Handle* itself(const Handle* handle, const char* identifier) {
 
 template <typename Message>
 const rosidl_message_type_support_t* message_type_support(const char* message_namespace, const char* message_name,
-                                                          const char* type_hash) {
+                                                          const rosidl_type_description_t& description) {
   using Functions = Callbacks<Message>;
-  static const message_type_support_callbacks_t callbacks{message_namespace,  message_name,    type_hash,
-                                                          Functions::write,   Functions::read, Functions::size,
-                                                          Functions::max_size};
+  static const message_type_support_callbacks_t callbacks{
+      message_namespace, message_name,        description.type_hash, Functions::write,  Functions::read,
+      Functions::size,   Functions::max_size, &description,          Functions::create, Functions::destroy};
   static const rosidl_message_type_support_t handle{typesupport_identifier, &callbacks,
                                                     itself<rosidl_message_type_support_t>};
   return &handle;
 }
 
 template <typename Service>
-const rosidl_service_type_support_t* service_type_support(const char* service_namespace, const char* service_name) {
+const rosidl_service_type_support_t* service_type_support(const char* service_namespace, const char* service_name,
+                                                          const rosidl_type_description_t& description) {
   using rosidl_typesupport_cpp::get_message_type_support_handle;
   static const service_type_support_callbacks_t callbacks{
       service_namespace, service_name, get_message_type_support_handle<typename Service::Request>(),
-      get_message_type_support_handle<typename Service::Response>()};
+      get_message_type_support_handle<typename Service::Response>(), &description};
   static const rosidl_service_type_support_t handle{typesupport_identifier, &callbacks,
                                                     itself<rosidl_service_type_support_t>, callbacks.request_members_,
                                                     callbacks.response_members_};

@@ -1,9 +1,9 @@
 """Actions that deal with events."""
 
+from launch._entities import entity
 from launch._values import LaunchFileError
 from launch.action import Action
 from launch.event_handler import BaseEventHandler
-from launch.events import Shutdown as ShutdownEvent
 
 
 class RegisterEventHandler(Action):
@@ -24,8 +24,18 @@ class RegisterEventHandler(Action):
 
 class UnregisterEventHandler(Action):
 
-    def __init__(self, _event_handler, **_kwargs):
-        raise LaunchFileError('an event handler stays registered here', 'handle_once=True makes it handle one event')
+    def __init__(self, event_handler, **kwargs):
+        super().__init__(**kwargs)
+        if not isinstance(event_handler, BaseEventHandler):
+            raise LaunchFileError(f'event_handler must be an event handler, got {type(event_handler).__name__}')
+        self._handler = event_handler
+
+    @property
+    def event_handler(self):
+        return self._handler
+
+    def _tags(self):
+        return [entity('unregister_event_handler', self._place(), [self._handler._name_of_it(), *self._when()])]
 
 
 class EmitEvent(Action):
@@ -34,7 +44,7 @@ class EmitEvent(Action):
         super().__init__(**kwargs)
         if not hasattr(event, '_tags'):
             raise LaunchFileError(f'this launcher can\'t emit {type(event).__name__}',
-                                  'it can emit Shutdown' if not isinstance(event, ShutdownEvent) else '')
+                                  'it can emit Shutdown, ShutdownProcess, SignalProcess and ChangeState')
         self._event = event
 
     @property

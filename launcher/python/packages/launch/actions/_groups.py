@@ -1,5 +1,6 @@
 """Actions that hold others, or that make them when they are visited."""
 
+import _launch_engine
 from launch._entities import entities, entity
 from launch._places import of_function
 from launch._values import LaunchFileError, boolean, pairs, text
@@ -75,10 +76,35 @@ class OpaqueFunction(Action):
 
 
 class OpaqueCoroutine(Action):
+    """
+    Runs coroutine(context, *args, **kwargs) beside the processes, from when they start.
 
-    def __init__(self, **_kwargs):
-        raise LaunchFileError('this launcher runs no coroutines of launch files',
-                              'run the work as a process of its own: ExecuteProcess')
+    The launch lasts until it has returned; a shutdown cancels it. What it raises ends the launch.
+    """
+
+    def __init__(self, *, coroutine, args=None, kwargs=None, ignore_context=False, **left_over_kwargs):
+        super().__init__(**left_over_kwargs)
+        from asyncio import iscoroutinefunction  # not for launch files that need none of it
+        if not iscoroutinefunction(coroutine):
+            raise LaunchFileError(f'coroutine must be an async function, got {type(coroutine).__name__}',
+                                  'write it with async def')
+        self._coroutine = coroutine
+        self._args = list(args or [])
+        self._kwargs = dict(kwargs or {})
+        self._ignore_context = ignore_context
+
+    def describe(self):
+        return getattr(self._coroutine, '__qualname__', 'a coroutine')
+
+    def execute(self, context):
+        _launch_engine.run_coroutine(self)
+
+    # The launcher calls it when everything before it has begun.
+    def _start(self):
+        from launch import _coroutines
+        from launch.launch_context import LaunchContext
+        context = [] if self._ignore_context else [LaunchContext._of_launch()]
+        _coroutines.start(self._coroutine(*context, *self._args, **self._kwargs), self)
 
 
 class ForLoop(Action):

@@ -28,6 +28,27 @@ def name_of_process(action, what):
     return (action._spoken_of,)
 
 
+def _dependencies(given, action):
+    """The items for depends_on: mappings with the attributes of XML, `process` may be an action."""
+    items = []
+    given = [given] if isinstance(given, dict) else given or []
+    for dependency in given:
+        if not isinstance(dependency, dict):
+            raise LaunchFileError(f'depends_on must hold mappings, got {type(dependency).__name__}',
+                                  "write {'process': action, 'condition': 'exited'}")
+        attributes = []
+        for name, value in dependency.items():
+            if name == 'process' and isinstance(value, Action):
+                value = name_of_process(value, "'process' of depends_on")
+            elif isinstance(value, bool) or not isinstance(value, (int, float)):
+                value = text(value, f'{name!r} of depends_on')
+            else:
+                value = number(value, name)
+            attributes.append((name, value))
+        items.append(entity('depends_on', action._place_of('depends_on') or action._place(), attributes))
+    return items
+
+
 class _Process(Action):
     """What programs and nodes have in common."""
 
@@ -36,17 +57,18 @@ class _Process(Action):
                   'respawn_delay', 'respawn_max_retries', 'condition')
     # What this launcher has besides, named as in XML.
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
-                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit')
+                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace')
 
     def _take(self, options, known=(), former=None):
         """Keeps the options of the process; `known` are the arguments that the caller has taken."""
-        options_known = self._ARGUMENTS + self._EXTENSIONS
+        options_known = (*self._ARGUMENTS, *self._EXTENSIONS, 'depends_on')
         unknown = [name for name in options if name not in options_known]
         reject(type(self), unknown, [*options_known, *known], former)
         Action.__init__(self, condition=options.get('condition'))
         if options.get('output_format', _OUTPUT_FORMAT) != _OUTPUT_FORMAT:
             raise LaunchFileError('output_format is not supported: lines begin with the name of the process')
         self._options = options
+        self._dependencies = _dependencies(options.get('depends_on'), self)
         self._spoken_of = None
         self._was_read = False
 
@@ -111,7 +133,8 @@ class _Process(Action):
             handlers = handler._tags(self._place(), [])
         self._was_read = True
         return [*handlers, entity(tag, self._place(), self._with_places([*attributes, *self._process_attributes()]),
-                                  [*self._environment_items(), *items], process_name=self._spoken_of or '')]
+                                  [*self._environment_items(), *self._dependencies, *items],
+                                  process_name=self._spoken_of or '')]
 
     def _environment_items(self):
         place = self._place()

@@ -10,6 +10,10 @@ class InvalidConditionExpressionError(Exception):
     pass
 
 
+class UnsupportedConditionError(Exception):
+    pass
+
+
 class IfCondition(Condition):
     """Holds when the text is true or 1."""
 

@@ -57,7 +57,8 @@ class _ProcessHandler(BaseEventHandler):
         from launch.actions._processes import name_of_process
         process = None if self._target is None else name_of_process(self._target, 'target_action')
         target = self._target
-        return entity(tag, place, [('process', process), *attributes, ('once', 'true' if self._once else None), *when],
+        return entity(tag, place, [('process', process), *attributes, ('once', 'true' if self._once else None),
+                                   self._name_of_it(), *when],
                       _actions(given, lambda values: event_type(target, values), self._place()))
 
 
@@ -116,7 +117,15 @@ class OnShutdown(BaseEventHandler):
         def make_event(values):
             return Shutdown(reason=values.get('reason', ''), due_to_sigint='SIGINT' in values.get('reason', ''))
 
-        return [entity('on_shutdown', place, when, _actions(self._on_shutdown, make_event, self._place()))]
+        return [entity('on_shutdown', place, [self._name_of_it(), *when], _actions(self._on_shutdown, make_event, self._place()))]
+
+
+class OnActionEventBase(BaseEventHandler):
+    """Of ROS 2, where the handlers of processes derive from it."""
+
+
+class OnIncludeLaunchDescription(BaseEventHandler):
+    """Not here: an include is no event."""
 
 
 _names.one_class_modules(__name__)

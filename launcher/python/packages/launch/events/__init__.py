@@ -21,6 +21,18 @@ class Shutdown(Located, Event):
         return [entity('shutdown', place, [('reason', self._reason), *when])]
 
 
+class ExecutionComplete(Event):
+    """Of ROS 2; the handler OnExecutionComplete is given ProcessExited here."""
+
+
+class IncludeLaunchDescription(Event):
+    """Of ROS 2; an include is no event here."""
+
+
+class TimerEvent(Event):
+    """Of ROS 2; a timer that fires is no event here."""
+
+
 _names.one_class_modules(__name__)
 _names.same_module('launch.events.process', 'launch.events.matchers')
 __all__ = ['Shutdown', 'matches_action', 'process']

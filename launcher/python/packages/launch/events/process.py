@@ -51,6 +51,10 @@ class ProcessIO(ProcessEvent):
         self.fd = 1 if self.from_stdout else 2
 
 
+class ProcessStdin(ProcessIO):
+    """Of ROS 2; launched processes are given no input, so there are none."""
+
+
 class ProcessStdout(ProcessIO):
     pass
 
@@ -67,6 +71,10 @@ class _ProcessTargetedEvent(Located, Event):
                                   'write launch.events.matches_action(action)')
         self.process_matcher = process_matcher
         process_matcher._process()  # an action gets its name before it is read
+
+
+ProcessTargetedEvent = _ProcessTargetedEvent
+RunningProcessEvent = ProcessEvent
 
 
 class ShutdownProcess(_ProcessTargetedEvent):
@@ -101,6 +109,10 @@ def matches_action(target_action):
 
 def matches_name(name):
     return _Matcher(lambda: text(name, 'name'))
+
+
+def matches_pid(_pid):
+    raise LaunchFileError('a process can\'t be meant by its number here', 'write launch.events.matches_action(action)')
 
 
 def matches_executable(executable):

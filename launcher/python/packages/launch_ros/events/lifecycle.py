@@ -23,6 +23,17 @@ def matches_node_name(node_name):
     return text(node_name, 'node_name')
 
 
+class StateTransition(Event):
+    """What handlers are told: `action` is the node, the states are labels such as 'inactive'."""
+
+    name = 'launch_ros.events.lifecycle.StateTransition'
+
+    def __init__(self, action, values):
+        self.action = action
+        self.start_state = values['start_state']
+        self.goal_state = values['goal_state']
+
+
 class ChangeState(Located, Event):
 
     def __init__(self, *, lifecycle_node_matcher, transition_id):

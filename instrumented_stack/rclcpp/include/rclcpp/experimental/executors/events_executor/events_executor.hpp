@@ -16,8 +16,8 @@
 namespace rclcpp::experimental::executors {
 
 // It executes in the thread that calls spin(), except, with `execute_timers_separate_thread`, timers in a thread of
-// their own, beside the callbacks of their group. Waitables must override set_on_ready_callback(). It fires none of the
-// rclcpp_executor_* tracepoints, which tell of waiting.
+// their own, beside the callbacks of their group. Waitables must override set_on_ready_callback(). It fires none of
+// ros2's rclcpp_executor_* tracepoints, which tell of waiting; those of ros2_ext tell what it executes.
 class EventsExecutor : public rclcpp::Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(EventsExecutor)

@@ -1,0 +1,34 @@
+// <unregister_event_handler name="…"/>: an event handler hears of nothing more.
+#include "launcher/core/fields.hpp"
+#include "launcher/core/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+class UnregisterEventHandler : public Action {
+ public:
+  explicit UnregisterEventHandler(const Fields& fields)
+      : Action(fields.where(), fields.condition()), name_(fields.text("name")) {}
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    context.requests().unregistered.push_back({name_.perform(context.scope()), name_.where()});
+  }
+
+ private:
+  Template name_;
+};
+
+}  // namespace
+
+ActionType unregister_event_handler_action() {
+  return {.tag = "unregister_event_handler",
+          .help = "Forgets the event handlers of a name; what they have started goes on.",
+          .attributes = {{"name", AttributeType::kText, true, "", "that the handlers were given", true}},
+          .items = {},
+          .extension = true,
+          .make = [](const Fields& fields) { return std::make_shared<UnregisterEventHandler>(fields); }};
+}
+
+}  // namespace launch

@@ -1,0 +1,98 @@
+// Sends requests to a service of a type that is known by name at run time only. Created by
+// Node::create_generic_client().
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "rclcpp/client.hpp"
+#include "rclcpp/client_base.hpp"
+#include "rclcpp/typesupport_helpers.hpp"
+
+namespace rclcpp {
+
+// Requests and responses are messages in memory, as for a Client of the type: cast them, or read and write them as
+// bytes with a SerializationBase. An executor must spin the node for responses to arrive. Thread safe.
+class GenericClient : public ClientBase {
+ public:
+  using Request = void*;   // a message of the service's request type
+  using Response = void*;  // a message of its response type
+  using SharedRequest = std::shared_ptr<void>;
+  using SharedResponse = std::shared_ptr<void>;
+  using Promise = std::promise<SharedResponse>;
+  using SharedPromise = std::shared_ptr<Promise>;
+  using Future = std::future<SharedResponse>;
+  using SharedFuture = std::shared_future<SharedResponse>;
+  using CallbackType = std::function<void(SharedFuture)>;
+  RCLCPP_SMART_PTR_DEFINITIONS(GenericClient)
+
+  struct FutureAndRequestId : detail::FutureAndRequestId<Future> {
+    using detail::FutureAndRequestId<Future>::FutureAndRequestId;
+    SharedFuture share() { return this->future.share(); }
+  };
+  struct SharedFutureAndRequestId : detail::FutureAndRequestId<SharedFuture> {
+    using detail::FutureAndRequestId<SharedFuture>::FutureAndRequestId;
+  };
+
+  // `service_type` is "std_srvs/srv/SetBool" or the like. Throws std::runtime_error for a type that cannot be found,
+  // and what the constructor of ClientBase throws.
+  GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
+                const std::string& service_type, const QoS& qos = ServicesQoS());
+
+  // A new request with the defaults of its type.
+  SharedRequest create_request();
+  std::shared_ptr<void> create_response() override;
+  // Of the two messages, for a SerializationBase.
+  const rosidl_service_type_support_t& get_service_type_support_handle() const { return *type_support_; }
+
+  // A request that is never answered stays pending until it is removed. Throw exceptions::RCLError.
+  FutureAndRequestId async_send_request(const Request request);
+  // The callback's future has its value when the callback runs.
+  SharedFutureAndRequestId async_send_request(const Request request, CallbackType callback);
+
+  // Whether there was such a request.
+  bool remove_pending_request(int64_t request_id);
+  bool remove_pending_request(const FutureAndRequestId& future) { return remove_pending_request(future.request_id); }
+  bool remove_pending_request(const SharedFutureAndRequestId& future) {
+    return remove_pending_request(future.request_id);
+  }
+  // Both give the number of requests that were removed, and the second their ids.
+  size_t prune_pending_requests();
+  size_t prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,
+                                   std::vector<int64_t>* pruned_requests = nullptr);
+
+ protected:
+  void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) override;
+
+ private:
+  struct WithCallback {
+    CallbackType callback;
+    Promise promise;
+    SharedFuture future;
+  };
+  using Answer = std::variant<Promise, WithCallback>;
+  struct Pending {
+    std::chrono::time_point<std::chrono::system_clock> sent;
+    Answer answer;
+  };
+
+  GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
+                const rosidl_service_type_support_t* type_support, const QoS& qos);
+  int64_t send(const void* request, Answer answer);
+
+  const rosidl_service_type_support_t* type_support_;
+  std::mutex mutex_;
+  std::map<int64_t, Pending> pending_;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,98 @@
+#include "rclcpp/generic_client.hpp"
+
+#include "rclcpp/detail/message_memory.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+GenericClient::GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
+                             const std::string& service_type, const QoS& qos)
+    : GenericClient(node_base, service_name,
+                    get_service_typesupport_handle(service_type, "rosidl_typesupport_cpp",
+                                                   *get_typesupport_library(service_type, "rosidl_typesupport_cpp")),
+                    qos) {}
+
+GenericClient::GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
+                             const rosidl_service_type_support_t* type_support, const QoS& qos)
+    : ClientBase(node_base, *type_support, service_name, qos), type_support_(type_support) {}
+
+GenericClient::SharedRequest GenericClient::create_request() {
+  return detail::make_message(*type_support_->request_typesupport);
+}
+
+std::shared_ptr<void> GenericClient::create_response() {
+  return detail::make_message(*type_support_->response_typesupport);
+}
+
+GenericClient::FutureAndRequestId GenericClient::async_send_request(const Request request) {
+  Promise promise;
+  Future future = promise.get_future();
+  const int64_t request_id = send(request, std::move(promise));
+  return {std::move(future), request_id};
+}
+
+GenericClient::SharedFutureAndRequestId GenericClient::async_send_request(const Request request,
+                                                                          CallbackType callback) {
+  Promise promise;
+  SharedFuture future = promise.get_future().share();
+  const int64_t request_id = send(request, WithCallback{std::move(callback), std::move(promise), future});
+  return {std::move(future), request_id};
+}
+
+int64_t GenericClient::send(const void* request, Answer answer) {
+  // Locked until the request is registered: its response may come before this function returns.
+  const std::lock_guard lock(mutex_);
+  const int64_t request_id = send_type_erased_request(request);
+  pending_.emplace(request_id, Pending{std::chrono::system_clock::now(), std::move(answer)});
+  return request_id;
+}
+
+void GenericClient::handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) {
+  std::unique_lock lock(mutex_);
+  auto node = pending_.extract(request_header.sequence_number);
+  lock.unlock();
+  if (node.empty()) {
+    RCLCPP_DEBUG(get_logger("rclcpp"), "dropped a response of service '%s' to a request that is not pending",
+                 get_service_name());
+    return;
+  }
+  Answer& answer = node.mapped().answer;
+  if (auto* promise = std::get_if<Promise>(&answer)) {
+    promise->set_value(std::move(response));
+  } else {
+    auto& with_callback = std::get<WithCallback>(answer);
+    with_callback.promise.set_value(std::move(response));
+    with_callback.callback(std::move(with_callback.future));
+  }
+}
+
+bool GenericClient::remove_pending_request(int64_t request_id) {
+  const std::lock_guard lock(mutex_);
+  return pending_.erase(request_id) != 0;
+}
+
+size_t GenericClient::prune_pending_requests() {
+  const std::lock_guard lock(mutex_);
+  const size_t count = pending_.size();
+  pending_.clear();
+  return count;
+}
+
+size_t GenericClient::prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,
+                                                std::vector<int64_t>* pruned_requests) {
+  const std::lock_guard lock(mutex_);
+  const size_t before = pending_.size();
+  for (auto entry = pending_.begin(); entry != pending_.end();) {
+    if (entry->second.sent >= time_point) {
+      ++entry;
+      continue;
+    }
+    if (pruned_requests) {
+      pruned_requests->push_back(entry->first);
+    }
+    entry = pending_.erase(entry);
+  }
+  return before - pending_.size();
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,21 @@
+#ifndef RMW__TYPE_DESCRIPTION_H_
+#define RMW__TYPE_DESCRIPTION_H_
+
+#include "rosidl_runtime_c/message_type_support_struct.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+#include "rosidl_runtime_c/type_description.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What a type support knows of the definition of its type; null for a type of which only the name is known. Any
+/// thread.
+const rosidl_type_description_t* rmw_message_type_description(const rosidl_message_type_support_t* type_support);
+const rosidl_type_description_t* rmw_service_type_description(const rosidl_service_type_support_t* type_support);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif  // RMW__TYPE_DESCRIPTION_H_

@@ -1,0 +1,46 @@
+#ifndef ROSIDL_RUNTIME_C__TYPE_DESCRIPTION_H_
+#define ROSIDL_RUNTIME_C__TYPE_DESCRIPTION_H_
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rosidl_type_description_t rosidl_type_description_t;
+
+/// One field of an interface. All strings of descriptions are UTF-8 and never null.
+typedef struct rosidl_field_description_t {
+  const char* name;
+  /// One of the constants of type_description_interfaces/msg/FieldType.
+  uint8_t type_id;
+  /// Elements of an array, the most elements of a bounded sequence, otherwise 0.
+  uint64_t capacity;
+  /// The most characters of a bounded string, otherwise 0.
+  uint64_t string_capacity;
+  /// Null unless the field is, or has, interfaces of another kind.
+  const rosidl_type_description_t* nested_type;
+  /// Empty where there is none.
+  const char* default_value;
+} rosidl_field_description_t;
+
+/// A message, service or action as its file defines it. It has static storage duration: that of the package's library.
+struct rosidl_type_description_t {
+  /// "std_msgs/msg/Header"
+  const char* type_name;
+  /// Names the definition: "RIHS01_" and 64 hexadecimal digits.
+  const char* type_hash;
+  const rosidl_field_description_t* fields;
+  size_t field_count;
+  /// "msg", "srv" or "action"; "implicit" for what is a part of another interface.
+  const char* encoding;
+  /// The text of the file; empty if it is implicit.
+  const char* source;
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif  // ROSIDL_RUNTIME_C__TYPE_DESCRIPTION_H_

@@ -1,0 +1,16 @@
+// `launch graph`: draws what a launch file would run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/core/registry.hpp"
+#include "launcher/substitution/scope.hpp"
+
+namespace launch {
+
+// Takes the words after its name. Returns the exit code: 0, 1 after an error in a launch file, 2 after a wrong command
+// line.
+int graph_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment);
+
+}  // namespace launch

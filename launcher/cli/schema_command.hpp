@@ -1,0 +1,14 @@
+// `launch schema`: prints a schema of the launch language, for editors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/core/registry.hpp"
+
+namespace launch {
+
+// Takes the words after its name. Returns the exit code: 0, or 2 after a wrong command line.
+int schema_command(const std::vector<std::string>& words, const Registry& registry);
+
+}  // namespace launch

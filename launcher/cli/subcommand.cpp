@@ -1,0 +1,70 @@
+#include "launcher/cli/subcommand.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+namespace launch {
+
+Subcommand::Subcommand(const std::string& name, const std::string& description)
+    : app_(std::make_unique<CLI::App>(description, name)) {}
+
+Subcommand::~Subcommand() = default;
+
+void Subcommand::take_target(LaunchTarget& target) {
+  target_ = &target;
+  app_->add_option("words", words_, "launch files, or a package and a file of it; then arguments, name:=value")
+      ->type_name("FILE ... | PACKAGE FILE  [NAME:=VALUE ...]")
+      ->required();
+}
+
+void Subcommand::take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
+                             const std::string& help) {
+  app_->add_option(name, value, help)->check(CLI::IsMember(values))->capture_default_str();
+}
+
+void Subcommand::take_text(const std::string& name, std::string& value, const std::string& help) {
+  app_->add_option(name, value, help);
+}
+
+void Subcommand::take_flag(const std::string& name, bool& value, const std::string& help) {
+  app_->add_flag(name, value, help);
+}
+
+std::optional<int> Subcommand::parse(std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  try {
+    app_->parse(words);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app_->help());
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "{}: error: {}\n", app_->get_name(), error.what());
+    return kWrongCommandLine;
+  }
+  if (target_ == nullptr) {
+    return std::nullopt;
+  }
+  for (const std::string& word : words_) {
+    const std::size_t separator = word.find(":=");
+    if (separator == std::string::npos) {
+      target_->words.push_back(word);
+    } else {
+      target_->arguments.emplace_back(word.substr(0, separator), word.substr(separator + 2));
+    }
+  }
+  if (target_->words.empty()) {
+    fmt::print(stderr, "{}: error: no launch file given\n", app_->get_name());
+    return kWrongCommandLine;
+  }
+  return std::nullopt;
+}
+
+void print_errors(const LaunchError& error) {
+  fmt::print(stderr, "{}", render(error.diagnostics(), ::isatty(STDERR_FILENO) != 0));
+}
+
+}  // namespace launch

@@ -1,0 +1,53 @@
+// The command line of the commands that look at launch files without running them: check, graph, schema.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace launch {
+
+constexpr int kWrongCommandLine = 2;  // exit code
+
+// Files, or a package and a file; and arguments, name:=value.
+struct LaunchTarget {
+  std::vector<std::string> words;
+  std::vector<std::pair<std::string, std::string>> arguments;
+};
+
+// What it is given to fill must live until it has parsed.
+class Subcommand {
+ public:
+  // `name` is "launch check".
+  Subcommand(const std::string& name, const std::string& description);
+  ~Subcommand();
+
+  // The words that are no options. At least one that is no argument is required.
+  void take_target(LaunchTarget& target);
+  // An option, or without "--" a word, that is one of `values`.
+  void take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
+                   const std::string& help);
+  void take_text(const std::string& name, std::string& value, const std::string& help);
+  void take_flag(const std::string& name, bool& value, const std::string& help);
+
+  // Parses the words behind the name of the command. Gives the exit code when that is all there is to do: after
+  // --help, and after an error, which it has told.
+  std::optional<int> parse(std::vector<std::string> words);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+  LaunchTarget* target_ = nullptr;
+  std::vector<std::string> words_;
+};
+
+void print_errors(const LaunchError& error);
+
+}  // namespace launch

@@ -1,0 +1,71 @@
+// Event handlers and coroutines of a launch: how handlers are registered, and visited when their event has happened.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "launcher/core/launch_service.hpp"
+
+namespace launch {
+
+// In a later turn: handlers start and stop processes, which observers of their events should not.
+void LaunchService::invoke(std::vector<Invocation> invocations) {
+  for (Invocation& invocation : invocations) {
+    invocations_.push_back(std::move(invocation));
+    loop_.post([this] { run_invocation(); });
+  }
+}
+
+void LaunchService::run_invocation() {
+  if (invocations_.empty()) {
+    return;  // its handler was unregistered meanwhile
+  }
+  const Invocation invocation = std::move(invocations_.front());
+  invocations_.pop_front();
+  visit(invocation.scope(), invocation.handler->actions);
+}
+
+void LaunchService::on_step() {
+  Requests requests = context_.take_requests();
+  if (requests.empty()) {
+    check_finished();
+  } else {
+    carry_out(std::move(requests));
+  }
+}
+
+void LaunchService::register_handler(EventHandler handler) {
+  if (std::holds_alternative<OnceReady>(handler.event)) {
+    wait_for(std::move(handler));
+  } else if (std::holds_alternative<OnStateTransition>(handler.event)) {
+    state_handlers_.add(std::move(handler), context_.ros_client());
+  } else {
+    handlers_.add(std::move(handler));
+  }
+}
+
+void LaunchService::unregister_handlers(const UnregisterRequest& request) {
+  const bool registered = handlers_.remove(request.name) | state_handlers_.remove(request.name);
+  // Those of it that wait for their turn.
+  std::erase_if(invocations_, [&](const Invocation& each) { return each.handler->name == request.name; });
+  if (!registered) {
+    context_.message(
+        LogLevel::kWarning, "launch",
+        fmt::format("no event handler is registered that is named '{}' ({})", request.name, to_string(request.where)));
+  }
+}
+
+void LaunchService::wait_for(EventHandler handler) {
+  const auto place = waits_.insert(waits_.end(), std::make_shared<const EventHandler>(std::move(handler)));
+  std::get<OnceReady>((*place)->event)
+      .condition->watch(loop_, [this, place](const std::optional<std::string>& failure) {
+        const std::shared_ptr<const EventHandler> ready = *place;
+        waits_.erase(place);
+        if (failure) {
+          fail(LaunchError(*failure, ready->where));
+        } else {
+          invoke({{ready, {}}});
+        }
+      });
+}
+
+}  // namespace launch

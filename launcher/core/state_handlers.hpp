@@ -1,0 +1,41 @@
+// The handlers of nodes with a managed life cycle: each watches its node.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "launcher/core/event_handlers.hpp"
+#include "launcher/core/ros_client.hpp"
+
+namespace launch {
+
+class StateHandlers {
+ public:
+  // `invoke` is given what is to be visited, `fail` what keeps a node from being watched.
+  StateHandlers(std::function<void(std::vector<Invocation>)> invoke, std::function<void(const LaunchError&)> fail)
+      : invoke_(std::move(invoke)), fail_(std::move(fail)) {}
+
+  // Watches the node of an OnStateTransition, in the graph of the handler's scope, until it is removed; with `once`
+  // until the first event. A null client is an error.
+  void add(EventHandler handler, RosClient* client);
+  // Forgets the handlers of that name; false when there is none.
+  bool remove(const std::string& name);
+  void clear() { watches_.clear(); }
+
+ private:
+  struct Watch {
+    std::shared_ptr<const EventHandler> handler;
+    EventLoop::SourcePtr source;
+  };
+
+  void on_answer(std::list<Watch>::iterator watch, const RosAnswer& answer);
+
+  std::function<void(std::vector<Invocation>)> invoke_;
+  std::function<void(const LaunchError&)> fail_;
+  std::list<Watch> watches_;
+};
+
+}  // namespace launch

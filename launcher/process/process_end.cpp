@@ -1,0 +1,148 @@
+// How a supervised process is asked to end, and what is left of it when it has.
+#include <signal.h>
+
+#include <utility>
+
+#include "launcher/process/supervised_process.hpp"
+
+namespace launch {
+
+namespace {
+
+bool asks_to_end(int signal) {
+  return signal == SIGINT || signal == SIGTERM || signal == SIGKILL || signal == SIGQUIT || signal == SIGHUP;
+}
+
+}  // namespace
+
+void ProcessSupervisor::Impl::interrupt(Supervised& process) {
+  process.state = ProcessState::kInterrupting;
+  start_timer(process, process.spec.sigterm_timeout);
+  send(process, SIGINT, 0, Duration{0});
+}
+
+void ProcessSupervisor::Impl::terminate(Supervised& process) {
+  process.state = ProcessState::kTerminating;
+  start_timer(process, process.spec.sigkill_timeout);
+  send(process, SIGTERM, SIGINT, process.spec.sigterm_timeout);
+}
+
+void ProcessSupervisor::Impl::kill_at_last(Supervised& process) {
+  process.state = ProcessState::kKilling;
+  process.timer.reset();
+  send(process, SIGKILL, SIGTERM, process.spec.sigkill_timeout);
+  if (process.exited) {
+    reap_after_kill(process);
+    conclude(process);
+  }
+}
+
+void ProcessSupervisor::Impl::kill_now(Supervised& process) {
+  process.state = ProcessState::kKilling;
+  process.timer.reset();
+  send(process, SIGKILL, 0, Duration{0});
+  if (process.exited) {
+    reap_after_kill(process);
+    conclude(process);
+  }
+}
+
+void ProcessSupervisor::Impl::send_requested(Supervised& process) {
+  send(process, process.requested_signal, 0, Duration{0});
+}
+
+void ProcessSupervisor::Impl::end_unasked(Supervised& process) {
+  if (process.signalled) {
+    end_signalled(process);
+    return;
+  }
+  process.exit_source.reset();
+  process.output.drain();
+  const bool again = respawns(process);
+  if (again) {
+    // A wrapper has died and its program lives on: two of it would be worse than none for a moment.
+    runner.signal_group(process.process, SIGKILL);
+    process.output.close();
+  }
+  process.exited = true;
+  if (process.output.is_open()) {
+    report_exit(process, runner.outcome(process.process), again);
+  } else {
+    process.unreaped = false;
+    report_exit(process, runner.reap(process.process), again);
+  }
+  conclude(process);
+}
+
+void ProcessSupervisor::Impl::end_signalled(Supervised& process) {
+  process.exit_source.reset();
+  process.output.drain();
+  process.exited = true;
+  const bool again = respawns(process);
+  if (process.output.is_open() && process.state != ProcessState::kKilling) {
+    report_exit(process, runner.outcome(process.process), again);
+    if (process.state != ProcessState::kTerminating) {
+      process.state = ProcessState::kTerminating;
+      start_timer(process, process.spec.sigkill_timeout);
+      send(process, SIGTERM, 0, Duration{0});
+    }
+    return;
+  }
+  // Before the process is reaped: until then no stranger's group can have its number.
+  runner.signal_group(process.process, SIGKILL);
+  process.unreaped = false;
+  const ProcessExit exit = runner.reap(process.process);
+  process.output.close();
+  process.timer.reset();
+  report_exit(process, exit, again);
+  conclude(process);
+}
+
+void ProcessSupervisor::Impl::remains_ended(Supervised& process) {
+  if (process.exited) {
+    reap_after_kill(process);
+    conclude(process);
+  }
+}
+
+void ProcessSupervisor::Impl::release_remains(Supervised& process) {
+  if (process.unreaped) {
+    process.unreaped = false;
+    runner.reap(process.process);
+    process.process = Process{};
+  }
+}
+
+void ProcessSupervisor::Impl::interrupt_remains(Supervised& process) {
+  if (process.unreaped) {
+    runner.signal_group(process.process, SIGINT);
+  }
+}
+
+void ProcessSupervisor::Impl::kill_remains(Supervised& process) {
+  if (process.unreaped) {
+    reap_after_kill(process);
+  }
+}
+
+void ProcessSupervisor::Impl::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
+  exit.ran_for = process.ran_for = loop.now() - process.started;
+  const bool expected = process.signalled || shutting_down;
+  notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});
+}
+
+void ProcessSupervisor::Impl::send(Supervised& process, int signal, int escalated_from, Duration waited) {
+  process.signalled = process.signalled || asks_to_end(signal);
+  runner.signal_group(process.process, signal);
+  notify(process, SignalSent{signal, escalated_from, waited});
+}
+
+void ProcessSupervisor::Impl::reap_after_kill(Supervised& process) {
+  runner.signal_group(process.process, SIGKILL);
+  process.unreaped = false;
+  runner.reap(process.process);
+  process.output.close();
+  process.timer.reset();
+}
+
+}  // namespace launch

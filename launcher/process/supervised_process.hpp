@@ -1,0 +1,117 @@
+// The inside of the supervisor: what it keeps of each process, and what happens to one. For process_supervisor.cpp,
+// which has the table of states and events, and process_end.cpp alone.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/process/child_output.hpp"
+#include "launcher/process/generated_files.hpp"
+#include "launcher/process/process_supervisor.hpp"
+#include "launcher/process/respawn_delay.hpp"
+
+namespace launch {
+
+enum class SupervisionEvent { kStart, kExit, kOutputClosed, kTimeout, kSignal, kShutdown, kKill, kStop, kRestart };
+
+// What was asked for a run, and counts at its end before the respawn policy.
+enum class SupervisionRequest { kNone, kStop, kRestart };
+
+// One process of a supervisor, over all its runs.
+struct Supervised {
+  Supervised(EventLoop& loop, OutputRouter& router, ProcessId number, ProcessSpec given)
+      : id(number),
+        label(given.name + "-" + std::to_string(number)),
+        spec(std::move(given)),
+        output(loop, router, {id, label, spec.output}) {}
+
+  const ProcessId id;
+  const std::string label;
+  ProcessSpec spec;
+  ProcessState state = ProcessState::kStarting;
+  std::int64_t retries = 0;
+  int requested_signal = 0;  // of the kSignal event being handled
+  SupervisionRequest request = SupervisionRequest::kNone;
+  RespawnDelay respawn_delay;
+
+  // Of the current or last run.
+  Process process;
+  bool unreaped = false;  // `process` names a process, alive or a zombie, so its group may be signalled
+  bool exited = false;    // a zombie, kept because descendants hold its output open
+  bool signalled = false;
+  Duration started{0};
+  Duration ran_for{0};
+  ChildOutput output;
+  EventLoop::SourcePtr exit_source;
+  EventLoop::SourcePtr timer;
+};
+
+struct ProcessSupervisor::Impl {
+  using Event = SupervisionEvent;
+  using Request = SupervisionRequest;
+  static constexpr std::size_t kEvents = 9;
+  static constexpr std::size_t kStates = 7;
+  using Handler = void (Impl::*)(Supervised&);
+  struct Pending {
+    Supervised* process;
+    Event event;
+    int signal;  // of kSignal
+  };
+
+  Impl(EventLoop& event_loop, ProcessRunner& process_runner, OutputRouter& router)
+      : loop(event_loop), runner(process_runner), output(router) {}
+
+  // Runs the handler of the table. An event raised meanwhile, by a handler or by an observer, waits until it is done:
+  // observers see the events of a process in order, and handlers run on a settled state.
+  void handle(Supervised& process, Event event, int signal = 0);
+  void notify(Supervised& process, decltype(ProcessEvent::what) what);
+
+  // Handlers: what happens to a process in one state on one event.
+  void ignore(Supervised&) {}
+  void spawn(Supervised& process);
+  void interrupt(Supervised& process);
+  void terminate(Supervised& process);
+  void kill_at_last(Supervised& process);
+  void kill_now(Supervised& process);
+  void send_requested(Supervised& process);
+  void end_unasked(Supervised& process);
+  void end_signalled(Supervised& process);
+  void remains_ended(Supervised& process);
+  void release_remains(Supervised& process);
+  void interrupt_remains(Supervised& process);
+  void kill_remains(Supervised& process);
+  void finish(Supervised& process);
+  void stop(Supervised& process);
+  void stay_stopped(Supervised& process);
+  void restart(Supervised& process);
+  void start_again(Supervised& process);
+  void restart_now(Supervised& process);
+  void revive(Supervised& process);
+
+  bool respawns(const Supervised& process) const;
+  void conclude(Supervised& process);
+  void wait_for_respawn(Supervised& process, Duration delay);
+  void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
+  void send(Supervised& process, int signal, int escalated_from, Duration waited);
+  void start_timer(Supervised& process, Duration delay);
+  void reap_after_kill(Supervised& process);
+
+  static const std::array<std::array<Handler, kEvents>, kStates> kTable;
+
+  EventLoop& loop;
+  ProcessRunner& runner;
+  OutputRouter& output;
+  std::vector<Observer> observers;
+  std::vector<std::unique_ptr<Supervised>> processes;  // of id N at N - 1
+  std::size_t active = 0;
+  bool shutting_down = false;
+  std::deque<Pending> pending;
+  bool handling = false;
+  GeneratedFiles files;
+};
+
+}  // namespace launch

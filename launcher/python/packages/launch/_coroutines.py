@@ -1,0 +1,72 @@
+"""
+Coroutines of launch files, on one asyncio loop that the launcher runs in steps.
+
+A step goes on until all coroutines wait. The launcher then waits for the loop's descriptor and time itself.
+"""
+
+import asyncio
+import selectors
+
+_MOST_TURNS = 100  # of one step: a coroutine that never waits must not keep the launcher from its other work
+
+
+class _Selector(selectors.DefaultSelector):
+    """Ends the step where asyncio would wait."""
+
+    def __init__(self):
+        super().__init__()
+        self.loop = None
+        self.turns = 0
+        self.pause = None
+
+    def select(self, timeout=None):
+        events = super().select(0)
+        self.turns += 1
+        waits = not events and timeout != 0
+        if waits or self.turns >= _MOST_TURNS:
+            self.pause = timeout if waits else 0
+            self.loop.stop()
+        return events
+
+
+class _Loop(asyncio.SelectorEventLoop):
+
+    def call_soon(self, callback, *args, context=None):
+        if self.is_running():
+            return super().call_soon(callback, *args, context=context)
+        # An event handler has something for a coroutine: the launcher must hear that a step is due.
+        return self.call_soon_threadsafe(callback, *args, context=context)
+
+
+_selector = None
+_tasks = {}  # with the objects that they were made by
+
+
+def loop():
+    """The loop of all coroutines."""
+    global _selector
+    if _selector is None:
+        _selector = _Selector()
+        _selector.loop = _Loop(_selector)
+        asyncio.set_event_loop(_selector.loop)
+    return _selector.loop
+
+
+def start(coroutine, owner):
+    _tasks[loop().create_task(coroutine)] = owner
+
+
+def step():
+    """(number of coroutines left, descriptor to wait for, seconds to wait or None); raises what one of them raised."""
+    _selector.turns = 0
+    loop().run_forever()
+    for task in [task for task in _tasks if task.done()]:
+        del _tasks[task]
+        if not task.cancelled() and task.exception() is not None:
+            raise task.exception()
+    return len(_tasks), _selector.fileno(), _selector.pause
+
+
+def cancel():
+    for task in _tasks:
+        task.cancel()

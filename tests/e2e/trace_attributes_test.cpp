@@ -1,0 +1,128 @@
+// Each attribute of <trace>, from the launch file to what the session daemon says of the session: a process of the
+// launch asks it. Context fields, which the daemon does not list, are looked up in the trace.
+#include <gmock/gmock.h>
+
+#include <ostream>
+#include <sstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Row {
+  const char* name;
+  std::string attributes;  // of <trace session-name="run">, and its children
+  std::string children = {};
+  std::vector<std::string> expected;
+  std::vector<std::string> absent = {};
+  std::string question = "lttng list run";
+};
+
+void PrintTo(const Row& row, std::ostream* out) {
+  *out << row.name;
+}
+
+class TraceAttributes : public testing::TestWithParam<Row> {};
+
+// Without the label of the process at the beginning of each line.
+std::string answer_in(const std::string& output) {
+  std::string answer;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[ask-1] ")) answer += line.substr(8) + "\n";
+  }
+  return answer;
+}
+
+TEST_P(TraceAttributes, AreAsTheDaemonListsThem) {
+  const Sandbox sandbox;
+  const Row& row = GetParam();
+  const auto path = sandbox.directory() / "system.launch.xml";
+  write_file(path, "<launch>\n<trace session-name=\"run\" " + row.attributes + ">" + row.children +
+                       "</trace>\n<executable name=\"ask\" output=\"screen\" cmd=\"" + row.question +
+                       "\"/>\n</launch>\n");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, path.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const std::string answer = answer_in(result.out);
+  for (const std::string& part : row.expected) EXPECT_THAT(answer, HasSubstr(part));
+  for (const std::string& part : row.absent) EXPECT_THAT(answer, Not(HasSubstr(part)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, TraceAttributes,
+    testing::Values(
+        Row{.name = "Defaults",
+            .attributes = "",
+            .expected = {"Recording session run: [active]", "/traces/run\n", "Domain: User space",
+                         "Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
+                         "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     inactive",
+                         "Read timer:       50000 us", "Blocking timeout: 0 us", "Trace file count: 1 per stream",
+                         "Trace file size:  unlimited", "Output mode:      mmap",
+                         "ros2:rcl_init (type: tracepoint) [enabled]", "launch:* (type: tracepoint) [enabled]"}},
+        Row{.name = "BasePath", .attributes = R"(base-path="$(dirname)/elsewhere")", .expected = {"/elsewhere/run\n"}},
+        Row{.name = "AppendTimestamp",
+            .attributes = R"(append-timestamp="true")",
+            .expected = {"/traces/run-2"},
+            .question = "lttng list"},
+        Row{.name = "Events",
+            .attributes = R"(events-ust="'ros2:rmw_take if taken == 1' 'my:* level WARNING'" launch-events="false")",
+            .expected = {"ros2:rmw_take (type: tracepoint) [enabled] [filter: 'taken == 1']",
+                         "my:* (loglevel <= TRACE_WARNING (4)) (type: tracepoint) [enabled]"},
+            .absent = {"launch:*", "ros2:rcl_init"}},
+        Row{.name = "Buffers",
+            .attributes = R"(subbuffer-size-ust="65536" subbuffer-count-ust="8" read-timer-ust="12345"
+                switch-timer-ust="500000" tracefile-size="1048576" tracefile-count="3" overwrite-ust="true" buffers-ust="pid")",
+            .expected = {"Buffering scheme: per-process", "Event-loss mode:  overwrite",
+                         "Sub-buffer size:  65536 bytes", "Sub-buffer count: 8", "Switch timer:     500000 us",
+                         "Read timer:       12345 us", "Trace file count: 3 per stream",
+                         "Trace file size:  1048576 bytes"}},
+        Row{.name = "BlockingTimeout",
+            .attributes = R"(blocking-timeout-ust="1500")",
+            .expected = {"Blocking timeout: 1500 us"}},
+        Row{.name = "InitChannel",
+            .attributes = R"(init-channel="true")",
+            .expected = {"- ros2: [enabled]", "- ros2_init: [enabled]"}},
+        Row{.name = "Channels",
+            .attributes = R"(events-ust="ros2:*")",
+            .children =
+                R"(<channel name="mine" events-ust="my:*" subbuffer-size="8192" subbuffer-count="16" read-timer="777"
+                switch-timer="888000" overwrite="true"/><channel name="other" events-ust="other:*" blocking-timeout="10"/>)",
+            .expected = {"- mine: [enabled]", "Sub-buffer size:  8192 bytes", "Sub-buffer count: 16",
+                         "Read timer:       777 us", "Switch timer:     888000 us", "my:* (type: tracepoint) [enabled]",
+                         "- other: [enabled]", "Blocking timeout: 10 us"}},
+        Row{.name = "SnapshotMode",
+            .attributes = R"(snapshot-mode="true")",
+            .expected = {"Recording session run: [active snapshot]", "Event-loss mode:  overwrite"}},
+        Row{.name = "SnapshotSize",
+            .attributes = R"(snapshot-mode="true" snapshot-size="99999744")",
+            .expected = {"/traces/run", "(max size: 99999744 bytes)"},
+            .question = "lttng snapshot list-output -s run"},
+        Row{.name = "SnapshotOnEvents",
+            .attributes = R"(snapshot-on-events="'ros2:rcl_init if version == 5'")",
+            .expected = {"name: run:0", "ros2:rcl_init", "version == 5"},
+            .question = "lttng list-triggers"},
+        Row{.name = "DualSession",
+            .attributes = R"(dual-session="true")",
+            .expected = {"Recording session run-snapshot: [active snapshot]", "ros2:rcl_init (type: tracepoint)"},
+            .absent = {"ros2:callback_start"},
+            .question = "lttng list run-snapshot"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+TEST(TraceContextFields, AreInTheTrace) {
+  const Sandbox sandbox;
+  const auto path = sandbox.directory() / "system.launch.xml";
+  write_file(path,
+             "<launch>\n<trace session-name=\"run\" context-fields=\"vtid pthread_id\"/>\n<executable cmd=\"" TRACED_APP
+             " 1 1 abort\"/>\n</launch>\n");
+  run_command({LAUNCH_PROGRAM, path.string()});
+  const std::string text = run_command({"babeltrace2", (sandbox.trace_directory() / "run").string()}).out;
+  EXPECT_THAT(text, testing::ContainsRegex(
+                        "ros2:rcl_init: \\{ cpu_id = [0-9]+ \\}, \\{ vtid = [0-9]+, pthread_id = [0-9]+ \\}"));
+}
+
+}  // namespace
