@@ -3,9 +3,11 @@
 #include <signal.h>
 
 #include "actions/trace_channel.hpp"
+#include "actions/trace_overhead.hpp"
 #include "actions/trace_scope.hpp"
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"
+#include "tracing/session/event_classes.hpp"
 
 namespace launch {
 
@@ -44,8 +46,12 @@ class Trace : public Action {
         snapshot_on_crash_(fields.boolean("snapshot-on-crash", false)),
         snapshot_on_signal_(fields.optional_text("snapshot-on-signal")),
         snapshot_on_events_(fields, "snapshot-on-events"),
+        snapshot_on_late_callback_(count_field(fields, "snapshot-on-late-callback")),
+        snapshot_on_late_message_(count_field(fields, "snapshot-on-late-message")),
         snapshot_limit_(count_field(fields, "snapshot-limit")),
         snapshot_size_(count_field(fields, "snapshot-size")),
+        max_overhead_(fields.optional_text("max-overhead")),
+        drop_order_(fields, "drop-order"),
         dual_session_(fields.boolean("dual-session", false)) {
     if (fields.has("overwrite-ust")) {
       overwrite_ust_ = fields.boolean("overwrite-ust", false);
@@ -62,6 +68,7 @@ class Trace : public Action {
     perform_session(config, scope);
     perform_events(config, scope);
     perform_buffers(config, scope);
+    perform_overhead(config, scope);
     TraceChoices choices = perform_choices(scope);
     config.snapshot_mode = config.snapshot_mode || choices.flight_recorder();
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
@@ -116,6 +123,18 @@ class Trace : public Action {
     }
   }
 
+  void perform_overhead(tracing::TraceConfig& config, Scope& scope) const {
+    if (!max_overhead_) {
+      return;
+    }
+    config.max_overhead = perform_percentage(*max_overhead_, scope);
+    config.drop_order = tracing::droppable_classes();
+    if (drop_order_.given()) {
+      config.drop_order = drop_order_.perform(scope);
+      check_drop_order(config.drop_order, drop_order_.where());
+    }
+  }
+
   TraceChoices perform_choices(Scope& scope) const {
     TraceChoices choices;
     if (nodes_.given()) {
@@ -131,6 +150,12 @@ class Trace : public Action {
     }
     choices.snapshot_on_crash = snapshot_on_crash_.perform(scope);
     choices.snapshot_on_events = snapshot_on_events_.perform_events(scope, Tracepoints::kUserspace);
+    if (snapshot_on_late_callback_) {
+      choices.callback_deadline = snapshot_on_late_callback_->perform(scope);
+    }
+    if (snapshot_on_late_message_) {
+      choices.message_deadline = snapshot_on_late_message_->perform(scope);
+    }
     if (snapshot_on_signal_) {
       const std::string name = snapshot_on_signal_->perform(scope);
       if (name != "SIGUSR1" && name != "SIGUSR2") {
@@ -210,8 +235,12 @@ class Trace : public Action {
   BooleanField snapshot_on_crash_;
   std::optional<Template> snapshot_on_signal_;
   WordsField snapshot_on_events_;
+  std::optional<NumberField> snapshot_on_late_callback_;
+  std::optional<NumberField> snapshot_on_late_message_;
   std::optional<NumberField> snapshot_limit_;
   std::optional<NumberField> snapshot_size_;
+  std::optional<Template> max_overhead_;
+  WordsField drop_order_;
   BooleanField dual_session_;
 };
 
@@ -272,8 +301,18 @@ std::vector<AttributeSpec> trace_attributes() {
                 "SIGUSR1 or SIGUSR2: take a snapshot when the launcher gets it; implies snapshot-mode"),
       extension("snapshot-on-events", AttributeType::kWords, "none",
                 "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
+      extension("snapshot-on-late-callback", AttributeType::kFloat, "none",
+                "milliseconds: take a snapshot when a callback takes longer; implies snapshot-mode"),
+      extension("snapshot-on-late-message", AttributeType::kFloat, "none",
+                "milliseconds: take a snapshot when a message is taken that was published longer before; implies "
+                "snapshot-mode"),
       extension("snapshot-limit", AttributeType::kInteger, "10", "snapshots that are kept, the newest ones"),
       extension("snapshot-size", AttributeType::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),
+      extension("max-overhead", AttributeType::kText, "none",
+                "what recording may cost, all traced processes together, like 2% of a processor: above it classes of "
+                "events are dropped"),
+      extension("drop-order", AttributeType::kWords, "executor buffers layers messages services callbacks",
+                "the classes of events that max-overhead may drop, the first one first; or events as PROVIDER:NAME"),
       {"dual-session", AttributeType::kBoolean, false, "false", "be the snapshot half of a dual session"}};
 }
 

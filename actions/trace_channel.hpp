@@ -19,6 +19,7 @@ class WordsField {
   WordsField(const Fields& fields, std::string_view attribute);
 
   bool given() const { return words_.has_value(); }
+  const SourceRange& where() const { return where_; }
   // Names, without the empty ones that empty substitutions leave. One that a substitution gives may be several, as in
   // context-fields="$(var fields)". Empty when none are given.
   std::vector<std::string> perform(Scope& scope) const;

@@ -1,26 +1,22 @@
 #include "actions/trace_scope.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
-#include <spawn.h>
 #include <string.h>
 #include <sys/sysinfo.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
 
+#include "actions/trace_overhead.hpp"
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/base/unique_fd.hpp"
 #include "tracing/session/buffer_estimate.hpp"
+#include "tracing/session/installed_program.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
 #include "tracing/session/session_daemon.hpp"
-
-extern char** environ;  // NOLINT: POSIX names it so
 
 namespace launch {
 
@@ -28,48 +24,6 @@ namespace {
 
 // After the start of a launch; no more than a guess, on which only the duration of the end depends.
 constexpr std::chrono::milliseconds kNodesHaveRegistered{500};
-
-// The output of a program without its last line end, "" when it can't be run or fails.
-std::string output_of(const std::string& program, const std::vector<std::string>& arguments) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) {
-    return {};
-  }
-  UniqueFd read_end(ends[0]);
-  UniqueFd write_end(ends[1]);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // A group of its own, so that a Ctrl-C on the terminal leaves it alone.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
-  for (const std::string& argument : arguments) {
-    argv.push_back(const_cast<char*>(argument.c_str()));
-  }
-  argv.push_back(nullptr);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, program.c_str(), &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  write_end.reset();
-  if (error != 0) {
-    return {};
-  }
-  std::string output;
-  char buffer[4096];
-  for (ssize_t count; (count = ::read(read_end.get(), buffer, sizeof buffer)) > 0;) {
-    output.append(buffer, static_cast<std::size_t>(count));
-  }
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  while (output.ends_with('\n')) {
-    output.pop_back();
-  }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? output : std::string();
-}
 
 // By the process's label, or by the name of its node.
 bool matches(const std::string& pattern, const ProcessSpec& spec) {
@@ -93,7 +47,38 @@ bool may_block(const tracing::TraceConfig& config) {
                      [](const tracing::ChannelConfig& channel) { return channel.blocking_timeout != 0; });
 }
 
+// Of the stack (docs/tracetools.md): it looks at the times itself and fires nothing else.
+constexpr const char* kLateCallback = "ros2_deadline:callback";
+constexpr const char* kLateMessage = "ros2_deadline:message";
+constexpr double kNanosecondsPerMillisecond = 1e6;
+
+std::string nanoseconds_of(double milliseconds) {
+  return fmt::format("{:.0f}", milliseconds * kNanosecondsPerMillisecond);
+}
+
+// Why a snapshot was taken, for people.
+std::string reason(const TraceChoices& choices, const std::string& rule) {
+  if (rule == kLateCallback && choices.callback_deadline != 0) {
+    return fmt::format("a callback took more than {} ms", choices.callback_deadline);
+  }
+  if (rule == kLateMessage && choices.message_deadline != 0) {
+    return fmt::format("a message was taken after more than {} ms", choices.message_deadline);
+  }
+  return "event " + rule;
+}
+
 }  // namespace
+
+std::vector<std::string> TraceChoices::watched_events() const {
+  std::vector<std::string> rules = snapshot_on_events;
+  if (callback_deadline != 0) {
+    rules.emplace_back(kLateCallback);
+  }
+  if (message_deadline != 0) {
+    rules.emplace_back(kLateMessage);
+  }
+  return rules;
+}
 
 TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
                        SourceRange origin, TraceChoices choices)
@@ -103,6 +88,12 @@ TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tra
       origin_(std::move(origin)),
       choices_(std::move(choices)),
       created_(std::time(nullptr)) {
+  for (const auto& [deadline, event] :
+       {std::pair(choices_.callback_deadline, kLateCallback), std::pair(choices_.message_deadline, kLateMessage)}) {
+    if (deadline != 0) {
+      config_.further_events_ust.emplace_back(event);
+    }
+  }
   tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
@@ -134,6 +125,8 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   const auto traced = static_cast<std::size_t>(
       std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
   const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
+  counters_ = tracing::EventCounterDirectory::shared();
+  config_.event_counters = counters_ ? counters_->path().string() : "";
   if (choices_.auto_buffers) {
     config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
   }
@@ -160,16 +153,17 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   }
   in_background(
       loop,
-      [this] {
+      [this, &loop, tell] {
         try {
           const std::vector<std::string> warnings = std::move(setup_.warnings);
           setup_ = tracer_->start(config_);
+          guard_overhead(loop, tell);
           setup_.warnings.insert(setup_.warnings.begin(), warnings.begin(), warnings.end());
         } catch (const tracing::TraceError& error) {
           throw LaunchError(fmt::format("tracing setup failed: {}", error.what()), origin_, error.remedy());
         }
       },
-      [this, &loop, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
+      [this, &loop, tell, done = std::move(done)](std::exception_ptr error) {
         if (!error && choices_.flight_recorder()) {
           try {
             start_flight_recorder(loop, tell);
@@ -182,11 +176,27 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
           for (const std::string& warning : setup_.warnings) {
             tell(true, warning);
           }
+          if (!setup_.notes.empty()) {
+            tell(false, setup_.notes);
+          }
           tell(false, fmt::format("writing tracing session to: {}", setup_.trace_directory));
           flush_metadata_later(loop);
         }
         done(error);
       });
+}
+
+// Leaves no session behind when it fails.
+void TraceScope::guard_overhead(EventLoop& loop, const Tell& tell) {
+  if (config_.max_overhead == 0) {
+    return;
+  }
+  try {
+    overhead_guard_ = watch_overhead(config_, prefix_, loop, tell);
+  } catch (const tracing::TraceError&) {
+    tracer_->finish(config_, [] { return true; });
+    throw;
+  }
 }
 
 // Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c).
@@ -196,7 +206,8 @@ void TraceScope::flush_metadata_later(EventLoop& loop) {
   }
   metadata_flush_ = loop.after(kNodesHaveRegistered, [this, &loop] {
     in_background(
-        loop, [this] { output_of(prefix_ + "/lib/launch/launch-trace-probe", {}); }, [](std::exception_ptr) {});
+        loop, [this] { tracing::program_output(prefix_ + "/lib/launch/launch-trace-probe", {}); },
+        [](std::exception_ptr) {});
   });
 }
 
@@ -213,10 +224,10 @@ void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
           }
         });
       });
-  if (!choices_.snapshot_on_events.empty()) {
+  if (const std::vector<std::string> rules = choices_.watched_events(); !rules.empty()) {
     event_watch_ = std::make_unique<tracing::EventWatch>(
-        config_.lttng_session_name(), choices_.snapshot_on_events,
-        [recorder = flight_recorder_.get()](const std::string& rule) { recorder->request("event " + rule); });
+        config_.lttng_session_name(), rules,
+        [this](const std::string& rule) { flight_recorder_->request(reason(choices_, rule)); });
   }
 }
 
@@ -236,6 +247,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
   in_background(
       loop,
       [this] {
+        overhead_guard_.reset();
         event_watch_.reset();
         flight_recorder_.reset();
         try {
@@ -246,7 +258,8 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
               origin_, error.remedy());
         }
         if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
-          summary_ = output_of(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
+          summary_ =
+              tracing::program_output(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
         }
       },
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
@@ -269,6 +282,9 @@ void TraceScope::tell_result(const Tell& tell) const {
     tell(!losses_.complete(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
                                           tracing::describe_losses(losses_)));
   }
+  if (const std::string cost = tracing::describe_cost(losses_); !cost.empty()) {
+    tell(false, cost);
+  }
   if (!losses_.unwritten_verdict.empty()) {
     tell(true, losses_.unwritten_verdict);
   }
@@ -276,8 +292,12 @@ void TraceScope::tell_result(const Tell& tell) const {
 
 std::vector<std::string> TraceScope::clean_up_command() const {
   // It is told before the session is created: one that has the name already is somebody else's.
-  return {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),
-          fmt::format("--created-since={}", created_)};
+  std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),
+                                      fmt::format("--created-since={}", created_)};
+  if (counters_) {
+    command.insert(command.end(), {"--event-counters", counters_->path().string()});
+  }
+  return command;
 }
 
 bool TraceScope::traces(const ProcessSpec& spec) const {
@@ -304,6 +324,15 @@ void TraceScope::prepare(ProcessSpec& spec) const {
   if (!preload_.empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
     variable = tracing::append_preload(variable, preload_);
+  }
+  if (counters_) {
+    spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());
+  }
+  if (choices_.callback_deadline != 0) {
+    spec.environment.emplace("TRACETOOLS_CALLBACK_DEADLINE", nanoseconds_of(choices_.callback_deadline));
+  }
+  if (choices_.message_deadline != 0) {
+    spec.environment.emplace("TRACETOOLS_MESSAGE_DEADLINE", nanoseconds_of(choices_.message_deadline));
   }
   if (may_block(config_)) {
     spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");
@@ -338,7 +367,11 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"snapshot-mode", config_.snapshot_mode},
           {"snapshot-on-crash", choices_.snapshot_on_crash},
           {"snapshot-on-events", choices_.snapshot_on_events},
+          {"snapshot-on-late-callback", fmt::format("{}", choices_.callback_deadline)},
+          {"snapshot-on-late-message", fmt::format("{}", choices_.message_deadline)},
           {"snapshot-limit", static_cast<std::int64_t>(config_.snapshot_limit)},
+          {"max-overhead", config_.max_overhead == 0 ? "" : fmt::format("{:g}%", 100 * config_.max_overhead)},
+          {"drop-order", config_.drop_order},
           {"dual-session", config_.dual_session}};
 }
 

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "launcher/core/run_scope.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
+#include "tracing/session/overhead_guard.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {
@@ -24,8 +26,13 @@ struct TraceChoices {
   bool snapshot_on_crash = false;
   int snapshot_on_signal = 0;
   std::vector<std::string> snapshot_on_events = {};
+  // A callback takes longer, a message is older than so many milliseconds; 0: however long.
+  double callback_deadline = 0;
+  double message_deadline = 0;
 
-  bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !snapshot_on_events.empty(); }
+  bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !watched_events().empty(); }
+  // Those whose coming means a snapshot.
+  std::vector<std::string> watched_events() const;
 };
 
 class TraceScope : public RunScope {
@@ -55,6 +62,7 @@ class TraceScope : public RunScope {
   void tell_result(const Tell& tell) const;
   bool traces(const ProcessSpec& spec) const;
   void flush_metadata_later(EventLoop& loop);
+  void guard_overhead(EventLoop& loop, const Tell& tell);
   void start_flight_recorder(EventLoop& loop, const Tell& tell);
 
   tracing::TraceConfig config_;
@@ -64,6 +72,7 @@ class TraceScope : public RunScope {
   TraceChoices choices_;
   std::int64_t created_;  // this scope, seconds since the epoch
   std::vector<std::string> preload_;
+  std::shared_ptr<tracing::EventCounterDirectory> counters_;
   tracing::SetupReport setup_;
   tracing::LossAccount losses_;
   std::string summary_;
@@ -72,6 +81,7 @@ class TraceScope : public RunScope {
   EventLoop::SourcePtr metadata_flush_;
   std::unique_ptr<tracing::FlightRecorder> flight_recorder_;
   std::unique_ptr<tracing::EventWatch> event_watch_;
+  std::unique_ptr<tracing::OverheadGuard> overhead_guard_;
   std::thread worker_;
 };
 

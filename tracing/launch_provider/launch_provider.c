@@ -35,3 +35,7 @@ __attribute__((visibility("default"))) void launch_trace_fire(const struct launc
       break;
   }
 }
+
+__attribute__((visibility("default"))) void launch_trace_cut(const struct launch_trace_cut_event* cut) {
+  lttng_ust_tracepoint(launch, cut, cut->time, cut->event_class, cut->events, cut->rate, cut->share);
+}

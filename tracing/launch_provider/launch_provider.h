@@ -1,4 +1,4 @@
-/* The only function of liblaunch_trace.so, which the launcher opens when a session records: so it has neither LTTng-UST
+/* The functions of liblaunch_trace.so, which the launcher opens when a session records: so it has neither LTTng-UST
    nor its threads without one. */
 #pragma once
 
@@ -36,6 +36,19 @@ struct launch_trace_event {
 void launch_trace_fire(const struct launch_trace_event* event);
 
 typedef void (*launch_trace_fire_function)(const struct launch_trace_event*);
+
+struct launch_trace_cut_event {
+  int64_t time;            /* CLOCK_MONOTONIC, ns */
+  const char* event_class; /* that was dropped */
+  const char* events;      /* their names, with blanks between */
+  uint64_t rate;           /* events a second, before it */
+  double share;            /* of a processor that they cost */
+};
+
+/* Fires launch:cut, as above. */
+void launch_trace_cut(const struct launch_trace_cut_event* cut);
+
+typedef void (*launch_trace_cut_function)(const struct launch_trace_cut_event*);
 
 #ifdef __cplusplus
 }

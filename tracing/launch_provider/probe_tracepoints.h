@@ -1,4 +1,4 @@
-// The one event of launch-trace-probe.
+// The events of launch-trace-probe.
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER launch_probe
 
@@ -11,6 +11,12 @@
 #include <lttng/tracepoint.h>
 
 LTTNG_UST_TRACEPOINT_EVENT(launch_probe, fired, LTTNG_UST_TP_ARGS(void), LTTNG_UST_TP_FIELDS())
+
+// As rcl_publish and most events that come often.
+LTTNG_UST_TRACEPOINT_EVENT(launch_probe, measured,
+                           LTTNG_UST_TP_ARGS(const void*, handle_argument, const void*, message_argument),
+                           LTTNG_UST_TP_FIELDS(lttng_ust_field_integer_hex(const void*, handle, handle_argument)
+                                                   lttng_ust_field_integer_hex(const void*, message, message_argument)))
 
 #endif
 

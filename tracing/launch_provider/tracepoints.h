@@ -85,6 +85,15 @@ LTTNG_UST_TRACEPOINT_EVENT(
                             lttng_ust_field_integer(int32_t, signal, signal_number) lttng_ust_field_string(file, file)
                                 lttng_ust_field_integer(uint32_t, line, line)))
 
+// A class of events was dropped from the trace, for recording cost more than max-overhead: from `time` on `events` (a
+// list of names) are no longer recorded. `rate` is of all processes before it, events a second; `share` of a processor.
+LTTNG_UST_TRACEPOINT_EVENT(
+    launch, cut,
+    LTTNG_UST_TP_ARGS(int64_t, time, const char*, event_class, const char*, events, uint64_t, rate, double, share),
+    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(event_class, event_class)
+                            lttng_ust_field_string(events, events) lttng_ust_field_integer(uint64_t, rate, rate)
+                                lttng_ust_field_float(double, share, share)))
+
 #endif
 
 #include <lttng/tracepoint-event.h>

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "tracing/reader/trace_reader.hpp"
 
 namespace tracing::babeltrace {
@@ -33,6 +35,21 @@ Plugin find_plugin(const char* name) {
     throw_noted_error(fmt::format("babeltrace2's plugin '{}' was not found", name),
                       "install libbabeltrace2-0, or correct the environment variable BABELTRACE_PLUGIN_PATH");
   }
+  return Plugin(plugin);
+}
+
+Plugin find_plugin_beside(const Plugin& other, const char* name) {
+  const char* const path = bt_plugin_get_path(other.get());
+  const std::string directory = path != nullptr ? std::filesystem::path(path).parent_path().string() : std::string();
+  const bt_plugin_set* set = nullptr;
+  const std::string file = fmt::format("{}/babeltrace-plugin-{}.so", directory, name);
+  if (directory.empty() ||
+      bt_plugin_find_all_from_file(file.c_str(), BT_FALSE, &set) != BT_PLUGIN_FIND_ALL_FROM_FILE_STATUS_OK) {
+    return find_plugin(name);
+  }
+  const bt_plugin* const plugin = bt_plugin_set_borrow_plugin_by_index_const(set, 0);
+  bt_plugin_get_ref(plugin);
+  bt_plugin_set_put_ref(set);
   return Plugin(plugin);
 }
 

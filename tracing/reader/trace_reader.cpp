@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 struct TraceReader::Implementation {
   fs::path directory;
   babeltrace::Plugin ctf = babeltrace::find_plugin("ctf");
-  babeltrace::Plugin utils = babeltrace::find_plugin("utils");
+  babeltrace::Plugin utils = babeltrace::find_plugin_beside(ctf, "utils");
   std::vector<TraceDirectories> traces;
   MessageTranslator translator;
 };

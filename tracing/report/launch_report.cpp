@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tracing/analysis/trace_analysis.hpp"
+#include "tracing/report/recorded_processes.hpp"
 #include "tracing/report/report.hpp"
 
 namespace {
@@ -15,6 +16,7 @@ struct Arguments {
   std::string directory;
   bool json = false;
   bool summary = false;
+  bool recorded = false;
 };
 
 void print_error(const tracing::TraceReadError& error) {
@@ -26,6 +28,14 @@ int print_summary(const Arguments& arguments) {
   tracing::OverviewCounter counter;
   tracing::TraceReader(arguments.directory).read(counter);
   fmt::print("{}\n", summary_line(counter.overview()));
+  return kSuccess;
+}
+
+int print_recorded(const Arguments& arguments) {
+  tracing::RecordedProcessCounter counter;
+  tracing::TraceReader reader(arguments.directory);
+  reader.read(counter);
+  fmt::print("{}\n", counter.json());
   return kSuccess;
 }
 
@@ -57,6 +67,8 @@ int main(int argc, char** argv) {
   app.add_option("directory", arguments.directory, "Directory of the trace, or one that holds several")->required();
   CLI::Option* json = app.add_flag("--json", arguments.json, "Print one JSON object instead of text");
   app.add_flag("--summary", arguments.summary, "Print one line: events, processes, losses")->excludes(json);
+  // For the verdict of a session, which knows what the processes have fired.
+  app.add_flag("--recorded", arguments.recorded)->group("");
   app.footer("Exit code: 0, 1 when the trace can't be read (to its end), 2 for wrong arguments.");
   try {
     app.parse(argc, argv);
@@ -65,6 +77,7 @@ int main(int argc, char** argv) {
   }
 
   try {
+    if (arguments.recorded) return print_recorded(arguments);
     return arguments.summary ? print_summary(arguments) : print_report(arguments);
   } catch (const tracing::TraceReadError& error) {
     print_error(error);

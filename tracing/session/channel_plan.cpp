@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "tracing/session/context_fields.hpp"
+#include "tracing/session/event_classes.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
@@ -20,6 +21,7 @@ constexpr const char* kUserspaceChannel = "ros2";
 constexpr const char* kInitialisationChannel = "ros2_init";
 constexpr const char* kAllRosEvents = "ros2:*";
 constexpr const char* kLaunchEvents = "launch:*";
+constexpr const char* kCutEvent = "launch:cut";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint32_t kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
 constexpr std::uint64_t kFewestSubbuffers = 2;
@@ -91,7 +93,14 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   plan.buffers = config.buffers_ust;
   plan.channel = kUserspaceChannel;
   plan.events = rules(main_events(config));
-  if (config.launch_events && !plan.events.empty()) plan.events.push_back({.pattern = kLaunchEvents});
+  if (!plan.events.empty()) {
+    for (EventRule& rule : rules(config.further_events_ust)) plan.events.push_back(std::move(rule));
+  }
+  if (config.launch_events && !plan.events.empty()) {
+    plan.events.push_back({.pattern = kLaunchEvents});
+  } else if (config.max_overhead > 0 && !plan.events.empty()) {
+    plan.events.push_back({.pattern = kCutEvent});
+  }
   plan.context_fields = config.context_fields_ust;
   plan.subbuffer_size = config.subbuffer_size_ust;
   plan.subbuffer_count = config.subbuffer_count_ust;
@@ -147,6 +156,7 @@ ChannelPlan further_plan(const ChannelConfig& channel, const TraceConfig& config
 void split_initialisation_events(std::vector<ChannelPlan>& plans, std::size_t main) {
   const std::vector<std::string>& all = initialisation_ros_events();
   std::set<std::string> initialisation(all.begin(), all.end());
+  initialisation.insert(kCutEvent);
   initialisation.insert(kLaunchEvents);  // few, and as worth keeping
   ChannelPlan first = plans[main];
   first.channel = kInitialisationChannel;
@@ -229,6 +239,7 @@ std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<st
   }
   if (config.init_channel && has_main) split_initialisation_events(plans, 0);
   for (const ChannelConfig& channel : config.channels) plans.push_back(further_plan(channel, config));
+  if (config.max_overhead > 0) name_ros_events(plans);
   std::set<std::string> names;
   for (ChannelPlan& plan : plans) {
     check_channel_name(plan.channel, names);

@@ -1,11 +1,15 @@
 #include "tracing/session/consumer_priority.hpp"
 
+#include <fmt/core.h>
 #include <sys/resource.h>
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace tracing {
 namespace {
@@ -32,21 +36,41 @@ bool is_consumer_of(const fs::path& process, pid_t daemon) {
   return line.substr(open + 1, close - open - 1) == kConsumer && std::atoi(line.c_str() + close + 4) == daemon;
 }
 
+// The children of a process. All processes are looked at where the kernel doesn't list them (CONFIG_PROC_CHILDREN),
+// which takes milliseconds.
+std::vector<fs::path> candidates(pid_t daemon) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  bool listed = false;
+  for (const fs::directory_entry& thread : fs::directory_iterator(fmt::format("/proc/{}/task", daemon), none)) {
+    std::ifstream children(thread.path() / "children");
+    listed = listed || children.is_open();
+    for (pid_t child = 0; children >> child;) found.emplace_back(fmt::format("/proc/{}", child));
+  }
+  if (listed) return found;
+  for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
+    if (number_of(process.path()) > 0) found.push_back(process.path());
+  }
+  return found;
+}
+
 }  // namespace
 
-bool prefer_consumers(pid_t daemon) {
-  bool preferred = false;
+std::string prefer_consumers(pid_t daemon) {
   std::error_code none;
-  for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
-    if (number_of(process.path()) <= 0 || !is_consumer_of(process.path(), daemon)) continue;
+  for (const fs::path& process : candidates(daemon)) {
+    if (!is_consumer_of(process, daemon)) continue;
     // On Linux a nice value belongs to a thread.
-    for (const fs::directory_entry& thread : fs::directory_iterator(process.path() / "task", none)) {
+    for (const fs::directory_entry& thread : fs::directory_iterator(process / "task", none)) {
       const auto id = static_cast<id_t>(number_of(thread.path()));
-      if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0) return false;
-      preferred = true;
+      if (setpriority(PRIO_PROCESS, id, kConsumerNice) == 0 || errno == ESRCH) continue;
+      return fmt::format(
+          "LTTng's consumer keeps its priority ({}): on a machine that is busy all the time it may come too late, and "
+          "events are lost; it takes root, CAP_SYS_NICE, or `USER - nice {}` in /etc/security/limits.conf",
+          std::strerror(errno), kConsumerNice);
     }
   }
-  return preferred;
+  return {};
 }
 
 }  // namespace tracing

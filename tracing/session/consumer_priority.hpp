@@ -3,11 +3,14 @@
 
 #include <sys/types.h>
 
+#include <string>
+
 namespace tracing {
 
-// Gives the threads of the consumers that the session daemon `daemon` has started a nice value of kConsumerNice. False
-// when that isn't permitted (it takes root, or CAP_SYS_NICE) or there is no consumer: they go on as they were.
-bool prefer_consumers(pid_t daemon);
+// Gives the threads of the consumers that the session daemon `daemon` has started a nice value of kConsumerNice, so
+// that they empty the buffers although every processor is busy. Where that isn't permitted they go on as they were, and
+// a sentence says why and what would help. "" otherwise.
+std::string prefer_consumers(pid_t daemon);
 
 inline constexpr int kConsumerNice = -10;
 

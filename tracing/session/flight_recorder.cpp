@@ -53,6 +53,7 @@ FlightRecorder::~FlightRecorder() {
 void FlightRecorder::request(const std::string& reason) {
   {
     const std::lock_guard lock(mutex_);
+    if (std::find(requested_.begin(), requested_.end(), reason) != requested_.end()) return;
     requested_.push_back(reason);
   }
   changed_.notify_one();

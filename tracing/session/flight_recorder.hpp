@@ -29,8 +29,9 @@ class FlightRecorder {
   FlightRecorder(const FlightRecorder&) = delete;
   FlightRecorder& operator=(const FlightRecorder&) = delete;
 
-  // From any thread; does not block. The snapshot holds every event that was fired before, as far as the buffers reach
-  // back. Of more than TraceConfig::snapshot_limit the oldest is removed.
+  // From any thread; does not block. The same reason for a snapshot that is yet to come is taken once. The snapshot
+  // holds every event that was fired before, as far as the buffers reach back. Of more than TraceConfig::snapshot_limit
+  // the oldest is removed.
   void request(const std::string& reason);
 
  private:

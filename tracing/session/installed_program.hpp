@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tracing {
 
@@ -12,5 +13,9 @@ std::optional<std::filesystem::path> installed_program(const std::string& name);
 
 // Runs it without arguments and output and waits until it has ended. False when it failed.
 bool run_program(const std::filesystem::path& program);
+
+// Runs it, in a process group of its own so that a Ctrl-C on the terminal leaves it alone, and returns what it prints
+// on stdout without the last line end. "" when it can't be run or fails.
+std::string program_output(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 
 }  // namespace tracing

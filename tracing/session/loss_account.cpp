@@ -1,8 +1,10 @@
 #include "tracing/session/loss_account.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <lttng/lttng.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <numeric>
@@ -39,6 +41,32 @@ void read_domain(const std::string& session, const lttng_domain& domain, LossAcc
   }
 }
 
+constexpr std::size_t kMostNamed = 5;  // processes
+
+// "; lost by talker [12] 300 of 4000 (node /talker), …", those that lost most first.
+std::string processes_that_lost(const LossAccount& losses) {
+  std::vector<const ProcessAccount*> lost;
+  for (const ProcessAccount& process : losses.processes) {
+    if (process.lost.value_or(0) != 0) lost.push_back(&process);
+  }
+  std::stable_sort(lost.begin(), lost.end(),
+                   [](const ProcessAccount* a, const ProcessAccount* b) { return *a->lost > *b->lost; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(lost.size(), kMostNamed); ++i) {
+    const ProcessAccount& process = *lost[i];
+    text += fmt::format("{}{} [{}] {}", text.empty() ? "" : ", ", process.name.empty() ? "process" : process.name,
+                        process.pid, *process.lost);
+    if (process.events != 0) text += fmt::format(" of {}", process.events);
+    if (process.nodes.empty()) continue;
+    text += fmt::format(" (node{} {})", process.nodes.size() == 1 ? "" : "s", fmt::join(process.nodes, ", "));
+  }
+  if (lost.size() > kMostNamed) text += fmt::format(" and {} processes more", lost.size() - kMostNamed);
+  if (text.empty()) return text;
+  if (losses.unattributed != 0) text += fmt::format("; {} by programs that do not count", losses.unattributed);
+  return fmt::format("\nlost by process{}: {}", losses.attribution == LossAttribution::kExact ? "" : ", estimated",
+                     text);
+}
+
 }  // namespace
 
 std::uint64_t LossAccount::discarded_events() const {
@@ -61,6 +89,26 @@ LossAccount read_losses(const std::string& lttng_session_name) {
   return account;
 }
 
+RecordedEvents read_recorded_events(const std::string& lttng_session_name) {
+  RecordedEvents recorded;
+  const DomainHandle handle = domain_handle(lttng_session_name, LTTNG_DOMAIN_UST);
+  const std::string doing = fmt::format("list the events of session '{}'", lttng_session_name);
+  lttng_channel* listed = nullptr;
+  const int count = check_lttng(lttng_list_channels(handle.get(), &listed), doing);
+  const std::unique_ptr<lttng_channel, Free> channels(listed);
+  for (int i = 0; i < count; ++i) {
+    lttng_event* rules = nullptr;
+    const int rule_count = check_lttng(lttng_list_events(handle.get(), listed[i].name, &rules), doing);
+    const std::unique_ptr<lttng_event, Free> owned(rules);
+    for (int rule = 0; rule < rule_count; ++rule) {
+      const bool conditional = rules[rule].filter != 0 || rules[rule].exclusion != 0 ||
+                               rules[rule].loglevel_type != LTTNG_EVENT_LOGLEVEL_ALL;
+      (conditional ? recorded.conditional : recorded.patterns).emplace_back(rules[rule].name);
+    }
+  }
+  return recorded;
+}
+
 std::string describe_losses(const LossAccount& losses) {
   std::string text;
   const auto add = [&text](std::uint64_t count, const char* what, const ChannelLoss& loss) {
@@ -78,9 +126,35 @@ std::string describe_losses(const LossAccount& losses) {
     add(loss.discarded_events, "event", loss);
     add(loss.lost_packets, "packet", loss);
   }
+  text += processes_that_lost(losses);
   if (!losses.damage.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", losses.damage);
   if (losses.cut_short) text += fmt::format("{}the last events were not waited for", text.empty() ? "" : "\n");
-  return text.empty() ? "no events lost" : text;
+  if (text.empty()) text = "no events lost";
+  std::vector<std::string> dropped;
+  for (const EventCut& cut : losses.cuts) dropped.push_back(cut.event_class);
+  if (!dropped.empty()) text += fmt::format("; dropped to keep to max-overhead: {}", fmt::join(dropped, ", "));
+  return text;
+}
+
+std::string describe_cost(const LossAccount& losses) {
+  if (!losses.cost) return {};
+  const double ns = losses.cost->ns_per_event;
+  double seconds = 0;
+  double processors = 0;
+  const ProcessAccount* most = nullptr;
+  for (const ProcessAccount& process : losses.processes) {
+    if (process.events == 0) continue;
+    seconds += process.tracing_seconds(ns);
+    processors += process.processor_share(ns);
+    if (most == nullptr || process.processor_share(ns) > most->processor_share(ns)) most = &process;
+  }
+  if (most == nullptr) return {};
+  std::string text = fmt::format("estimated cost of tracing: {:.3f} s of processor time, {:.2f} % of a processor",
+                                 seconds, 100 * processors);
+  text += fmt::format("; most in {} [{}]", most->name, most->pid);
+  if (most->cpu_seconds > 0) text += fmt::format(", {:.1f} % of its own processor time", 100 * most->own_share(ns));
+  if (most->callbacks != 0) text += fmt::format(", {:.1f} µs for each callback", most->ns_per_callback(ns) / 1000);
+  return text + fmt::format(" ({:.0f} ns for each event)", ns);
 }
 
 }  // namespace tracing

@@ -13,12 +13,16 @@
 #include "tracing/session/channels.hpp"
 #include "tracing/session/consumer_priority.hpp"
 #include "tracing/session/context_check.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/kernel_checks.hpp"
 #include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/overhead_guard.hpp"
+#include "tracing/session/packet_index.hpp"
+#include "tracing/session/process_account.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_listing.hpp"
 #include "tracing/session/session_store.hpp"
@@ -142,6 +146,48 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
   }
 }
 
+std::uint64_t monotonic_now() {
+  return static_cast<std::uint64_t>(steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
+}
+
+// Which process lost how much, for the losses of a session that has been stopped.
+class LossesByProcess {
+ public:
+  LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
+    if (!config.event_counters.empty()) counts_ = EventCounters(config.event_counters).read();
+    losses.processes = account_processes(counts_, monotonic_now());
+    losses.cuts = read_cuts(config);
+    if (losses.complete()) losses.attribution = LossAttribution::kExact;
+    if (needed()) events_ = read_recorded_events(config.lttng_session_name());
+  }
+
+  // Reads the trace, which takes a second for a million events; only when something was lost.
+  void look_into(const std::string& recording) {
+    const std::optional<std::filesystem::path> report = installed_program("launch-report");
+    if (!needed()) return;
+    RecordedProcesses recorded;
+    if (report) {
+      const std::string output = program_output(*report, {"--recorded", recording});
+      if (!output.empty()) recorded = parse_recorded_processes(output);
+    }
+    if (recorded.empty()) counts_.clear();  // then only buffers of its own tell what a process lost
+    attribute_losses(losses_, counts_, events_, recorded, read_packet_index(recording));
+  }
+
+ private:
+  // Userspace has lost something, and there is time to look.
+  bool needed() const {
+    return !losses_.cut_short &&
+           std::any_of(losses_.channels.begin(), losses_.channels.end(), [](const ChannelLoss& channel) {
+             return channel.domain == "ust" && channel.discarded_events + channel.lost_packets != 0;
+           });
+  }
+
+  LossAccount& losses_;
+  std::vector<EventCounts> counts_;
+  RecordedEvents events_;
+};
+
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
 void judge(LossAccount& losses, const std::string& name, const std::string& directory) {
   explain_losses(losses, directory);
@@ -254,7 +300,7 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
                           through_tracefs);
     timer.finished("kernel recorder");
   }
-  prefer_consumers(session_daemon_pid());
+  report.notes = prefer_consumers(session_daemon_pid());
   timer.finished("consumer priority");
   session.keep();
   return report;
@@ -265,6 +311,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   check_daemon_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
   LossAccount losses = stop_and_account(name, give_up);
+  LossesByProcess by_process(config, losses);
   std::optional<ChannelLoss> kernel;
   std::string kernel_failure;
   if (session) {
@@ -281,6 +328,10 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   if (kernel) losses.channels.push_back(*kernel);
+  const bool hurried = losses.cut_short || (give_up && give_up());
+  // The first session on a machine takes some 30 ms longer to end: the measurement. It disturbs nobody then.
+  if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
+  if (local && !session->snapshot) by_process.look_into(session->path);
   if (local && !session->snapshot) judge(losses, name, session->path);
   if (!kernel_failure.empty()) throw TraceError(kernel_failure);
   return losses;

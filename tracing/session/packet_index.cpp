@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 namespace tracing {
@@ -93,6 +95,22 @@ std::optional<std::vector<Packet>> read_stream(const fs::path& path) {
   return packets.empty() ? std::nullopt : std::optional(std::move(packets));
 }
 
+// 123 of …/ust/pid/NAME-123-20261121-190000/64-bit/ros2_0.
+std::optional<std::int64_t> owner_of(const fs::path& stream) {
+  constexpr std::size_t kTimeStamp = std::string_view("-YYYYMMDD-HHMMSS").size();
+  for (fs::path part = stream.parent_path(); part.has_relative_path(); part = part.parent_path()) {
+    if (part.parent_path().filename() != "pid" || part.parent_path().parent_path().filename() != "ust") continue;
+    std::string name = part.filename();
+    if (name.size() <= kTimeStamp) return std::nullopt;
+    name.resize(name.size() - kTimeStamp);
+    std::int64_t pid = 0;
+    const char* const digits = name.data() + name.rfind('-') + 1;
+    const bool read = std::from_chars(digits, name.data() + name.size(), pid).ec == std::errc();
+    return read ? std::optional(pid) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Stream> read_packet_index(const fs::path& directory) {
@@ -109,6 +127,7 @@ std::vector<Stream> read_packet_index(const fs::path& directory) {
       streams.push_back({.domain = domain,
                          .channel = name.substr(0, separator),
                          .cpu = name.substr(separator + 1),
+                         .pid = owner_of(entry.path()),
                          .packets = std::move(*packets)});
     }
   }

@@ -21,9 +21,10 @@ struct Packet {
 
 // What one processor recorded into one channel.
 struct Stream {
-  std::string domain;   // "ust" or "kernel"
-  std::string channel;  // "ros2"
-  std::string cpu;      // "0"
+  std::string domain;                    // "ust" or "kernel"
+  std::string channel;                   // "ros2"
+  std::string cpu;                       // "0"
+  std::optional<std::int64_t> pid = {};  // of the process whose buffers they were, where each has its own
   std::vector<Packet> packets;
 };
 

@@ -1,12 +1,16 @@
 #include "tracing/session/trace_command.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "tracing/session/enter_or_signal.hpp"
+#include "tracing/session/event_cost.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_listing.hpp"
@@ -68,6 +72,7 @@ void start(const TraceOptions& options, Tracer& tracer) {
   SetupReport report = tracer.start(options.config);
   for (std::string& warning : tracer.unreachable_processes()) report.warnings.push_back(std::move(warning));
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!report.notes.empty()) fmt::print(stderr, "note: {}\n", report.notes);
 }
 
 void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {
@@ -117,6 +122,14 @@ void print_status(const std::string& session_name, Tracer& tracer) {
   for (const SessionSummary& session : sessions) fmt::print("{}", session_as_text(tracer.status(session.name)));
 }
 
+void print_calibration(const std::vector<std::string>& context_fields) {
+  const EventCost cost = calibrate(context_fields);
+  remember(cost);
+  const std::string fields = context_fields.empty() ? "" : fmt::format(" with {}", fmt::join(cost.context_fields, " "));
+  fmt::print("an event{} costs {:.1f} ns on {}, LTTng {}\nkept in {}\n", fields, cost.ns_per_event, cost.cpu,
+             cost.lttng, event_cost_file().string());
+}
+
 // A session that existed before a launch is not the launch's.
 bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tracer) {
   const std::vector<SessionSummary> sessions = tracer.sessions();
@@ -141,6 +154,8 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
       return tracer.resume(session_name);
     case TraceVerb::kStop: {
+      std::optional<EventCounterDirectory> counters;
+      if (!options.config.event_counters.empty()) counters.emplace(options.config.event_counters);
       if (options.created_since && is_older(session_name, *options.created_since, tracer)) {
         print_line(fmt::format("trace session '{}' is left as it is: it is older", session_name));
         return;
@@ -156,6 +171,8 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
     case TraceVerb::kEvents:
       fmt::print("{}", events_as_text(tracer.traceable_events()));
       return;
+    case TraceVerb::kCalibrate:
+      return print_calibration(options.config.context_fields_ust);
     case TraceVerb::kSave:
       return tracer.save(session_name, options.directory);
     case TraceVerb::kLoad:

@@ -69,8 +69,14 @@ struct TraceConfig {
   bool snapshot_mode = false;
   std::uint64_t snapshot_size = 0;    // largest size of a snapshot in bytes; 0: 10 userspace sub-buffers
   std::uint64_t snapshot_limit = 10;  // snapshots of a flight recorder that are kept
-  bool dual_session = false;          // the snapshot half of a dual session: always a snapshot session
-  bool dual_runtime = false;          // the runtime half of a dual session: never a snapshot session
+  std::vector<std::string> further_events_ust;  // recorded beside events_ust, in the same channel
+  // Of one processor, for all traced processes together; above it classes of events are dropped in this order
+  // (event_classes.hpp). 0: no limit.
+  double max_overhead = 0;
+  std::vector<std::string> drop_order;
+  std::string event_counters;  // directory in which processes count their events (event_counters.hpp), or empty
+  bool dual_session = false;   // the snapshot half of a dual session: always a snapshot session
+  bool dual_runtime = false;   // the runtime half of a dual session: never a snapshot session
 
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
   // The trace goes to a relay daemon: there is no directory of ours to look into.

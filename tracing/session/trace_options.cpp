@@ -125,6 +125,14 @@ CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
   return verb;
 }
 
+CLI::App* add_calibrate(CLI::App& command, SessionArguments& arguments) {
+  CLI::App* verb = command.add_subcommand(
+      "calibrate", "measure what recording an event costs on this machine, for the verdicts of sessions");
+  add_names(*verb, "-c,--context", arguments.context_fields, "FIELD",
+            "context fields of the event (default: procname vpid vtid)");
+  return verb;
+}
+
 void complete(TraceOptions& options, const SessionArguments& arguments) {
   TraceConfig& config = options.config;
   const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
@@ -157,6 +165,8 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   add_session_options(*start, session, options);
   CLI::App* stop = add_verb(command, "stop", "stop recording and end the session", session);
   add_fail_on_loss(*stop, options);
+  // Of a launcher that was killed, which tells its guardian this command; removed afterwards.
+  stop->add_option("--event-counters", options.config.event_counters)->group("");
   stop->add_option("--created-since", options.created_since,
                    "leave the session as it is when it was created before (seconds since 1970)")
       ->option_text("TIME");
@@ -177,6 +187,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
                               "print what can be recorded now: events of running programs and of the kernel, "
                               "context fields"),
        TraceVerb::kEvents},
+      {add_calibrate(command, session), TraceVerb::kCalibrate},
   };
 
   try {

@@ -22,7 +22,8 @@ enum class TraceVerb {
   kLoad,
   kList,
   kStatus,
-  kEvents
+  kEvents,
+  kCalibrate
 };
 
 struct TraceOptions {

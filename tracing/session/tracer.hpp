@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tracing/session/event_cost.hpp"
 #include "tracing/session/trace_config.hpp"
 
 namespace tracing {
@@ -24,7 +26,6 @@ class TraceError : public std::runtime_error {
   std::string remedy_;
 };
 
-// Events that the tracer could not keep, as its counters say just before the session is destroyed.
 // An unbroken run of losses of one processor. Times are nanoseconds after the trace's first packet began.
 struct LossRange {
   std::string cpu;
@@ -33,6 +34,7 @@ struct LossRange {
   std::uint64_t events = 0;
 };
 
+// Events of a channel that the tracer could not keep, as its counters say just before the session is destroyed.
 struct ChannelLoss {
   std::string domain;  // "ust" or "kernel"
   std::string channel;
@@ -47,12 +49,51 @@ struct ChannelLoss {
       0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
 };
 
+// What a session had from one process that counts its events (event_counters.hpp).
+struct ProcessAccount {
+  std::string name;  // of its program
+  std::int64_t pid = 0;
+  double seconds = 0;                      // it ran
+  double cpu_seconds = 0;                  // processor time of all its threads; 0: unknown, for it was killed
+  std::uint64_t events = 0;                // it fired while a session recorded them
+  std::uint64_t callbacks = 0;             // of its nodes that ended
+  std::optional<std::uint64_t> lost = {};  // of its events; nothing: unknown
+  std::vector<std::string> nodes = {};     // its nodes; looked up when events were lost
+
+  // Estimates, for events that take so many nanoseconds each.
+  double tracing_seconds(double ns_per_event) const { return static_cast<double>(events) * ns_per_event / 1e9; }
+  double processor_share(double ns_per_event) const;  // of one processor, while it ran
+  double own_share(double ns_per_event) const;        // of its own processor time; 0: unknown
+  double ns_per_callback(double ns_per_event) const;  // that a callback, with what leads to it, takes longer; 0: none
+};
+
+// How far it is known which process the lost events are of.
+enum class LossAttribution {
+  kExact,     // the processes' sum is what the daemon counts; what it counts more is of programs that don't count
+  kEstimate,  // the sum is more: another session recorded at other times
+  kUnknown
+};
+
+// A class of events (event_classes.hpp) that was dropped because recording cost too much.
+struct EventCut {
+  std::string event_class = {};
+  std::vector<std::string> events = {};
+  std::int64_t time = 0;   // CLOCK_MONOTONIC, ns
+  std::uint64_t rate = 0;  // events a second of all processes before it
+  double share = 0;        // of a processor that they cost, estimated
+};
+
 struct LossAccount {
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
   bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short && damage.empty(); }
 
   std::vector<ChannelLoss> channels;
+  std::vector<ProcessAccount> processes = {};  // by the time of their beginning
+  LossAttribution attribution = LossAttribution::kUnknown;
+  std::uint64_t unattributed = 0;      // lost userspace events that are of none of them
+  std::optional<EventCost> cost = {};  // of an event, on this machine
+  std::vector<EventCut> cuts = {};     // dropped on purpose: no losses
   bool cut_short = false;              // the wait for the last data was given up
   std::string damage = {};             // what keeps the trace from being complete and nobody has counted, a sentence
   std::string unwritten_verdict = {};  // why verdict.json could not be written
@@ -69,6 +110,7 @@ struct SetupReport {
   bool started_daemon = false;
   std::vector<SetupStep> steps;
   std::vector<std::string> warnings;
+  std::string notes = {};  // nothing that is wrong with the session
 };
 
 // One of the sessions that exist.

@@ -67,6 +67,28 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   return json;
 }
 
+nlohmann::ordered_json process_as_json(const ProcessAccount& process, const std::optional<EventCost>& cost) {
+  nlohmann::ordered_json json = {{"name", process.name},
+                                 {"pid", process.pid},
+                                 {"seconds", process.seconds},
+                                 {"events", process.events},
+                                 {"callbacks", process.callbacks}};
+  json["lost"] = process.lost ? nlohmann::ordered_json(*process.lost) : nlohmann::ordered_json(nullptr);
+  if (!process.nodes.empty()) json["nodes"] = process.nodes;
+  if (!cost) return json;
+  const double ns = cost->ns_per_event;
+  json["tracing"] = {{"seconds", process.tracing_seconds(ns)}, {"processor_share", process.processor_share(ns)}};
+  if (process.cpu_seconds > 0) json["tracing"]["own_share"] = process.own_share(ns);
+  if (process.callbacks != 0) json["tracing"]["ns_per_callback"] = process.ns_per_callback(ns);
+  return json;
+}
+
+const char* name_of(LossAttribution attribution) {
+  return attribution == LossAttribution::kExact      ? "exact"
+         : attribution == LossAttribution::kEstimate ? "estimate"
+                                                     : "unknown";
+}
+
 void write_file(const std::filesystem::path& directory, const std::string& text) {
   const std::filesystem::path path = directory / kVerdictFile;
   std::ofstream file(path);
@@ -112,6 +134,24 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
                                  {"lost_packets", account.lost_packets()},
                                  {"channels", nlohmann::ordered_json::array()}};
   for (const ChannelLoss& channel : account.channels) json["channels"].push_back(channel_as_json(channel));
+  json["lost_by_process"] = {{"method", name_of(account.attribution)}, {"unattributed", account.unattributed}};
+  if (account.cost) {
+    json["event_cost"] = {{"ns", account.cost->ns_per_event},
+                          {"measured", account.cost->measured},
+                          {"cpu", account.cost->cpu},
+                          {"lttng", account.cost->lttng},
+                          {"context_fields", account.cost->context_fields}};
+  }
+  for (const EventCut& cut : account.cuts) {
+    json["cuts"].push_back({{"class", cut.event_class},
+                            {"events", cut.events},
+                            {"time_ns", cut.time},
+                            {"rate", cut.rate},
+                            {"processor_share", cut.share}});
+  }
+  json["processes"] = nlohmann::ordered_json::array();
+  for (const ProcessAccount& process : account.processes)
+    json["processes"].push_back(process_as_json(process, account.cost));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

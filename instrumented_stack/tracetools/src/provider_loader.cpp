@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "deadline.hpp"
+#include "event_counters.hpp"
 #include "object_state.hpp"
 #include "state_dump_request.h"
 
@@ -67,6 +69,8 @@ void offer_state_dumps(void* provider) {
     return;
   }
   loaded = true;
+  begin_counting();
+  read_deadlines();
   offer_state_dumps(provider);
 }
 

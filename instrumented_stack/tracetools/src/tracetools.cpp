@@ -26,6 +26,8 @@ bool ros_trace_runtime_status(void) {
 
 #else
 
+#include "deadline.hpp"
+#include "event_counters.hpp"
 #include "init_events.hpp"
 
 #define LTTNG_UST_TRACEPOINT_DEFINE
@@ -35,10 +37,20 @@ bool ros_trace_runtime_status(void) {
 #include "provider_loader.hpp"
 
 // Providers stand here literally because LTTng's macros paste the name before expanding it.
-#define RECORD_IF_ENABLED(name, ...) lttng_ust_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__)
-#define RECORD(name, ...) lttng_ust_do_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__)
-#define RECORD_EXT_IF_ENABLED(name, ...) lttng_ust_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__)
-#define RECORD_EXT(name, ...) lttng_ust_do_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__)
+#define RECORD_IF_ENABLED(name, ...)                                  \
+  do {                                                                \
+    if (lttng_ust_tracepoint_enabled(ros2, name)) {                   \
+      tracetools::count(tracetools::CountedEvent::name);              \
+      lttng_ust_do_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__); \
+    }                                                                 \
+  } while (false)
+#define RECORD_EXT_IF_ENABLED(name, ...)                                  \
+  do {                                                                    \
+    if (lttng_ust_tracepoint_enabled(ros2_ext, name)) {                   \
+      tracetools::count(tracetools::CountedEvent::name);                  \
+      lttng_ust_do_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__); \
+    }                                                                     \
+  } while (false)
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 
 // What is kept for a session that starts late: nothing where no session can start.
@@ -48,6 +60,30 @@ bool ros_trace_runtime_status(void) {
       tracetools::note<tracetools::event::name>(#name, record __VA_OPT__(, ) __VA_ARGS__); \
     }                                                                                      \
   }
+
+// What is watched whether a session records it or not.
+namespace {
+template <typename Event, typename... Arguments>
+inline void watch(Arguments...) {}
+template <>
+inline void watch<tracetools::event::callback_start>(const void*, bool) {
+  tracetools::callback_starts();
+}
+template <>
+inline void watch<tracetools::event::callback_end>(const void* callback) {
+  tracetools::callback_ends(callback);
+}
+template <>
+inline void watch<tracetools::event::rmw_take>(const void* handle, const void* message, std::int64_t source_timestamp,
+                                               bool taken) {
+  tracetools::message_taken(handle, message, source_timestamp, taken);
+}
+template <>
+inline void watch<tracetools::event::rcl_take>(const void* message) {
+  tracetools::message_handed_on(message);
+}
+}  // namespace
+
 #define IS_WANTED(name, enabled) \
   (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::provider_is_loaded())
 
@@ -58,13 +94,14 @@ bool ros_trace_runtime_status(void) {
   void ros_trace_##name parameters {                                  \
     NOTE(record_##name, name, WITHOUT_PARENTHESES arguments)          \
     RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
+    watch<tracetools::event::name>(WITHOUT_PARENTHESES arguments);    \
   }                                                                   \
   bool ros_trace_enabled_##name(void) {                               \
     return IS_WANTED(name, lttng_ust_tracepoint_enabled(ros2, name)); \
   }                                                                   \
   void ros_trace_do_##name parameters {                               \
     NOTE(record_##name, name, WITHOUT_PARENTHESES arguments)          \
-    RECORD(name, WITHOUT_PARENTHESES arguments);                      \
+    RECORD_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
   }
 
 #define DEFINE_EXT_EVENT(name, parameters, arguments)                     \
@@ -80,7 +117,7 @@ bool ros_trace_runtime_status(void) {
   }                                                                       \
   void ros_trace_ext_do_##name parameters {                               \
     NOTE(record_ext_##name, name, WITHOUT_PARENTHESES arguments)          \
-    RECORD_EXT(name, WITHOUT_PARENTHESES arguments);                      \
+    RECORD_EXT_IF_ENABLED(name, WITHOUT_PARENTHESES arguments);           \
   }
 
 bool ros_trace_compile_status(void) {

@@ -50,6 +50,30 @@ TEST(Trace, ListsAreSplitLikeCommandLines) {
   EXPECT_TRUE(std::get<Words>(settings.at("context-fields").value).empty());
 }
 
+TEST(Trace, TheLimitOfItsCostIsAPercentageOfAProcessor) {
+  auto settings = settings_of(plan_actions(R"xml(<trace session-name="run" max-overhead="2.5%"/>)xml"));
+  EXPECT_EQ(std::get<std::string>(settings.at("max-overhead").value), "2.5%");
+  EXPECT_THAT(std::get<Words>(settings.at("drop-order").value),
+              ElementsAre("executor", "buffers", "layers", "messages", "services", "callbacks"));
+  auto ordered = settings_of(plan_actions(
+      R"xml(<trace session-name="run" max-overhead="2%" drop-order="callbacks ros2:rmw_* my_app:*"/>)xml"));
+  EXPECT_THAT(std::get<Words>(ordered.at("drop-order").value), ElementsAre("callbacks", "ros2:rmw_*", "my_app:*"));
+  auto unlimited = settings_of(plan_actions(R"xml(<trace session-name="run"/>)xml"));
+  EXPECT_EQ(std::get<std::string>(unlimited.at("max-overhead").value), "");
+  EXPECT_TRUE(std::get<Words>(unlimited.at("drop-order").value).empty());
+}
+
+TEST(Trace, DeadlinesMakeItAFlightRecorderThatWatchesForThem) {
+  const Planned planned = plan_actions(R"xml(
+    <trace session-name="run" snapshot-on-late-callback="0.5" snapshot-on-late-message="20"/>
+    <executable cmd="true"/>)xml");
+  auto settings = settings_of(planned);
+  EXPECT_TRUE(std::get<bool>(settings.at("snapshot-mode").value));
+  const auto& environment = planned.plan.processes.at(0).environment;
+  EXPECT_EQ(environment.at("TRACETOOLS_CALLBACK_DEADLINE"), "500000");
+  EXPECT_EQ(environment.at("TRACETOOLS_MESSAGE_DEADLINE"), "20000000");
+}
+
 TEST(Trace, DualSessionAsASubstitutionSelectsItsEventsWhenVisited) {
   const std::string xml = R"xml(<trace session-name="run" dual-session="$(var dual)"/>)xml";
   auto dual = settings_of(plan_actions(xml, {.arguments = {{"dual", "true"}}}));

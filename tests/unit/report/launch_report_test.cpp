@@ -188,5 +188,20 @@ TEST_F(LaunchReport, ExplainsItself) {
   EXPECT_THAT(outcome.out, HasSubstr("--summary"));
 }
 
+TEST_F(LaunchReport, CountsWhatIsRecordedOfEachProcessForTheVerdict) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  const testing::Thread thread{.vpid = 12, .vtid = 12, .procname = "talker"};
+  writer.write(0, 1000, thread, ros2::RclNodeInit{1, 2, "talker", "/robot"});
+  writer.write(0, 1100, thread, ros2::RclNodeInit{3, 4, "other", "/"});
+  writer.write(0, 1200, {.vpid = 13, .vtid = 14, .procname = "x"}, ros2::RclTake{1});
+  writer.finish();
+  const Outcome outcome = launch_report("--recorded " + path_);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            R"({"processes":[{"vpid":12,"nodes":["/other","/robot/talker"],"events":{"ros2:rcl_node_init":2}},)"
+            R"({"vpid":13,"nodes":[],"events":{"ros2:rcl_take":1}}]})"
+            "\n");
+}
+
 }  // namespace
 }  // namespace tracing

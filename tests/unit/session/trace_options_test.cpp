@@ -109,6 +109,19 @@ TEST(TraceOptions, OtherVerbsTakeTheNameAlone) {
   EXPECT_EQ(options_of({"stop", "run"}).config.lttng_session_name(), "run");
 }
 
+TEST(TraceOptions, CalibrateTakesTheContextFieldsAlone) {
+  EXPECT_EQ(options_of({"calibrate"}).verb, TraceVerb::kCalibrate);
+  EXPECT_EQ(options_of({"calibrate"}).config.context_fields_ust, tracing::default_context_fields());
+  EXPECT_EQ(options_of({"calibrate", "-c", "vpid"}).config.context_fields_ust, std::vector<std::string>{"vpid"});
+  EXPECT_TRUE(options_of({"calibrate", "-c"}).config.context_fields_ust.empty());
+  EXPECT_EQ(message_of({"calibrate", "run"}).exit_code, 2);
+}
+
+TEST(TraceOptions, StopIsToldWhereTheProcessesOfAKilledLauncherCounted) {
+  EXPECT_EQ(options_of({"stop", "run", "--event-counters", "/dev/shm/launch-event-counters-1"}).config.event_counters,
+            "/dev/shm/launch-event-counters-1");
+}
+
 TEST(TraceOptions, DualSessionActsOnTheRuntimeHalfOrTheSnapshotHalf) {
   for (const char* verb : {"start", "pause", "resume", "stop"}) {
     EXPECT_EQ(options_of({verb, "run", "-d"}).config.lttng_session_name(), "run-runtime") << verb;

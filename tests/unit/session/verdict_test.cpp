@@ -89,6 +89,19 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
   write_index("ros2_0", {{1000, 2000, 32000, 0}});
   LossAccount losses = account(0);
   const std::filesystem::path directory = sandbox.directory() / "run";
+  losses.attribution = tracing::LossAttribution::kExact;
+  losses.processes = {
+      {.name = "talker", .pid = 12, .seconds = 2, .cpu_seconds = 0.5, .events = 1000, .callbacks = 50, .lost = 0}};
+  losses.cost = {.ns_per_event = 100,
+                 .cpu = "some processor",
+                 .lttng = "2.13.5",
+                 .context_fields = {"vpid"},
+                 .measured = "2026-11-21 20:15:00"};
+  losses.cuts = {{.event_class = "executor",
+                  .events = {"ros2:rclcpp_executor_execute"},
+                  .time = 77,
+                  .rate = 300'000,
+                  .share = 0.03}};
   tracing::explain_losses(losses, directory);
   tracing::write_verdict(losses, "run", directory);
   EXPECT_EQ(test_support::read_file(directory / tracing::kVerdictFile), R"json({
@@ -108,6 +121,46 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
       "discarded_events": 0,
       "lost_packets": 0,
       "lost": []
+    }
+  ],
+  "lost_by_process": {
+    "method": "exact",
+    "unattributed": 0
+  },
+  "event_cost": {
+    "ns": 100.0,
+    "measured": "2026-11-21 20:15:00",
+    "cpu": "some processor",
+    "lttng": "2.13.5",
+    "context_fields": [
+      "vpid"
+    ]
+  },
+  "cuts": [
+    {
+      "class": "executor",
+      "events": [
+        "ros2:rclcpp_executor_execute"
+      ],
+      "time_ns": 77,
+      "rate": 300000,
+      "processor_share": 0.03
+    }
+  ],
+  "processes": [
+    {
+      "name": "talker",
+      "pid": 12,
+      "seconds": 2.0,
+      "events": 1000,
+      "callbacks": 50,
+      "lost": 0,
+      "tracing": {
+        "seconds": 0.0001,
+        "processor_share": 5e-05,
+        "own_share": 0.0002,
+        "ns_per_callback": 2000.0
+      }
     }
   ]
 }

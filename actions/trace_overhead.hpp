@@ -1,0 +1,25 @@
+// max-overhead of a <trace>: watches what recording costs, and puts every cut into the trace itself.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "launcher/core/fields.hpp"
+#include "launcher/core/run_scope.hpp"
+#include "tracing/session/overhead_guard.hpp"
+
+namespace launch {
+
+// "2%" as 0.02. Throws LaunchError.
+double perform_percentage(const Template& text, Scope& scope);
+
+// Throws LaunchError for what is neither a class of events nor a pattern with its provider.
+void check_drop_order(const std::vector<std::string>& order, const SourceRange& where);
+
+// For a session that records. Measures the cost of an event where that is not known yet. `tell` is called on the loop's
+// thread. Throws tracing::TraceError.
+std::unique_ptr<tracing::OverheadGuard> watch_overhead(const tracing::TraceConfig& config, const std::string& prefix,
+                                                       EventLoop& loop, const RunScope::Tell& tell);
+
+}  // namespace launch

@@ -1,0 +1,45 @@
+#ifndef TRACETOOLS__DEADLINE_HPP_
+#define TRACETOOLS__DEADLINE_HPP_
+
+/// Records what takes longer than it may, as events of provider `ros2_deadline`: callbacks that run longer than
+/// TRACETOOLS_CALLBACK_DEADLINE nanoseconds, and messages that are taken more than TRACETOOLS_MESSAGE_DEADLINE
+/// nanoseconds after they were published. Who looks for a rare event finds it without recording all others.
+
+#include <cstdint>
+
+namespace tracetools {
+
+/// Called when the provider has been loaded.
+void read_deadlines() noexcept;
+
+namespace detail {
+extern std::int64_t callback_deadline;  // ns, 0: none
+extern std::int64_t message_deadline;
+void note_callback_start() noexcept;
+void check_callback(const void* callback) noexcept;
+void note_message(const void* rmw_subscription_handle, const void* message, std::int64_t source_timestamp) noexcept;
+void check_message(const void* message) noexcept;
+}  // namespace detail
+
+/// Around each callback, on its thread; callbacks may nest. Without a deadline a load and a branch.
+inline void callback_starts() noexcept {
+  if (detail::callback_deadline != 0) detail::note_callback_start();
+}
+inline void callback_ends(const void* callback) noexcept {
+  if (detail::callback_deadline != 0) detail::check_callback(callback);
+}
+
+/// A message was taken from the middleware, then handed on to rcl, by the same thread; what the middleware takes for
+/// itself is not handed on, and may be old. `source_timestamp`: nanoseconds since the epoch on the publisher's system
+/// clock, 0 or less when unknown.
+inline void message_taken(const void* rmw_subscription_handle, const void* message, std::int64_t source_timestamp,
+                          bool taken) noexcept {
+  if (detail::message_deadline != 0 && taken) detail::note_message(rmw_subscription_handle, message, source_timestamp);
+}
+inline void message_handed_on(const void* message) noexcept {
+  if (detail::message_deadline != 0) detail::check_message(message);
+}
+
+}  // namespace tracetools
+
+#endif  // TRACETOOLS__DEADLINE_HPP_

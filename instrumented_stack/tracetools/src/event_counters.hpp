@@ -1,0 +1,69 @@
+#ifndef TRACETOOLS__EVENT_COUNTERS_HPP_
+#define TRACETOOLS__EVENT_COUNTERS_HPP_
+
+/// Counts the events that this process hands to LTTng, in memory that a launcher can look into. From outside it is seen
+/// how many events each process fires while it runs, and afterwards how many of them a trace has lost: LTTng itself
+/// counts losses for each buffer, and the processes of a user share their buffers.
+///
+/// With TRACETOOLS_EVENT_COUNTERS=DIRECTORY in the environment each process keeps a file DIRECTORY/PID-BEGIN, laid out
+/// as `CounterFile` says; without it nothing is counted. An event that no session records is not counted either.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "tracetools/events.h"
+#include "tracetools/events_ext.h"
+
+namespace tracetools {
+
+#define TRACETOOLS_COUNTED_EVENT(name, ...) name,
+enum class CountedEvent : std::size_t {
+  TRACETOOLS_EVENTS(TRACETOOLS_COUNTED_EVENT) TRACETOOLS_EXT_EVENTS(TRACETOOLS_COUNTED_EVENT) kCount
+};
+#undef TRACETOOLS_COUNTED_EVENT
+
+inline constexpr std::size_t kCountedEvents = static_cast<std::size_t>(CountedEvent::kCount);
+/// Blocks of counters: each thread has one for itself, but for the first, which is for threads beyond the others.
+inline constexpr std::size_t kCounterBlocks = 64;
+inline constexpr std::size_t kCountedNameSize = 64;  // bytes, zero-terminated
+
+/// The file, in the byte order of the machine. Times are CLOCK_MONOTONIC in nanoseconds.
+struct CounterFile {
+  char magic[8];  // "ROS2CNT1", written last
+  std::uint32_t events;
+  std::uint32_t blocks;
+  std::uint64_t pid;
+  std::uint64_t begin;                     // when this library was loaded
+  std::atomic<std::uint64_t> end;          // when the process ended in order; 0 before, and for ever when it was killed
+  std::atomic<std::uint64_t> cpu;          // ns of processor time that it had used then
+  std::atomic<std::uint64_t> blocks_used;  // the first so many may hold something
+  char process[kCountedNameSize];          // name of its program
+  char names[kCountedEvents][kCountedNameSize];  // "ros2:rcl_init"
+  std::uint64_t counts[kCounterBlocks][kCountedEvents];
+};
+
+/// Called when the provider has been loaded.
+void begin_counting() noexcept;
+
+namespace detail {
+extern std::atomic<bool> counting;
+// A library that is loaded with the program finds room for this where access is an instruction.
+extern thread_local constinit std::uint64_t* own_block [[gnu::tls_model("initial-exec")]];
+void count_without_block(CountedEvent event) noexcept;
+}  // namespace detail
+
+/// One event more. About a nanosecond; any thread.
+inline void count(CountedEvent event) noexcept {
+  if (!detail::counting.load(std::memory_order_relaxed)) return;
+  if (std::uint64_t* const block = detail::own_block) {
+    const std::atomic_ref<std::uint64_t> counter(block[static_cast<std::size_t>(event)]);
+    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  } else {
+    detail::count_without_block(event);
+  }
+}
+
+}  // namespace tracetools
+
+#endif  // TRACETOOLS__EVENT_COUNTERS_HPP_

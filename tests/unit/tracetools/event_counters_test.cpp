@@ -1,0 +1,92 @@
+// What processes say about the events that they fire, as the launcher reads it.
+#include "tracing/session/event_counters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tracetools/tracetools.h"
+
+namespace {
+
+using test_support::run_command;
+using tracing::EventCounts;
+
+#define EVENT_NAME(name, ...) "ros2:" #name,
+#define EXT_EVENT_NAME(name, ...) "ros2_ext:" #name,
+const std::vector<std::string> kNames = {TRACETOOLS_EVENTS(EVENT_NAME) TRACETOOLS_EXT_EVENTS(EXT_EVENT_NAME)};
+#undef EVENT_NAME
+#undef EXT_EVENT_NAME
+
+class EventCountersOfProcesses : public testing::Test {
+ protected:
+  void record(const std::string& events) {
+    for (const std::vector<std::string>& argv :
+         std::vector<std::vector<std::string>>{{"lttng-sessiond", "--daemonize"},
+                                               {"lttng", "create", "counted", "--snapshot"},
+                                               {"lttng", "enable-event", "--userspace", events},
+                                               {"lttng", "start"}}) {
+      const auto result = run_command(argv);
+      ASSERT_EQ(result.exit_code, 0) << argv[0] << ' ' << result.err;
+    }
+  }
+
+  std::vector<EventCounts> run(const std::string& program) {
+    std::filesystem::create_directories(directory_);
+    EXPECT_EQ(
+        run_command({.argv = {program}, .environment = {{"TRACETOOLS_EVENT_COUNTERS", directory_.string()}}}).exit_code,
+        0);
+    return tracing::EventCounters(directory_).read();
+  }
+
+  test_support::Sandbox sandbox_;
+  std::filesystem::path directory_ = sandbox_.directory() / "counters";
+};
+
+TEST_F(EventCountersOfProcesses, HoldEveryEventThatASessionRecords) {
+  record("ros2:*,ros2_ext:*");
+  const std::vector<EventCounts> processes = run(FIRE_ALL_EVENTS);
+  ASSERT_EQ(processes.size(), 1u);
+  EXPECT_EQ(processes[0].process, "fire_all_events");
+  EXPECT_GT(processes[0].end, processes[0].begin);
+  EXPECT_GT(processes[0].cpu, 0u);
+  for (const std::string& name : kNames) {
+    EXPECT_TRUE(processes[0].events.contains(name)) << name;
+  }
+  EXPECT_EQ(processes[0].events.size(), kNames.size());
+  EXPECT_EQ(processes[0].total(), kNames.size()) << "once each";
+}
+
+TEST_F(EventCountersOfProcesses, LeaveOutWhatNoSessionRecords) {
+  record("ros2:rcl_init");
+  const std::vector<EventCounts> processes = run(FIRE_ALL_EVENTS);
+  ASSERT_EQ(processes.size(), 1u);
+  EXPECT_EQ(processes[0].events, (std::map<std::string, std::uint64_t>{{"ros2:rcl_init", 1}}));
+}
+
+TEST_F(EventCountersOfProcesses, AreRightForMoreThreadsThanBlocksAndForTheChildOfAFork) {
+  record("ros2:*");
+  const std::vector<EventCounts> processes = run(COUNT_FROM_THREADS);
+  ASSERT_EQ(processes.size(), 2u);
+  // By the time of their beginning: the parent first. 100 threads at once, then 100 one after the other.
+  EXPECT_EQ(processes[0].events.at("ros2:rcl_take"), 200u * 1000u);
+  EXPECT_EQ(processes[0].events.at("ros2:rcl_init"), 1u);
+  EXPECT_EQ(processes[1].events, (std::map<std::string, std::uint64_t>{{"ros2:rclcpp_take", 7}}));
+  EXPECT_NE(processes[0].pid, processes[1].pid);
+}
+
+TEST_F(EventCountersOfProcesses, ADirectoryThatIsNotThereDisturbsNobody) {
+  EXPECT_EQ(run_command({.argv = {FIRE_ALL_EVENTS}, .environment = {{"TRACETOOLS_EVENT_COUNTERS", "/no/where"}}}).err,
+            "");
+}
+
+TEST_F(EventCountersOfProcesses, FilesThatAreNoneAreLeftOut) {
+  std::filesystem::create_directories(directory_);
+  std::ofstream(directory_ / "1-2") << std::string(1000, 'x');
+  std::ofstream(directory_ / "3-4");
+  EXPECT_TRUE(tracing::EventCounters(directory_).read().empty());
+}
+
+}  // namespace

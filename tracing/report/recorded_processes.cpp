@@ -1,0 +1,38 @@
+#include "tracing/report/recorded_processes.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tracing {
+namespace {
+
+// "/robot/talker" of a ros2:rcl_node_init.
+std::string node_name(const Event& event) {
+  const auto text = [&event](const char* field) {
+    const std::optional<FieldValue> value = event.field(field);
+    return std::string(value ? value->string().value_or("") : "");
+  };
+  const std::string space = text("namespace");
+  return space + (space.ends_with('/') ? "" : "/") + text("node_name");
+}
+
+}  // namespace
+
+void RecordedProcessCounter::on_event(const Event& event) {
+  if (!event.vpid) return;
+  Process& process = processes_[*event.vpid];
+  ++process.events[event.event_class];
+  if (event.name() == "ros2:rcl_node_init") process.nodes.insert(node_name(event));
+}
+
+std::string RecordedProcessCounter::json() const {
+  nlohmann::ordered_json processes = nlohmann::ordered_json::array();
+  for (const auto& [vpid, process] : processes_) {
+    std::map<std::string, std::uint64_t> events;  // several traces may have classes of one name
+    for (const auto& [event_class, count] : process.events) events[event_class->name] += count;
+    processes.push_back({{"vpid", vpid}, {"nodes", process.nodes}, {"events", events}});
+  }
+  return nlohmann::ordered_json{{"processes", processes}}.dump(-1, ' ', false,
+                                                               nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace tracing

@@ -1,0 +1,30 @@
+// Counts what a trace holds of each process, for whoever knows what they have fired.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "tracing/reader/trace_reader.hpp"
+
+namespace tracing {
+
+class RecordedProcessCounter : public TraceSink {
+ public:
+  void on_event(const Event& event) override;
+  void on_loss(const Loss&) override {}
+
+  // {"processes": [{"vpid": …, "nodes": ["/ns/name", …], "events": {"ros2:rcl_init": 1, …}}, …]}. Events without the
+  // context vpid are not in it. The reader must still exist.
+  std::string json() const;
+
+ private:
+  struct Process {
+    std::set<std::string> nodes;
+    std::map<const EventClass*, std::uint64_t> events;
+  };
+
+  std::map<std::int64_t, Process> processes_;
+};
+
+}  // namespace tracing
