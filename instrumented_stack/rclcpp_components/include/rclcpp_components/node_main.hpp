@@ -22,8 +22,8 @@ int node_main(const char* class_name, int argc, char** argv) {
       std::fprintf(stderr, "no library of this program has component '%s'\n", class_name);
       return EXIT_FAILURE;
     }
+    ExecutorT executor;  // first: a component may shut down in its constructor, after which none can be made
     const NodeInstanceWrapper component = factory->create_node_instance(rclcpp::NodeOptions().arguments(arguments));
-    ExecutorT executor;
     executor.add_node(component.get_node_base_interface());
     executor.spin();
     rclcpp::shutdown();
