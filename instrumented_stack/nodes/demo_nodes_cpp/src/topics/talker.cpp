@@ -1,0 +1,36 @@
+// Says hello on topic chatter once a second.
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rclcpp/rclcpp.hpp"
+#include "rclcpp_components/register_node_macro.hpp"
+#include "std_msgs/msg/string.hpp"
+
+namespace demo_nodes_cpp {
+
+class Talker : public rclcpp::Node {
+ public:
+  explicit Talker(const rclcpp::NodeOptions& options) : Node("talker", options) {
+    publisher_ = create_publisher<std_msgs::msg::String>("chatter", 7);
+    timer_ = create_wall_timer(std::chrono::seconds(1), [this] { say_hello(); });
+  }
+
+ private:
+  void say_hello() {
+    // A unique pointer, so that a subscription of the same process can have the very message.
+    auto message = std::make_unique<std_msgs::msg::String>();
+    message->data = "Hello World: " + std::to_string(++count_);
+    RCLCPP_INFO(get_logger(), "Publishing: '%s'", message->data.c_str());
+    publisher_->publish(std::move(message));
+  }
+
+  size_t count_ = 0;
+  rclcpp::Publisher<std_msgs::msg::String>::SharedPtr publisher_;
+  rclcpp::TimerBase::SharedPtr timer_;
+};
+
+}  // namespace demo_nodes_cpp
+
+RCLCPP_COMPONENTS_REGISTER_NODE(demo_nodes_cpp::Talker)
