@@ -7,6 +7,7 @@
 # find_package(<pkg> REQUIRED) and link <pkg>::<pkg>. This file is installed too: rosidl_generate_interfaces needs it in
 # the projects of users.
 include_guard(GLOBAL)
+cmake_policy(VERSION 3.20...3.25)  # projects of users may ask for older behaviour for themselves
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -145,8 +146,8 @@ function(_stack_place target place rpath)
     INSTALL_RPATH_USE_LINK_PATH ON)
 endfunction()
 
-# Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of DEPENDENCIES that are packages and last runs
-# EXTRAS.
+# Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of DEPENDENCIES that are packages, then defines the
+# target and the variables <pkg>_TARGETS, _LIBRARIES and _INCLUDE_DIRS, and last runs EXTRAS.
 function(_stack_export pkg)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "DEPENDENCIES;EXTRAS")
   set_target_properties(${pkg} PROPERTIES STACK_PACKAGE ${pkg})
@@ -160,18 +161,29 @@ function(_stack_export pkg)
       endif()
     endif()
   endforeach()
-  string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Targets.cmake)\n")
+  string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Targets.cmake)\n"
+    "set(${pkg}_TARGETS ${pkg}::${pkg})\n"
+    "set(${pkg}_LIBRARIES ${pkg}::${pkg})\n"
+    "get_target_property(${pkg}_INCLUDE_DIRS ${pkg}::${pkg} INTERFACE_INCLUDE_DIRECTORIES)\n"
+    "if(NOT ${pkg}_INCLUDE_DIRS)\n  set(${pkg}_INCLUDE_DIRS \"\")\nendif()\n")
   foreach(extra IN LISTS ARG_EXTRAS)
     get_filename_component(name ${extra} NAME)
     string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${name})\n")
     install(FILES ${extra} DESTINATION share/${pkg}/cmake)
   endforeach()
 
+  install(EXPORT ${pkg} NAMESPACE ${pkg}:: FILE ${pkg}Targets.cmake DESTINATION share/${pkg}/cmake)
+  _stack_config(${pkg} "${config}")
+endfunction()
+
+# Writes the package's configuration, which also reads what ament_package() has exported, and its version.
+function(_stack_config pkg config)
+  set_property(GLOBAL PROPERTY STACK_CONFIG_${pkg} TRUE)
+  string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Exports.cmake OPTIONAL)\n")
   set(config_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}Config.cmake)
   set(version_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}ConfigVersion.cmake)
   file(CONFIGURE OUTPUT ${config_file} CONTENT "${config}" @ONLY)
   stack_package_version(version)
   write_basic_package_version_file(${version_file} VERSION ${version} COMPATIBILITY AnyNewerVersion)
-  install(EXPORT ${pkg} NAMESPACE ${pkg}:: FILE ${pkg}Targets.cmake DESTINATION share/${pkg}/cmake)
   install(FILES ${config_file} ${version_file} DESTINATION share/${pkg}/cmake)
 endfunction()

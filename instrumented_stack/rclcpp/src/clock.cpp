@@ -64,6 +64,60 @@ bool Clock::started() const {
   return get_clock_type() != RCL_ROS_TIME || !ros_time_is_active() || now().nanoseconds() > 0;
 }
 
+bool Clock::wait_until_started(Context::SharedPtr context) {
+  return wait_until_started(Duration::max(), std::move(context));
+}
+
+bool Clock::wait_until_started(const Duration& timeout, Context::SharedPtr context, const Duration& wait_tick_ns) {
+  if (!context || !context->is_valid()) {
+    throw std::runtime_error("context cannot be slept with because it's invalid");
+  }
+  if (get_clock_type() != RCL_ROS_TIME) {
+    throw std::runtime_error("only a clock of ROS time can be waited for");
+  }
+  // Simulated time cannot tell how long it takes to begin.
+  Clock steady(RCL_STEADY_TIME);
+  const Time begin = steady.now();
+  while (!started()) {
+    if (steady.now() - begin >= timeout || !steady.sleep_for(wait_tick_ns, context)) {
+      return started();
+    }
+  }
+  return true;
+}
+
+JumpHandler::SharedPtr Clock::create_jump_callback(JumpHandler::pre_callback_t pre_callback,
+                                                   JumpHandler::post_callback_t post_callback,
+                                                   const rcl_jump_threshold_t& threshold) {
+  auto handler = std::make_unique<JumpHandler>(std::move(pre_callback), std::move(post_callback), threshold);
+  const rcl_jump_callback_t call = [](const rcl_time_jump_t* jump, bool before_jump, void* user_data) {
+    const auto& of_user = *static_cast<const JumpHandler*>(user_data);
+    if (before_jump && of_user.pre_callback) {
+      of_user.pre_callback();
+    } else if (!before_jump && of_user.post_callback) {
+      of_user.post_callback(*jump);
+    }
+  };
+  {
+    const std::lock_guard lock(impl_->mutex);
+    const rcl_ret_t ret = rcl_clock_add_jump_callback(&impl_->rcl_clock, threshold, call, handler.get());
+    if (ret != RCL_RET_OK) {
+      exceptions::throw_from_rcl_error(ret, "failed to add a jump callback");
+    }
+  }
+  // The handler may outlive the clock.
+  return JumpHandler::SharedPtr(handler.release(), [call, weak_impl = std::weak_ptr<Impl>(impl_)](JumpHandler* ended) {
+    if (const std::shared_ptr<Impl> impl = weak_impl.lock()) {
+      const std::lock_guard lock(impl->mutex);
+      if (rcl_clock_remove_jump_callback(&impl->rcl_clock, call, ended) != RCL_RET_OK) {
+        RCLCPP_ERROR(get_logger("rclcpp"), "failed to remove a jump callback: %s", rcl_get_error_string().str);
+        rcl_reset_error();
+      }
+    }
+    delete ended;
+  });
+}
+
 bool Clock::ros_time_is_active() const {
   bool active = false;
   const rcl_ret_t ret = rcl_is_enabled_ros_time_override(&impl_->rcl_clock, &active);

@@ -20,31 +20,36 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
       node_base_(std::make_shared<node_interfaces::NodeBaseInterface>(node_name, node_namespace, options.context(),
                                                                       rcl_options, options.use_intra_process_comms(),
                                                                       options.enable_topic_statistics())),
-      logger_(rclcpp::get_logger(rcl_node_get_logger_name(node_base_->get_rcl_node_handle()))),
+      node_logging_(std::make_shared<node_interfaces::NodeLoggingInterface>(
+          rclcpp::get_logger(rcl_node_get_logger_name(node_base_->get_rcl_node_handle())))),
       node_graph_(std::make_shared<node_interfaces::NodeGraphInterface>(node_base_)),
       node_timers_(std::make_shared<node_interfaces::NodeTimersInterface>(node_base_)),
       node_topics_(std::make_shared<node_interfaces::NodeTopicsInterface>(node_base_)),
       node_services_(std::make_shared<node_interfaces::NodeServicesInterface>(node_base_)),
       node_waitables_(std::make_shared<node_interfaces::NodeWaitablesInterface>(node_base_)),
-      clock_(std::make_shared<Clock>(options.clock_type())),
-      node_parameters_(std::make_shared<node_interfaces::NodeParametersInterface>(node_base_, node_services_, clock_,
-                                                                                  options_, rcl_options)),
+      node_clock_(std::make_shared<node_interfaces::NodeClockInterface>(std::make_shared<Clock>(options.clock_type()))),
+      node_parameters_(std::make_shared<node_interfaces::NodeParametersInterface>(
+          node_base_, node_services_, node_clock_->get_clock(), options_, rcl_options)),
       node_type_descriptions_(std::make_shared<node_interfaces::NodeTypeDescriptionsInterface>(
           node_base_, node_parameters_, node_services_)),
       time_source_(std::make_unique<node_interfaces::TimeSource>(*this)),
-      effective_namespace_(node_base_->get_namespace()) {}
+      effective_namespace_(node_base_->get_namespace()) {
+  if (options.enable_logger_service()) {
+    node_logging_->create_logger_services(node_services_);
+  }
+}
 
 Node::Node(Node& other, const std::string& sub_namespace)
     : parent_(other.shared_from_this()),
       options_(other.options_),
       node_base_(other.node_base_),
-      logger_(other.logger_),
+      node_logging_(other.node_logging_),
       node_graph_(other.node_graph_),
       node_timers_(other.node_timers_),
       node_topics_(other.node_topics_),
       node_services_(other.node_services_),
       node_waitables_(other.node_waitables_),
-      clock_(other.clock_),
+      node_clock_(other.node_clock_),
       node_parameters_(other.node_parameters_),
       node_type_descriptions_(other.node_type_descriptions_) {
   if (sub_namespace.empty()) {
@@ -96,12 +101,14 @@ void Node::for_each_callback_group(const std::function<void(CallbackGroup::Share
 }
 
 const ParameterValue& Node::declare_parameter(const std::string& name, const ParameterValue& default_value,
-                                              const ParameterDescriptor& descriptor, bool ignore_override) {
+                                              const rcl_interfaces::msg::ParameterDescriptor& descriptor,
+                                              bool ignore_override) {
   return node_parameters_->declare_parameter(name, default_value, descriptor, ignore_override);
 }
 
 const ParameterValue& Node::declare_parameter(const std::string& name, ParameterType type,
-                                              const ParameterDescriptor& descriptor, bool ignore_override) {
+                                              const rcl_interfaces::msg::ParameterDescriptor& descriptor,
+                                              bool ignore_override) {
   return node_parameters_->declare_parameter(name, type, descriptor, ignore_override);
 }
 
@@ -113,15 +120,15 @@ bool Node::has_parameter(const std::string& name) const {
   return node_parameters_->has_parameter(name);
 }
 
-Node::SetParametersResult Node::set_parameter(const Parameter& parameter) {
+rcl_interfaces::msg::SetParametersResult Node::set_parameter(const Parameter& parameter) {
   return set_parameters_atomically({parameter});
 }
 
-std::vector<Node::SetParametersResult> Node::set_parameters(const std::vector<Parameter>& parameters) {
+std::vector<rcl_interfaces::msg::SetParametersResult> Node::set_parameters(const std::vector<Parameter>& parameters) {
   return node_parameters_->set_parameters(parameters);
 }
 
-Node::SetParametersResult Node::set_parameters_atomically(const std::vector<Parameter>& parameters) {
+rcl_interfaces::msg::SetParametersResult Node::set_parameters_atomically(const std::vector<Parameter>& parameters) {
   return node_parameters_->set_parameters_atomically(parameters);
 }
 
@@ -137,11 +144,12 @@ bool Node::get_parameter(const std::string& name, Parameter& parameter) const {
   return node_parameters_->get_parameter(name, parameter);
 }
 
-Node::ParameterDescriptor Node::describe_parameter(const std::string& name) const {
+rcl_interfaces::msg::ParameterDescriptor Node::describe_parameter(const std::string& name) const {
   return node_parameters_->describe_parameters({name}).front();
 }
 
-std::vector<Node::ParameterDescriptor> Node::describe_parameters(const std::vector<std::string>& names) const {
+std::vector<rcl_interfaces::msg::ParameterDescriptor> Node::describe_parameters(
+    const std::vector<std::string>& names) const {
   return node_parameters_->describe_parameters(names);
 }
 

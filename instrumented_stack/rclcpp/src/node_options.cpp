@@ -41,6 +41,11 @@ NodeOptions& NodeOptions::enable_rosout(bool enable_rosout) {
   return *this;
 }
 
+NodeOptions& NodeOptions::enable_logger_service(bool enable_logger_service) {
+  enable_logger_service_ = enable_logger_service;
+  return *this;
+}
+
 NodeOptions& NodeOptions::rosout_qos(const QoS& rosout_qos) {
   rosout_qos_ = rosout_qos;
   return *this;

@@ -2,6 +2,8 @@
 
 #include <rmw/qos_profiles.h>
 
+#include "rclcpp/exceptions.hpp"
+
 namespace rclcpp {
 
 namespace {
@@ -144,6 +146,18 @@ std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t policy_kind) {
     default:
       return "INVALID_QOS_POLICY";
   }
+}
+
+QoSCheckCompatibleResult qos_check_compatible(const QoS& publisher_qos, const QoS& subscription_qos) {
+  rmw_qos_compatibility_type_t compatibility = RMW_QOS_COMPATIBILITY_OK;
+  char reason[2048] = "";
+  const rmw_ret_t ret =
+      rmw_qos_profile_check_compatible(publisher_qos.get_rmw_qos_profile(), subscription_qos.get_rmw_qos_profile(),
+                                       &compatibility, reason, sizeof(reason));
+  if (ret != RMW_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to check compatibility of QoS profiles");
+  }
+  return {static_cast<QoSCompatibility>(compatibility), reason};
 }
 
 }  // namespace rclcpp

@@ -1,5 +1,6 @@
 # Tells containers which components a library has, and makes programs of components.
 include_guard(GLOBAL)
+cmake_policy(VERSION 3.20...3.25)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
 include(StackPackage)
 

@@ -67,6 +67,41 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessagesAndComponents) {
   EXPECT_EQ(contained.exit_code, 0) << contained.err;
 }
 
+// Configures, builds and installs one of AMENT_PACKAGES as colcon does.
+void build_ament_package(const std::string& package, const fs::path& build, const fs::path& install,
+                         const std::string& prefix_path) {
+  run({CMAKE, "-S", AMENT_PACKAGES "/" + package, "-B", build.string(), "-G", GENERATOR,
+       "-DCMAKE_PREFIX_PATH=" + prefix_path, "-DCMAKE_INSTALL_PREFIX=" + install.string(),
+       "-DCMAKE_CXX_COMPILER=" COMPILER, "-DCMAKE_CXX_COMPILER_LAUNCHER=" COMPILER_LAUNCHER});
+  run({CMAKE, "--build", build.string()});
+  run({CMAKE, "--install", build.string()});
+}
+
+TEST_F(InstalledStack, BuildsAmentPackagesUnchanged) {
+  const fs::path driver = sandbox_.directory() / "driver";
+  const fs::path monitor = sandbox_.directory() / "monitor";
+  build_ament_package("arm_driver", sandbox_.directory() / "build_driver", driver, prefix_.string());
+  EXPECT_EQ(
+      run({(driver / "lib/arm_driver/arm_node").string(), "--ros-args", "-r", "__ns:=/left"}).out,
+      "/left/arm\n{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"shoulder\"}, torques: [3.0, 1.5]}\n");
+  EXPECT_EQ(test_support::read_file(driver / "share/ament_index/resource_index/rclcpp_components/arm_driver"),
+            "arm_driver::ArmComponent;lib/libarm_component.so\narm_driver::SelfTest;lib/libarm_component.so\n");
+  EXPECT_EQ(run({(driver / "lib/arm_driver/self_test").string()}).out, "the arm is there\n");
+  for (const char* file : {"share/ament_index/resource_index/packages/arm_driver", "share/arm_driver/package.xml",
+                           "share/arm_driver/msg/Effort.msg", "include/arm_driver/arm_driver/arm_model.hpp",
+                           "include/arm_driver/arm_driver/version.h"}) {
+    EXPECT_TRUE(fs::exists(driver / file)) << file;
+  }
+  const CommandResult tests =
+      run({CTEST, "--test-dir", (sandbox_.directory() / "build_driver").string(), "--output-on-failure"});
+  EXPECT_NE(tests.out.find("100% tests passed, 0 tests failed out of 1"), std::string::npos) << tests.out;
+
+  build_ament_package("arm_monitor", sandbox_.directory() / "build_monitor", monitor,
+                      prefix_.string() + ";" + driver.string());
+  EXPECT_EQ(run({(monitor / "lib/arm_monitor/monitor").string()}).out, "5\n");
+  EXPECT_TRUE(fs::exists(monitor / "share/arm_monitor/launch/monitor.launch.xml"));
+}
+
 TEST_F(InstalledStack, FindsItsLibrariesWhereItWasMovedTo) {
   EXPECT_EQ(run({(prefix_ / "lib/tracetools/status").string()}).out, "Tracing enabled\n");
   const std::string libraries = run({"ldd", (prefix_ / "lib/tracetools/status").string()}).out;

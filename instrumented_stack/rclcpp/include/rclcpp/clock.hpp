@@ -3,8 +3,10 @@
 
 #include <rcl/time.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "rclcpp/context.hpp"
 #include "rclcpp/contexts/default_context.hpp"
@@ -13,6 +15,21 @@
 #include "rclcpp/time.hpp"
 
 namespace rclcpp {
+
+// Functions that are called around a jump of a clock, as long as this lives. See Clock::create_jump_callback().
+class JumpHandler {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(JumpHandler)
+  using pre_callback_t = std::function<void()>;
+  using post_callback_t = std::function<void(const rcl_time_jump_t&)>;
+
+  JumpHandler(pre_callback_t pre, post_callback_t post, const rcl_jump_threshold_t& threshold)
+      : pre_callback(std::move(pre)), post_callback(std::move(post)), notice_threshold(threshold) {}
+
+  pre_callback_t pre_callback;
+  post_callback_t post_callback;
+  rcl_jump_threshold_t notice_threshold;
+};
 
 // Copies share the underlying clock. All functions are thread safe.
 class Clock {
@@ -30,6 +47,19 @@ class Clock {
 
   // False while a simulation drives this clock and has not set a time yet.
   bool started() const;
+
+  // True once it has started, false when the context or the time ended first. Throw std::runtime_error unless it is a
+  // ROS time clock and the context valid.
+  bool wait_until_started(Context::SharedPtr context = contexts::get_global_default_context());
+  bool wait_until_started(const Duration& timeout, Context::SharedPtr context = contexts::get_global_default_context(),
+                          const Duration& wait_tick_ns = Duration(0, 1'000'000));
+
+  // Calls `pre_callback` before and `post_callback` after a jump that the threshold lets through, in the thread that
+  // sets the time; either may be null. They must not use the clock. They live as long as what is returned. Throws
+  // exceptions::RCLError.
+  [[nodiscard]] JumpHandler::SharedPtr create_jump_callback(JumpHandler::pre_callback_t pre_callback,
+                                                            JumpHandler::post_callback_t post_callback,
+                                                            const rcl_jump_threshold_t& threshold);
 
   // Whether a simulation drives this clock. Throws exceptions::RCLError unless it is a ROS time clock.
   bool ros_time_is_active() const;

@@ -23,7 +23,9 @@
 #include "rclcpp/logger.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_clock.hpp"
 #include "rclcpp/node_interfaces/node_graph.hpp"
+#include "rclcpp/node_interfaces/node_logging.hpp"
 #include "rclcpp/node_interfaces/node_parameters.hpp"
 #include "rclcpp/node_interfaces/node_services.hpp"
 #include "rclcpp/node_interfaces/node_timers.hpp"
@@ -45,9 +47,6 @@ class TimeSource;
 class Node : public std::enable_shared_from_this<Node> {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(Node)
-
-  using SetParametersResult = rcl_interfaces::msg::SetParametersResult;
-  using ParameterDescriptor = rcl_interfaces::msg::ParameterDescriptor;
 
   // Names may be remapped by arguments. Throws exceptions::InvalidNodeNameError, exceptions::InvalidNamespaceError,
   // exceptions::UnknownROSArgsError, exceptions::RCLInvalidROSArgsError or exceptions::RCLError.
@@ -71,11 +70,11 @@ class Node : public std::enable_shared_from_this<Node> {
   const std::string& get_effective_namespace() const { return effective_namespace_; }
 
   // `ns.node`
-  Logger get_logger() const { return logger_; }
+  Logger get_logger() const { return node_logging_->get_logger(); }
   // System time, or simulated time if the parameter use_sim_time is true.
-  Clock::SharedPtr get_clock() { return clock_; }
-  Clock::ConstSharedPtr get_clock() const { return clock_; }
-  Time now() const { return clock_->now(); }
+  Clock::SharedPtr get_clock() { return node_clock_->get_clock(); }
+  Clock::ConstSharedPtr get_clock() const { return std::as_const(*node_clock_).get_clock(); }
+  Time now() const { return get_clock()->now(); }
 
   // Keep the group: the node refers to it weakly.
   CallbackGroup::SharedPtr create_callback_group(CallbackGroupType group_type,
@@ -127,6 +126,20 @@ class Node : public std::enable_shared_from_this<Node> {
     return rclcpp::create_service<ServiceT>(node_base_, node_services_, extend_name(service_name),
                                             std::forward<CallbackT>(callback), qos, std::move(group));
   }
+  // The older forms, with a profile of the middleware.
+  template <typename ServiceT, typename CallbackT>
+  [[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Service<ServiceT>::SharedPtr create_service(
+      const std::string& service_name, CallbackT&& callback, const rmw_qos_profile_t& qos_profile,
+      CallbackGroup::SharedPtr group = nullptr) {
+    return create_service<ServiceT>(service_name, std::forward<CallbackT>(callback),
+                                    QoS(QoSInitialization::from_rmw(qos_profile), qos_profile), std::move(group));
+  }
+  template <typename ServiceT>
+  [[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Client<ServiceT>::SharedPtr create_client(
+      const std::string& service_name, const rmw_qos_profile_t& qos_profile, CallbackGroup::SharedPtr group = nullptr) {
+    return create_client<ServiceT>(service_name, QoS(QoSInitialization::from_rmw(qos_profile), qos_profile),
+                                   std::move(group));
+  }
   template <typename ServiceT>
   typename Client<ServiceT>::SharedPtr create_client(const std::string& service_name, const QoS& qos = ServicesQoS(),
                                                      CallbackGroup::SharedPtr group = nullptr) {
@@ -166,8 +179,8 @@ class Node : public std::enable_shared_from_this<Node> {
   typename GenericTimer<std::decay_t<CallbackT>>::SharedPtr create_timer(std::chrono::duration<RepT, RatioT> period,
                                                                          CallbackT&& callback,
                                                                          CallbackGroup::SharedPtr group = nullptr) {
-    return rclcpp::create_timer(clock_, period, std::forward<CallbackT>(callback), std::move(group), node_base_.get(),
-                                node_timers_.get());
+    return rclcpp::create_timer(get_clock(), period, std::forward<CallbackT>(callback), std::move(group),
+                                node_base_.get(), node_timers_.get());
   }
 
   // A parameter exists from its declaration on. Its first value is the override from NodeOptions, command line or
@@ -176,18 +189,24 @@ class Node : public std::enable_shared_from_this<Node> {
   // name), exceptions::InvalidParameterTypeException (override of another type), exceptions::
   // InvalidParameterValueException (refused by range or callback).
   template <typename ParameterT>
-  auto declare_parameter(const std::string& name, const ParameterT& default_value,
-                         const ParameterDescriptor& descriptor = ParameterDescriptor(), bool ignore_override = false);
+  auto declare_parameter(
+      const std::string& name, const ParameterT& default_value,
+      const rcl_interfaces::msg::ParameterDescriptor& descriptor = rcl_interfaces::msg::ParameterDescriptor(),
+      bool ignore_override = false);
   // Without default: throws exceptions::ParameterUninitializedException when there is no override.
   template <typename ParameterT>
-  auto declare_parameter(const std::string& name, const ParameterDescriptor& descriptor = ParameterDescriptor(),
-                         bool ignore_override = false);
-  const ParameterValue& declare_parameter(const std::string& name, const ParameterValue& default_value,
-                                          const ParameterDescriptor& descriptor = ParameterDescriptor(),
-                                          bool ignore_override = false);
-  const ParameterValue& declare_parameter(const std::string& name, ParameterType type,
-                                          const ParameterDescriptor& descriptor = ParameterDescriptor(),
-                                          bool ignore_override = false);
+  auto declare_parameter(
+      const std::string& name,
+      const rcl_interfaces::msg::ParameterDescriptor& descriptor = rcl_interfaces::msg::ParameterDescriptor(),
+      bool ignore_override = false);
+  const ParameterValue& declare_parameter(
+      const std::string& name, const ParameterValue& default_value,
+      const rcl_interfaces::msg::ParameterDescriptor& descriptor = rcl_interfaces::msg::ParameterDescriptor(),
+      bool ignore_override = false);
+  const ParameterValue& declare_parameter(
+      const std::string& name, ParameterType type,
+      const rcl_interfaces::msg::ParameterDescriptor& descriptor = rcl_interfaces::msg::ParameterDescriptor(),
+      bool ignore_override = false);
   // Several with a common prefix.
   template <typename ParameterT>
   std::vector<ParameterT> declare_parameters(const std::string& parameter_namespace,
@@ -199,10 +218,10 @@ class Node : public std::enable_shared_from_this<Node> {
   bool has_parameter(const std::string& name) const;
 
   // A refusal (type, range, read-only, callback) is in the result. Throw exceptions::ParameterNotDeclaredException.
-  SetParametersResult set_parameter(const Parameter& parameter);
-  std::vector<SetParametersResult> set_parameters(const std::vector<Parameter>& parameters);
+  rcl_interfaces::msg::SetParametersResult set_parameter(const Parameter& parameter);
+  std::vector<rcl_interfaces::msg::SetParametersResult> set_parameters(const std::vector<Parameter>& parameters);
   // All or none.
-  SetParametersResult set_parameters_atomically(const std::vector<Parameter>& parameters);
+  rcl_interfaces::msg::SetParametersResult set_parameters_atomically(const std::vector<Parameter>& parameters);
 
   // Throw exceptions::ParameterNotDeclaredException or exceptions::ParameterUninitializedException.
   Parameter get_parameter(const std::string& name) const;
@@ -219,8 +238,9 @@ class Node : public std::enable_shared_from_this<Node> {
   template <typename ParameterT>
   ParameterT get_parameter_or(const std::string& name, const ParameterT& alternative_value) const;
 
-  ParameterDescriptor describe_parameter(const std::string& name) const;
-  std::vector<ParameterDescriptor> describe_parameters(const std::vector<std::string>& names) const;
+  rcl_interfaces::msg::ParameterDescriptor describe_parameter(const std::string& name) const;
+  std::vector<rcl_interfaces::msg::ParameterDescriptor> describe_parameters(
+      const std::vector<std::string>& names) const;
   std::vector<uint8_t> get_parameter_types(const std::vector<std::string>& names) const;
   rcl_interfaces::msg::ListParametersResult list_parameters(const std::vector<std::string>& prefixes,
                                                             uint64_t depth) const;
@@ -274,7 +294,9 @@ class Node : public std::enable_shared_from_this<Node> {
   }
 
   node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() { return node_base_; }
+  node_interfaces::NodeClockInterface::SharedPtr get_node_clock_interface() { return node_clock_; }
   node_interfaces::NodeGraphInterface::SharedPtr get_node_graph_interface() { return node_graph_; }
+  node_interfaces::NodeLoggingInterface::SharedPtr get_node_logging_interface() { return node_logging_; }
   node_interfaces::NodeTopicsInterface::SharedPtr get_node_topics_interface() { return node_topics_; }
   node_interfaces::NodeTimersInterface::SharedPtr get_node_timers_interface() { return node_timers_; }
   node_interfaces::NodeServicesInterface::SharedPtr get_node_services_interface() { return node_services_; }
@@ -297,13 +319,13 @@ class Node : public std::enable_shared_from_this<Node> {
   std::shared_ptr<Node> parent_;  // of a sub-node
   NodeOptions options_;
   node_interfaces::NodeBaseInterface::SharedPtr node_base_;
-  Logger logger_;
+  node_interfaces::NodeLoggingInterface::SharedPtr node_logging_;
   node_interfaces::NodeGraphInterface::SharedPtr node_graph_;
   node_interfaces::NodeTimersInterface::SharedPtr node_timers_;
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
   node_interfaces::NodeServicesInterface::SharedPtr node_services_;
   node_interfaces::NodeWaitablesInterface::SharedPtr node_waitables_;
-  Clock::SharedPtr clock_;
+  node_interfaces::NodeClockInterface::SharedPtr node_clock_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr node_type_descriptions_;
   std::unique_ptr<node_interfaces::TimeSource> time_source_;

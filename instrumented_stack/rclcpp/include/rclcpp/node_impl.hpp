@@ -12,7 +12,7 @@ namespace rclcpp {
 
 template <typename ParameterT>
 auto Node::declare_parameter(const std::string& name, const ParameterT& default_value,
-                             const ParameterDescriptor& descriptor, bool ignore_override) {
+                             const rcl_interfaces::msg::ParameterDescriptor& descriptor, bool ignore_override) {
   try {
     return declare_parameter(name, ParameterValue(default_value), descriptor, ignore_override).get<ParameterT>();
   } catch (const ParameterTypeException& error) {
@@ -21,7 +21,8 @@ auto Node::declare_parameter(const std::string& name, const ParameterT& default_
 }
 
 template <typename ParameterT>
-auto Node::declare_parameter(const std::string& name, const ParameterDescriptor& descriptor, bool ignore_override) {
+auto Node::declare_parameter(const std::string& name, const rcl_interfaces::msg::ParameterDescriptor& descriptor,
+                             bool ignore_override) {
   const ParameterType type = ParameterValue(ParameterT{}).get_type();
   const ParameterValue& value = declare_parameter(name, type, descriptor, ignore_override);
   if (value.get_type() == PARAMETER_NOT_SET) {
@@ -37,7 +38,8 @@ std::vector<ParameterT> Node::declare_parameters(const std::string& parameter_na
   const std::string prefix = parameter_namespace.empty() ? parameter_namespace : parameter_namespace + ".";
   std::vector<ParameterT> values;
   for (const auto& [name, default_value] : parameters) {
-    values.push_back(declare_parameter(prefix + name, default_value, ParameterDescriptor(), ignore_overrides));
+    values.push_back(
+        declare_parameter(prefix + name, default_value, rcl_interfaces::msg::ParameterDescriptor(), ignore_overrides));
   }
   return values;
 }

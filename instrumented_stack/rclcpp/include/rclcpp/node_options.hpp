@@ -52,6 +52,10 @@ class NodeOptions {
   const QoS& rosout_qos() const { return rosout_qos_; }
   NodeOptions& rosout_qos(const QoS& rosout_qos);
 
+  // Whether others can read and change the levels of the process's loggers, through two services. Default false.
+  bool enable_logger_service() const { return enable_logger_service_; }
+  NodeOptions& enable_logger_service(bool enable_logger_service);
+
   // Whether others can read and change the parameters, through six services. Default true.
   bool start_parameter_services() const { return start_parameter_services_; }
   NodeOptions& start_parameter_services(bool start_parameter_services);
@@ -89,6 +93,7 @@ class NodeOptions {
   bool enable_topic_statistics_ = false;
   bool enable_rosout_ = true;
   QoS rosout_qos_ = RosoutQoS();
+  bool enable_logger_service_ = false;
   bool start_parameter_services_ = true;
   bool start_parameter_event_publisher_ = true;
   QoS parameter_event_qos_ = ParameterEventsQoS();

@@ -130,6 +130,10 @@ class SyncParametersClient {
   SyncParametersClient(Executor::SharedPtr executor, const std::shared_ptr<NodeT>& node,
                        const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
       : executor_(std::move(executor)), client_(node, remote_node_name, qos) {}
+  template <typename NodeT>
+  SyncParametersClient(Executor::SharedPtr executor, NodeT* node, const std::string& remote_node_name = "",
+                       const QoS& qos = ParametersQoS())
+      : executor_(std::move(executor)), client_(node, remote_node_name, qos) {}
 
   template <typename RepT = int64_t, typename RatioT = std::milli>
   std::vector<Parameter> get_parameters(

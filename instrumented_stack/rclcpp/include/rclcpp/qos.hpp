@@ -7,6 +7,7 @@
 #pragma once
 
 #include <rmw/qos_policy_kind.h>
+#include <rmw/qos_profiles.h>
 #include <rmw/types.h>
 
 #include <cstddef>
@@ -171,5 +172,19 @@ class BestAvailableQoS : public QoS {
  public:
   explicit BestAvailableQoS(const QoSInitialization& history = KeepLast(10));
 };
+
+enum class QoSCompatibility {
+  Ok = RMW_QOS_COMPATIBILITY_OK,
+  Warning = RMW_QOS_COMPATIBILITY_WARNING,  // they may not match
+  Error = RMW_QOS_COMPATIBILITY_ERROR,      // they will not match
+};
+
+struct QoSCheckCompatibleResult {
+  QoSCompatibility compatibility;
+  std::string reason;  // a sentence per problem
+};
+
+// Whether a publisher with the first reaches a subscription with the second. Throws exceptions::RCLError.
+QoSCheckCompatibleResult qos_check_compatible(const QoS& publisher_qos, const QoS& subscription_qos);
 
 }  // namespace rclcpp

@@ -11,6 +11,7 @@
 //   timer.hpp            WallTimer, GenericTimer               create_timer.hpp
 //   parameter.hpp        Parameter                             parameter_value.hpp
 //   parameter_client.hpp SyncParametersClient                  AsyncParametersClient
+//   parameter_event_handler.hpp ParameterEventHandler          node_interfaces/node_interfaces.hpp
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
 //   executors.hpp        spin, the executors                   executor.hpp, executors/, callback_group.hpp
 //   waitable.hpp         Waitable                              guard_condition.hpp, node_interfaces/node_waitables.hpp
@@ -21,17 +22,39 @@
 // Names, signatures and behaviour are those of rclcpp in ROS 2 Jazzy.
 #pragma once
 
+// Applications rely on these coming with rclcpp.
+#include <rmw/rmw.h>
+
+#include <algorithm>
+#include <cassert>
+#include <condition_variable>
+#include <csignal>
+#include <cstring>
+#include <future>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <thread>
+#include <unordered_map>
+
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/executors.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/logging.hpp"
 #include "rclcpp/node.hpp"
+#include "rclcpp/node_interfaces/node_interfaces.hpp"
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/parameter_client.hpp"
+#include "rclcpp/parameter_event_handler.hpp"
 #include "rclcpp/rate.hpp"
 #include "rclcpp/serialization.hpp"
 #include "rclcpp/time.hpp"
 #include "rclcpp/utilities.hpp"
+#include "rclcpp/visibility_control.hpp"
 #include "rclcpp/wait_for_message.hpp"
 #include "rclcpp/wait_set.hpp"
 #include "rclcpp/waitable.hpp"

@@ -46,6 +46,9 @@ namespace detail {
 template <typename WaitSetT>
 class WaitSetBase {
  public:
+  using SubscriptionEntry = rclcpp::SubscriptionEntry;
+  using WaitableEntry = rclcpp::WaitableEntry;
+
   // Waits until something is ready or the time is over; negative: for ever. Throws exceptions::RCLError.
   template <typename RepT = int64_t, typename PeriodT = std::milli>
   WaitResult<WaitSetT> wait(

@@ -19,4 +19,18 @@ typename Client<ActionT>::SharedPtr create_client(
       node->get_node_waitables_interface(), group);
 }
 
+// The same for whoever has interfaces instead of a node.
+template <typename ActionT>
+typename Client<ActionT>::SharedPtr create_client(
+    rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,
+    rclcpp::node_interfaces::NodeGraphInterface::SharedPtr /*node_graph*/,
+    rclcpp::node_interfaces::NodeLoggingInterface::SharedPtr node_logging,
+    rclcpp::node_interfaces::NodeWaitablesInterface::SharedPtr node_waitables, const std::string& name,
+    rclcpp::CallbackGroup::SharedPtr group = nullptr,
+    const rcl_action_client_options_t& options = rcl_action_client_get_default_options()) {
+  return detail::add_to_node(
+      std::make_shared<Client<ActionT>>(std::move(node_base), node_logging->get_logger(), name, options),
+      node_waitables, group);
+}
+
 }  // namespace rclcpp_action

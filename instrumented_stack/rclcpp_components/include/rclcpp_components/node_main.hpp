@@ -23,9 +23,11 @@ int node_main(const char* class_name, int argc, char** argv) {
       return EXIT_FAILURE;
     }
     const NodeInstanceWrapper component = factory->create_node_instance(rclcpp::NodeOptions().arguments(arguments));
-    ExecutorT executor;
-    executor.add_node(component.get_node_base_interface());
-    executor.spin();
+    if (rclcpp::ok()) {  // a component may do all of its work in its constructor, and shut down there
+      ExecutorT executor;
+      executor.add_node(component.get_node_base_interface());
+      executor.spin();
+    }
     rclcpp::shutdown();
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

@@ -6,10 +6,12 @@
 # messages they use; outside the stack find_package them first. What services and actions need is added by itself.
 # SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
 include_guard(GLOBAL)
+cmake_policy(VERSION 3.20...3.25)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
 include(StackPackage)
 
 set_property(GLOBAL PROPERTY ROSIDL_GENERATOR ${CMAKE_CURRENT_LIST_DIR}/../rosidl_generator)
+set_property(GLOBAL PROPERTY ROSIDL_TARGET_NAMES ${CMAKE_CURRENT_LIST_DIR}/rosidl_target_names.cmake)
 
 function(rosidl_generate_interfaces pkg)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "" "DEPENDENCIES")
@@ -89,17 +91,30 @@ function(rosidl_generate_interfaces pkg)
   if(ARG_SKIP_INSTALL)
     set(skip_install SKIP_INSTALL)
   endif()
+  get_property(target_names GLOBAL PROPERTY ROSIDL_TARGET_NAMES)
   stack_library(${pkg} ${skip_install}
     SOURCES ${source} ${headers}
     PUBLIC rosidl_runtime_cpp::rosidl_runtime_cpp rosidl_typesupport_cpp::rosidl_typesupport_cpp
            rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp ${libraries}
     PRIVATE fastcdr
-    INCLUDE ${output}/include)
+    INCLUDE ${output}/include
+    CONFIG_EXTRAS ${target_names})
+  foreach(part IN ITEMS rosidl_generator_cpp rosidl_typesupport_cpp rosidl_typesupport_fastrtps_cpp)
+    add_library(${pkg}__${part} ALIAS ${pkg})
+  endforeach()
   if(NOT ARG_SKIP_INSTALL)
     install(FILES ${output}/type_descriptions.json DESTINATION share/${pkg})
   endif()
   set_target_properties(${pkg} PROPERTIES ROSIDL_INTERFACES "${types}" ROSIDL_OUTPUT ${output})
   set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES ROSIDL_INTERFACES)
+endfunction()
+
+# rosidl_target_interfaces(<target> <pkg> <typesupport>)
+#
+# The older way to let a target use the messages of its own package.
+function(rosidl_target_interfaces target pkg typesupport)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${pkg}::${pkg})
+  set_property(TARGET ${target} APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${pkg}::${pkg})
 endfunction()
 
 # rosidl_get_typesupport_target(<variable> <pkg> <name>)

@@ -1,6 +1,7 @@
 // Puts subscriptions, and the event handlers of publishers and subscriptions, where an executor finds them.
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "rclcpp/callback_group.hpp"
@@ -20,6 +21,11 @@ class NodeTopics {
   // Null: the default group. Throw std::runtime_error for a group of another node.
   void add_publisher(const PublisherBase::SharedPtr& publisher, const CallbackGroup::SharedPtr& group);
   void add_subscription(const SubscriptionBase::SharedPtr& subscription, const CallbackGroup::SharedPtr& group);
+
+  // Expanded and, unless `only_expand`, remapped.
+  std::string resolve_topic_name(const std::string& name, bool only_expand = false) const {
+    return node_base_->resolve_topic_or_service_name(name, false, only_expand);
+  }
 
   const NodeBaseInterface::SharedPtr& get_node_base_interface() const { return node_base_; }
 

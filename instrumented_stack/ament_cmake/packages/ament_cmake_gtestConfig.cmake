@@ -1,0 +1,67 @@
+# ament_cmake_gtest: tests with GoogleTest, run by ctest.
+include(CMakeFindDependencyMacro)
+find_dependency(ament_cmake)
+include_guard(GLOBAL)
+cmake_policy(VERSION 3.20...3.25)
+
+# ament_add_gtest(<target> <source>... [SKIP_LINKING_MAIN_LIBRARIES] [SKIP_TEST] [TIMEOUT <seconds>]
+#                 [WORKING_DIRECTORY <dir>] [RUNNER <file>] [ENV <name=value>...] [APPEND_ENV <name=value>...]
+#                 [APPEND_LIBRARY_DIRS <dir>...])
+#
+# A program with GoogleTest's main() and a test of its name. RUNNER has no effect.
+function(ament_add_gtest target)
+  _ament_test(${target} "GTest::gtest;GTest::gtest_main" TRUE ${ARGN})
+endfunction()
+
+# The same in two steps.
+function(ament_add_gtest_executable target)
+  _ament_test(${target} "GTest::gtest;GTest::gtest_main" FALSE ${ARGN})
+endfunction()
+function(ament_add_gtest_test target)
+  _ament_test_run(${target} ${ARGN})
+endfunction()
+
+macro(ament_find_gtest)
+  find_package(GTest REQUIRED)
+endmacro()
+
+function(_ament_test target libraries run)
+  find_package(GTest REQUIRED)
+  find_package(Threads REQUIRED)
+  cmake_parse_arguments(PARSE_ARGV 3 ARG "SKIP_LINKING_MAIN_LIBRARIES;SKIP_TEST" "TIMEOUT;WORKING_DIRECTORY;RUNNER"
+    "ENV;APPEND_ENV;APPEND_LIBRARY_DIRS")
+  add_executable(${target} ${ARG_UNPARSED_ARGUMENTS})
+  if(ARG_SKIP_LINKING_MAIN_LIBRARIES)
+    list(FILTER libraries EXCLUDE REGEX "_main$")
+  endif()
+  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${libraries} Threads::Threads)
+  if(run AND NOT ARG_SKIP_TEST)
+    _ament_test_run(${ARGV0} ${ARGN})
+  endif()
+endfunction()
+
+function(_ament_test_run target)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_LINKING_MAIN_LIBRARIES;SKIP_TEST"
+    "TIMEOUT;WORKING_DIRECTORY;RUNNER;TEST_NAME" "ENV;APPEND_ENV;APPEND_LIBRARY_DIRS")
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
+  if(NOT ARG_WORKING_DIRECTORY)
+    set(ARG_WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+  if(NOT ARG_TEST_NAME)
+    set(ARG_TEST_NAME ${target})
+  endif()
+  add_test(NAME ${ARG_TEST_NAME} COMMAND ${target} WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY})
+  set_tests_properties(${ARG_TEST_NAME} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS gtest)
+  foreach(variable IN LISTS ARG_ENV)
+    set_property(TEST ${ARG_TEST_NAME} APPEND PROPERTY ENVIRONMENT ${variable})
+  endforeach()
+  foreach(variable IN LISTS ARG_APPEND_ENV)
+    string(REPLACE "=" "=path_list_append:" variable "${variable}")
+    set_property(TEST ${ARG_TEST_NAME} APPEND PROPERTY ENVIRONMENT_MODIFICATION ${variable})
+  endforeach()
+  foreach(dir IN LISTS ARG_APPEND_LIBRARY_DIRS)
+    set_property(TEST ${ARG_TEST_NAME} APPEND PROPERTY ENVIRONMENT_MODIFICATION LD_LIBRARY_PATH=path_list_append:${dir})
+  endforeach()
+endfunction()

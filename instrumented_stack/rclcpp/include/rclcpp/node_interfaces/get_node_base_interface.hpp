@@ -1,0 +1,25 @@
+// node_interfaces::get_node_base_interface(node), for anything that has that interface or points to something that has.
+#pragma once
+
+#include <memory>
+
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+
+namespace rclcpp::node_interfaces {
+
+template <typename NodeT>
+std::shared_ptr<NodeBaseInterface> get_node_base_interface(NodeT&& node) {
+  return dereferenced(node).get_node_base_interface();
+}
+inline std::shared_ptr<NodeBaseInterface> get_node_base_interface(const std::shared_ptr<NodeBaseInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeBaseInterface> get_node_base_interface(std::shared_ptr<NodeBaseInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeBaseInterface> get_node_base_interface(std::shared_ptr<NodeBaseInterface>&& interface) {
+  return interface;
+}
+
+}  // namespace rclcpp::node_interfaces

@@ -1,0 +1,27 @@
+// node_interfaces::get_node_clock_interface(node), for anything that has that interface or points to something that
+// has.
+#pragma once
+
+#include <memory>
+
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/node_interfaces/node_clock.hpp"
+
+namespace rclcpp::node_interfaces {
+
+template <typename NodeT>
+std::shared_ptr<NodeClockInterface> get_node_clock_interface(NodeT&& node) {
+  return dereferenced(node).get_node_clock_interface();
+}
+inline std::shared_ptr<NodeClockInterface> get_node_clock_interface(
+    const std::shared_ptr<NodeClockInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeClockInterface> get_node_clock_interface(std::shared_ptr<NodeClockInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeClockInterface> get_node_clock_interface(std::shared_ptr<NodeClockInterface>&& interface) {
+  return interface;
+}
+
+}  // namespace rclcpp::node_interfaces

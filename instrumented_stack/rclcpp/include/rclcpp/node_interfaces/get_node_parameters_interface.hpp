@@ -1,0 +1,29 @@
+// node_interfaces::get_node_parameters_interface(node), for anything that has that interface or points to something
+// that has.
+#pragma once
+
+#include <memory>
+
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/node_interfaces/node_parameters.hpp"
+
+namespace rclcpp::node_interfaces {
+
+template <typename NodeT>
+std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(NodeT&& node) {
+  return dereferenced(node).get_node_parameters_interface();
+}
+inline std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(
+    const std::shared_ptr<NodeParametersInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(
+    std::shared_ptr<NodeParametersInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(
+    std::shared_ptr<NodeParametersInterface>&& interface) {
+  return interface;
+}
+
+}  // namespace rclcpp::node_interfaces

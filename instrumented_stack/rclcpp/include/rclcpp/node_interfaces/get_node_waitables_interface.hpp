@@ -1,0 +1,29 @@
+// node_interfaces::get_node_waitables_interface(node), for anything that has that interface or points to something that
+// has.
+#pragma once
+
+#include <memory>
+
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/node_interfaces/node_waitables.hpp"
+
+namespace rclcpp::node_interfaces {
+
+template <typename NodeT>
+std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(NodeT&& node) {
+  return dereferenced(node).get_node_waitables_interface();
+}
+inline std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(
+    const std::shared_ptr<NodeWaitablesInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(
+    std::shared_ptr<NodeWaitablesInterface>& interface) {
+  return interface;
+}
+inline std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(
+    std::shared_ptr<NodeWaitablesInterface>&& interface) {
+  return interface;
+}
+
+}  // namespace rclcpp::node_interfaces

@@ -1,0 +1,4 @@
+// The place where ROS 2 declares node_interfaces::NodeLoggingInterface; here it is the class itself.
+#pragma once
+
+#include "rclcpp/node_interfaces/node_logging.hpp"

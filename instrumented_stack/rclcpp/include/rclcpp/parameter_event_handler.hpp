@@ -1,0 +1,96 @@
+// Hears of changes of parameters, of the own node and of others.
+//
+//   auto handler = std::make_shared<rclcpp::ParameterEventHandler>(node);
+//   auto handle = handler->add_parameter_callback("rate", [](const rclcpp::Parameter& p) { … }, "/other_node");
+//
+// Callbacks run in whoever spins the node, as long as their handle lives; the last one added runs first.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <rcl_interfaces/msg/parameter_event.hpp>
+#include <string>
+#include <vector>
+
+#include "rclcpp/create_subscription.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/parameter.hpp"
+#include "rclcpp/qos.hpp"
+#include "rclcpp/subscription.hpp"
+
+namespace rclcpp {
+
+struct ParameterCallbackHandle {
+  RCLCPP_SMART_PTR_DEFINITIONS(ParameterCallbackHandle)
+  using ParameterCallbackType = std::function<void(const Parameter&)>;
+
+  std::string parameter_name;
+  std::string node_name;
+  ParameterCallbackType callback;
+};
+
+struct ParameterEventCallbackHandle {
+  RCLCPP_SMART_PTR_DEFINITIONS(ParameterEventCallbackHandle)
+  using ParameterEventCallbackType = std::function<void(const rcl_interfaces::msg::ParameterEvent&)>;
+
+  ParameterEventCallbackType callback;
+};
+
+// Thread safe.
+class ParameterEventHandler {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(ParameterEventHandler)
+  using ParameterCallbackType = ParameterCallbackHandle::ParameterCallbackType;
+  using ParameterEventCallbackType = ParameterEventCallbackHandle::ParameterEventCallbackType;
+
+  // `node` is a node or points to one.
+  template <typename NodeT>
+  explicit ParameterEventHandler(NodeT&& node, const QoS& qos = ParameterEventsQoS())
+      : node_base_(node_interfaces::dereferenced(node).get_node_base_interface()),
+        callbacks_(std::make_shared<Callbacks>()),
+        subscription_(create_subscription<rcl_interfaces::msg::ParameterEvent>(
+            node, "/parameter_events", qos,
+            [callbacks = callbacks_](const rcl_interfaces::msg::ParameterEvent& event) { callbacks->call(event); })) {}
+
+  // For every event, after the callbacks for single parameters.
+  [[nodiscard]] ParameterEventCallbackHandle::SharedPtr add_parameter_event_callback(
+      ParameterEventCallbackType callback);
+  // Throws std::runtime_error for a handle that is not registered.
+  void remove_parameter_event_callback(const ParameterEventCallbackHandle::SharedPtr& handle);
+
+  // For new and changed values of a parameter. A node name without a leading slash is one in the own namespace; empty:
+  // the own node.
+  [[nodiscard]] ParameterCallbackHandle::SharedPtr add_parameter_callback(const std::string& parameter_name,
+                                                                          ParameterCallbackType callback,
+                                                                          const std::string& node_name = "");
+  // Throws std::runtime_error for a handle that is not registered.
+  void remove_parameter_callback(const ParameterCallbackHandle::SharedPtr& handle);
+
+  // Whether `event` has a new or changed value of that parameter of that node, a fully qualified name.
+  static bool get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event, Parameter& parameter,
+                                       const std::string& parameter_name, const std::string& node_name = "");
+  // Throws std::runtime_error if it has none.
+  static Parameter get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event,
+                                            const std::string& parameter_name, const std::string& node_name = "");
+  // The new ones, then the changed ones.
+  static std::vector<Parameter> get_parameters_from_event(const rcl_interfaces::msg::ParameterEvent& event);
+
+ private:
+  struct Callbacks {
+    // Callbacks may add and remove callbacks.
+    std::recursive_mutex mutex;
+    std::list<ParameterCallbackHandle::WeakPtr> of_parameters;
+    std::list<ParameterEventCallbackHandle::WeakPtr> of_events;
+
+    void call(const rcl_interfaces::msg::ParameterEvent& event);
+  };
+
+  node_interfaces::NodeBaseInterface::SharedPtr node_base_;
+  std::shared_ptr<Callbacks> callbacks_;
+  Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr subscription_;
+};
+
+}  // namespace rclcpp

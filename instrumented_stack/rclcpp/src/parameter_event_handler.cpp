@@ -1,0 +1,128 @@
+#include "rclcpp/parameter_event_handler.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace rclcpp {
+
+namespace {
+
+template <typename HandleT>
+void remove(std::list<std::weak_ptr<HandleT>>& handles, const std::shared_ptr<HandleT>& handle) {
+  for (auto found = handles.begin(); found != handles.end(); ++found) {
+    if (found->lock() == handle) {
+      handles.erase(found);
+      return;
+    }
+  }
+  throw std::runtime_error("Callback doesn't exist");
+}
+
+// Those that live; the others are forgotten.
+template <typename HandleT>
+std::vector<std::shared_ptr<HandleT>> living(std::list<std::weak_ptr<HandleT>>& handles) {
+  std::vector<std::shared_ptr<HandleT>> result;
+  for (auto handle = handles.begin(); handle != handles.end();) {
+    if (auto alive = handle->lock()) {
+      result.push_back(std::move(alive));
+      ++handle;
+    } else {
+      handle = handles.erase(handle);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ParameterEventCallbackHandle::SharedPtr ParameterEventHandler::add_parameter_event_callback(
+    ParameterEventCallbackType callback) {
+  auto handle = std::make_shared<ParameterEventCallbackHandle>();
+  handle->callback = std::move(callback);
+  const std::lock_guard lock(callbacks_->mutex);
+  callbacks_->of_events.push_front(handle);
+  return handle;
+}
+
+void ParameterEventHandler::remove_parameter_event_callback(const ParameterEventCallbackHandle::SharedPtr& handle) {
+  const std::lock_guard lock(callbacks_->mutex);
+  remove(callbacks_->of_events, handle);
+}
+
+ParameterCallbackHandle::SharedPtr ParameterEventHandler::add_parameter_callback(const std::string& parameter_name,
+                                                                                 ParameterCallbackType callback,
+                                                                                 const std::string& node_name) {
+  auto handle = std::make_shared<ParameterCallbackHandle>();
+  handle->parameter_name = parameter_name;
+  if (node_name.empty()) {
+    handle->node_name = node_base_->get_fully_qualified_name();
+  } else if (node_name.front() == '/') {
+    handle->node_name = node_name;
+  } else {
+    const std::string node_namespace = node_base_->get_namespace();
+    handle->node_name = (node_namespace.back() == '/' ? node_namespace : node_namespace + "/") + node_name;
+  }
+  handle->callback = std::move(callback);
+  const std::lock_guard lock(callbacks_->mutex);
+  callbacks_->of_parameters.push_front(handle);
+  return handle;
+}
+
+void ParameterEventHandler::remove_parameter_callback(const ParameterCallbackHandle::SharedPtr& handle) {
+  const std::lock_guard lock(callbacks_->mutex);
+  remove(callbacks_->of_parameters, handle);
+}
+
+bool ParameterEventHandler::get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event,
+                                                     Parameter& parameter, const std::string& parameter_name,
+                                                     const std::string& node_name) {
+  if (event.node != node_name) {
+    return false;
+  }
+  for (const auto* values : {&event.new_parameters, &event.changed_parameters}) {
+    for (const rcl_interfaces::msg::Parameter& value : *values) {
+      if (value.name == parameter_name) {
+        parameter = Parameter::from_parameter_msg(value);
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+Parameter ParameterEventHandler::get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event,
+                                                          const std::string& parameter_name,
+                                                          const std::string& node_name) {
+  Parameter parameter;
+  if (!get_parameter_from_event(event, parameter, parameter_name, node_name)) {
+    throw std::runtime_error("Parameter '" + parameter_name + "' of node '" + node_name +
+                             "' is not part of parameter event");
+  }
+  return parameter;
+}
+
+std::vector<Parameter> ParameterEventHandler::get_parameters_from_event(
+    const rcl_interfaces::msg::ParameterEvent& event) {
+  std::vector<Parameter> parameters;
+  for (const auto* values : {&event.new_parameters, &event.changed_parameters}) {
+    for (const rcl_interfaces::msg::Parameter& value : *values) {
+      parameters.push_back(Parameter::from_parameter_msg(value));
+    }
+  }
+  return parameters;
+}
+
+void ParameterEventHandler::Callbacks::call(const rcl_interfaces::msg::ParameterEvent& event) {
+  const std::lock_guard lock(mutex);
+  for (const ParameterCallbackHandle::SharedPtr& handle : living(of_parameters)) {
+    Parameter parameter;
+    if (get_parameter_from_event(event, parameter, handle->parameter_name, handle->node_name)) {
+      handle->callback(parameter);
+    }
+  }
+  for (const ParameterEventCallbackHandle::SharedPtr& handle : living(of_events)) {
+    handle->callback(event);
+  }
+}
+
+}  // namespace rclcpp

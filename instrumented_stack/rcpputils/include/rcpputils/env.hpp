@@ -1,0 +1,28 @@
+// Environment variables. Not thread safe against others that change them.
+#pragma once
+
+#include <rcutils/env.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace rcpputils {
+
+// Empty when it is not set. Throws std::runtime_error for a null name.
+inline std::string get_env_var(const char* env_var) {
+  const char* value = nullptr;
+  if (const char* error = rcutils_get_env(env_var, &value)) {
+    throw std::runtime_error(error);
+  }
+  return value;
+}
+
+// Null unsets. True, or throws std::runtime_error for a name that is null, empty or has '='.
+inline bool set_env_var(const char* env_var, const char* value) {
+  if (!rcutils_set_env(env_var, value)) {
+    throw std::runtime_error("failed to set an environment variable");
+  }
+  return true;
+}
+
+}  // namespace rcpputils

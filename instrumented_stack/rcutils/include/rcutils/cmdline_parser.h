@@ -1,0 +1,18 @@
+// Options of a command line that a program looks up one by one.
+#pragma once
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Whether `option` is one of the words from `begin` to before `end`.
+bool rcutils_cli_option_exist(char** begin, char** end, const char* option);
+
+// The word after `option`; null when there is none.
+char* rcutils_cli_get_option(char** begin, char** end, const char* option);
+
+#ifdef __cplusplus
+}
+#endif

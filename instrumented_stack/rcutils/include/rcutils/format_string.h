@@ -1,0 +1,24 @@
+// Formatted strings in memory from an allocator.
+#pragma once
+
+#include <stddef.h>
+
+#include "rcutils/allocator.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// At most `limit` characters with the terminating zero. Null for a null format, an invalid allocator, or without
+// memory.
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+char* rcutils_format_string_limit(rcutils_allocator_t allocator, size_t limit, const char* format_string, ...);
+
+#define rcutils_format_string(allocator, format_string, ...) \
+  rcutils_format_string_limit(allocator, 2048, format_string, __VA_ARGS__)
+
+#ifdef __cplusplus
+}
+#endif

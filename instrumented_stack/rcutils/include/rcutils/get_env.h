@@ -1,0 +1,4 @@
+// The former place of rcutils_get_env().
+#pragma once
+
+#include "rcutils/env.h"

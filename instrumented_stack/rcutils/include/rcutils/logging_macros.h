@@ -1,0 +1,236 @@
+// RCUTILS_LOG_{DEBUG,INFO,WARN,ERROR,FATAL}: one log line, in the manner of printf, from C or C++.
+//
+//   RCUTILS_LOG_INFO("got %d", 3);
+//   RCUTILS_LOG_INFO_NAMED("my_logger", "got %d", 3);
+//
+// Each also with a condition, which together with the level decides whether the line is written and its arguments are
+// evaluated:
+//   _ONCE(…)                           the first time only
+//   _EXPRESSION(expression, …)         if the expression is true
+//   _FUNCTION(function, …)             if function() is true
+//   _SKIPFIRST(…)                      from the second time on
+//   _THROTTLE(time_function, duration_ms, …)   if duration_ms have passed since the last line; time_function is
+//     rcutils_steady_time_now or the like
+//   _SKIPFIRST_THROTTLE(time_function, duration_ms, …)
+// and each of these with _NAMED, which takes the name of the logger before the format. A condition with a memory counts
+// only lines that the level lets pass, per place in the source. The memory is not synchronised: in a race a line is
+// lost or doubled.
+#pragma once
+
+#include "rcutils/logging.h"
+#include "rcutils/time.h"
+
+// `before` declares the memory, `condition` is evaluated when the level lets the line pass.
+#define RCUTILS_LOG_IF_(severity, before, condition, name, ...)                           \
+  do {                                                                                    \
+    static rcutils_log_location_t rcutils_log_location_ = {__func__, __FILE__, __LINE__}; \
+    before RCUTILS_LOGGING_AUTOINIT;                                                      \
+    if (rcutils_logging_logger_is_enabled_for(name, severity) && (condition)) {           \
+      rcutils_log_internal(&rcutils_log_location_, severity, name, __VA_ARGS__);          \
+    }                                                                                     \
+  } while (0)
+
+#define RCUTILS_LOG_ONCE_BEFORE_ static int rcutils_log_count_ = 0;
+#define RCUTILS_LOG_ONCE_CONDITION_ (rcutils_log_count_ == 0 && ++rcutils_log_count_)
+#define RCUTILS_LOG_SKIPFIRST_CONDITION_ (rcutils_log_count_ != 0 || !++rcutils_log_count_)
+#define RCUTILS_LOG_THROTTLE_BEFORE_            \
+  static int rcutils_log_throttle_started_ = 0; \
+  static rcutils_time_point_value_t rcutils_log_throttle_last_ = 0;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Whether a throttled line is due. A clock that cannot be read, or that jumped back, counts as elapsed.
+static inline bool rcutils_log_throttle_due_(rcutils_ret_t (*time_function)(rcutils_time_point_value_t*),
+                                             double duration_ms, int* started, rcutils_time_point_value_t* last) {
+  rcutils_time_point_value_t now = 0;
+  if (time_function(&now) == RCUTILS_RET_OK && *started && now >= *last && (double)(now - *last) < duration_ms * 1e6) {
+    return false;
+  }
+  *started = 1;
+  *last = now;
+  return true;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#define RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration) \
+  rcutils_log_throttle_due_(time_function, duration, &rcutils_log_throttle_started_, &rcutils_log_throttle_last_)
+
+#define RCUTILS_LOG_DEBUG(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , 1, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , 1, name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_ONCE(...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_ONCE_NAMED(name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_EXPRESSION(expression, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_EXPRESSION_NAMED(expression, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , expression, name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_FUNCTION(function, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , (*function)(), "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_FUNCTION_NAMED(function, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , (*function)(), name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST(...)                                                                      \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_NAMED(name, ...)                                                            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_THROTTLE(time_function, duration, ...)            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_THROTTLE_NAMED(time_function, duration, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_THROTTLE_BEFORE_,  \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE(time_function, duration, ...)                                         \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,               \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                               \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
+                  __VA_ARGS__)
+
+#define RCUTILS_LOG_INFO(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , 1, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , 1, name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_ONCE(...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_ONCE_NAMED(name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_EXPRESSION(expression, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_EXPRESSION_NAMED(expression, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , expression, name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_FUNCTION(function, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , (*function)(), "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_FUNCTION_NAMED(function, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , (*function)(), name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST(...)                                                                      \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_NAMED(name, ...)                                                            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_INFO_THROTTLE(time_function, duration, ...)            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_THROTTLE_NAMED(time_function, duration, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_THROTTLE_BEFORE_,  \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE(time_function, duration, ...)                                          \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                                \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                  \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
+                  __VA_ARGS__)
+
+#define RCUTILS_LOG_WARN(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , 1, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , 1, name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_ONCE(...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_ONCE_NAMED(name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_EXPRESSION(expression, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_EXPRESSION_NAMED(expression, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , expression, name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_FUNCTION(function, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , (*function)(), "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_FUNCTION_NAMED(function, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , (*function)(), name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST(...)                                                                      \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_NAMED(name, ...)                                                            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_WARN_THROTTLE(time_function, duration, ...)            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_THROTTLE_NAMED(time_function, duration, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_THROTTLE_BEFORE_,  \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE(time_function, duration, ...)                                          \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                                \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                  \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
+                  __VA_ARGS__)
+
+#define RCUTILS_LOG_ERROR(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , 1, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , 1, name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_ONCE(...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_ONCE_NAMED(name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_EXPRESSION(expression, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_EXPRESSION_NAMED(expression, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , expression, name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_FUNCTION(function, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , (*function)(), "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_FUNCTION_NAMED(function, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , (*function)(), name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST(...)                                                                      \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_NAMED(name, ...)                                                            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_THROTTLE(time_function, duration, ...)            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_THROTTLE_NAMED(time_function, duration, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_THROTTLE_BEFORE_,  \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE(time_function, duration, ...)                                         \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,               \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                               \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
+                  __VA_ARGS__)
+
+#define RCUTILS_LOG_FATAL(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , 1, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , 1, name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_ONCE(...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_ONCE_NAMED(name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_EXPRESSION(expression, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_EXPRESSION_NAMED(expression, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , expression, name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_FUNCTION(function, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , (*function)(), "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_FUNCTION_NAMED(function, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , (*function)(), name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST(...)                                                                      \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_NAMED(name, ...)                                                            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_THROTTLE(time_function, duration, ...)            \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_THROTTLE_NAMED(time_function, duration, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_THROTTLE_BEFORE_,  \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE(time_function, duration, ...)                                         \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,               \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
+                  __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                               \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
+                  __VA_ARGS__)

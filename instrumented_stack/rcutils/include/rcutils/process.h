@@ -1,0 +1,17 @@
+// The process itself.
+#pragma once
+
+#include "rcutils/allocator.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+int rcutils_get_pid(void);
+
+// The name of the executable without its folder; to be given back to the allocator. Null without memory.
+char* rcutils_get_executable_name(rcutils_allocator_t allocator);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,25 @@
+// snprintf that may be asked for the length alone.
+#pragma once
+
+#include <stdarg.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// As snprintf; with a null buffer of size 0 the number of characters that are needed. -1 and EINVAL for a null format
+// or for a null buffer of another size.
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+int rcutils_snprintf(char* buffer, size_t buffer_size, const char* format, ...);
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 0)))
+#endif
+int rcutils_vsnprintf(char* buffer, size_t buffer_size, const char* format, va_list args);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,6 @@
+// The types that others pass around.
+#pragma once
+
+#include "rcutils/types/rcutils_ret.h"
+#include "rcutils/types/string_array.h"
+#include "rcutils/types/uint8_array.h"

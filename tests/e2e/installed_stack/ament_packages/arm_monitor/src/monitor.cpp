@@ -1,0 +1,7 @@
+#include <cstdio>
+
+#include "arm_driver/arm_model.hpp"
+
+int main() {
+  std::printf("%g\n", arm_driver::hold(5.0).torques[0]);
+}

@@ -1,0 +1,83 @@
+// Changes of parameters, heard by another node.
+#include "rclcpp/parameter_event_handler.hpp"
+
+#include "tests/unit/rclcpp/ros_test.hpp"
+
+namespace {
+
+using rcl_interfaces::msg::ParameterEvent;
+using Strings = std::vector<std::string>;
+
+class ParameterEvents : public RosTest {
+ protected:
+  ParameterEvents() {
+    executor_.add_node(owner_);
+    executor_.add_node(hearer_);
+  }
+
+  // Spins until as many things were heard as are expected.
+  void expect_heard(const Strings& expected) {
+    spin_until(executor_, [&] { return heard_.size() >= expected.size(); });
+    EXPECT_EQ(heard_, expected);
+  }
+
+  rclcpp::Node::SharedPtr owner_ = std::make_shared<rclcpp::Node>("owner", "ns");
+  rclcpp::Node::SharedPtr hearer_ = std::make_shared<rclcpp::Node>("hearer", "ns");
+  rclcpp::executors::SingleThreadedExecutor executor_;
+  rclcpp::ParameterEventHandler handler_{hearer_};
+  Strings heard_;
+};
+
+TEST_F(ParameterEvents, OfOneParameterOfANodeAndOfAll) {
+  // A name without a slash is one in the own namespace.
+  const auto speed = handler_.add_parameter_callback(
+      "speed", [this](const rclcpp::Parameter& p) { heard_.push_back("speed=" + p.value_to_string()); }, "owner");
+  const auto other = handler_.add_parameter_callback(
+      "speed", [this](const rclcpp::Parameter&) { heard_.push_back("not of this node"); });
+  const auto later = handler_.add_parameter_callback(
+      "speed", [this](const rclcpp::Parameter&) { heard_.push_back("added last"); }, "/ns/owner");
+  const auto all = handler_.add_parameter_event_callback([this](const ParameterEvent& event) {
+    if (event.node != "/ns/owner") return;
+    for (const rclcpp::Parameter& p : rclcpp::ParameterEventHandler::get_parameters_from_event(event)) {
+      heard_.push_back(event.node + ": " + p.get_name());
+    }
+  });
+  owner_->declare_parameter("speed", 1.5);
+  expect_heard({"added last", "speed=1.500000", "/ns/owner: speed"});
+
+  heard_.clear();
+  handler_.remove_parameter_callback(later);
+  EXPECT_THROW(handler_.remove_parameter_callback(later), std::runtime_error);
+  owner_->set_parameters_atomically({rclcpp::Parameter("speed", 2.5)});
+  expect_heard({"speed=2.500000", "/ns/owner: speed"});
+}
+
+TEST(ParameterEventHandler, FindsAParameterInAnEvent) {
+  ParameterEvent event;
+  event.node = "/owner";
+  event.changed_parameters.push_back(rclcpp::Parameter("speed", 3).to_parameter_msg());
+  rclcpp::Parameter parameter;
+  EXPECT_TRUE(rclcpp::ParameterEventHandler::get_parameter_from_event(event, parameter, "speed", "/owner"));
+  EXPECT_EQ(parameter.as_int(), 3);
+  EXPECT_FALSE(rclcpp::ParameterEventHandler::get_parameter_from_event(event, parameter, "speed", "/other"));
+  try {
+    rclcpp::ParameterEventHandler::get_parameter_from_event(event, "height", "/owner");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "Parameter 'height' of node '/owner' is not part of parameter event");
+  }
+}
+
+// Whoever asks for the event itself may own it.
+TEST_F(ParameterEvents, OfAParameterClient) {
+  rclcpp::AsyncParametersClient client(hearer_, "/ns/owner");
+  const auto subscription = client.on_parameter_event([this](ParameterEvent::UniquePtr event) {
+    for (const auto& parameter : event->new_parameters) {
+      if (event->node == "/ns/owner") heard_.push_back(parameter.name);
+    }
+  });
+  owner_->declare_parameter("height", 1);
+  expect_heard({"height"});
+}
+
+}  // namespace

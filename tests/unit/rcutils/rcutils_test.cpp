@@ -1,0 +1,88 @@
+// The small C functions that applications use.
+#include <gtest/gtest.h>
+#include <rcutils/cmdline_parser.h>
+#include <rcutils/env.h>
+#include <rcutils/format_string.h>
+#include <rcutils/logging_macros.h>
+#include <rcutils/process.h>
+#include <rcutils/snprintf.h>
+#include <rcutils/strdup.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+std::vector<std::string> lines;
+
+void keep_line(const rcutils_log_location_t*, int severity, const char* name, rcutils_time_point_value_t,
+               const char* format, va_list* args) {
+  char text[100];
+  vsnprintf(text, sizeof(text), format, *args);
+  lines.push_back(std::string(rcutils_logging_severity_name(severity)) + " " + name + ": " + text);
+}
+
+// A clock that the test sets, milliseconds.
+rcutils_time_point_value_t now_ms = 0;
+rcutils_ret_t test_time(rcutils_time_point_value_t* now) {
+  *now = now_ms * 1'000'000;
+  return RCUTILS_RET_OK;
+}
+
+TEST(LoggingMacros, WriteWhatLevelAndConditionLetPass) {
+  ASSERT_EQ(rcutils_logging_initialize(), RCUTILS_RET_OK);
+  rcutils_logging_set_output_handler(keep_line);
+  lines.clear();
+  RCUTILS_LOG_INFO("plain %d", 1);
+  RCUTILS_LOG_ERROR_NAMED("arm", "named %s", "two");
+  RCUTILS_LOG_DEBUG_NAMED("arm", "below the level");
+  for (int i = 0; i < 3; ++i) {
+    RCUTILS_LOG_WARN_ONCE_NAMED("arm", "once %d", i);
+    RCUTILS_LOG_INFO_SKIPFIRST("skipfirst %d", i);
+    RCUTILS_LOG_INFO_EXPRESSION(i == 1, "expression %d", i);
+    now_ms = 100 * i;
+    RCUTILS_LOG_FATAL_THROTTLE(test_time, 150, "throttle %d", i);
+  }
+  rcutils_logging_set_output_handler(rcutils_logging_console_output_handler);
+  EXPECT_EQ(lines, (std::vector<std::string>{"INFO : plain 1", "ERROR arm: named two", "WARN arm: once 0",
+                                             "FATAL : throttle 0", "INFO : skipfirst 1", "INFO : expression 1",
+                                             "INFO : skipfirst 2", "FATAL : throttle 2"}));
+}
+
+TEST(CommandLine, FindsOptionsAndWhatFollowsThem) {
+  std::string words[] = {"program", "-s", "sum", "-h"};
+  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data()};
+  EXPECT_TRUE(rcutils_cli_option_exist(argv, argv + 4, "-h"));
+  EXPECT_FALSE(rcutils_cli_option_exist(argv, argv + 4, "-x"));
+  EXPECT_STREQ(rcutils_cli_get_option(argv, argv + 4, "-s"), "sum");
+  EXPECT_EQ(rcutils_cli_get_option(argv, argv + 4, "-h"), nullptr);
+  EXPECT_EQ(rcutils_cli_get_option(argv, argv + 4, "-x"), nullptr);
+}
+
+TEST(Strings, AreMadeInMemoryOfTheAllocator) {
+  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  char* text = rcutils_format_string(allocator, "%d-%s", 7, "x");
+  EXPECT_STREQ(text, "7-x");
+  char* copy = rcutils_strndup(text, 2, allocator);
+  EXPECT_STREQ(copy, "7-");
+  EXPECT_EQ(rcutils_strdup(nullptr, allocator), nullptr);
+  allocator.deallocate(text, allocator.state);
+  allocator.deallocate(copy, allocator.state);
+  EXPECT_EQ(rcutils_snprintf(nullptr, 0, "%d", 1234), 4);
+  EXPECT_EQ(rcutils_snprintf(nullptr, 3, "%d", 1234), -1);
+}
+
+TEST(Environment, IsSetAndRead) {
+  const char* value = nullptr;
+  ASSERT_TRUE(rcutils_set_env("RCUTILS_TEST_VARIABLE", "here"));
+  EXPECT_EQ(rcutils_get_env("RCUTILS_TEST_VARIABLE", &value), nullptr);
+  EXPECT_STREQ(value, "here");
+  ASSERT_TRUE(rcutils_set_env("RCUTILS_TEST_VARIABLE", nullptr));
+  EXPECT_EQ(rcutils_get_env("RCUTILS_TEST_VARIABLE", &value), nullptr);
+  EXPECT_STREQ(value, "");
+  EXPECT_STREQ(rcutils_get_env(nullptr, &value), "argument env_name is null");
+  EXPECT_EQ(rcutils_get_pid(), getpid());
+}
+
+}  // namespace
