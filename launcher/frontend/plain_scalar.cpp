@@ -6,10 +6,8 @@ namespace launch {
 
 namespace {
 
-constexpr std::string_view kAlphanumeric = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-
 bool is_alphanumeric(char c) {
-  return kAlphanumeric.find(c) != std::string_view::npos;
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
 // What a plain scalar may begin with; the other indicators of YAML begin something else.
