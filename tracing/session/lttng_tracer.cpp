@@ -151,6 +151,7 @@ std::uint64_t monotonic_now() {
 }
 
 // Which process lost how much, for the losses of a session that has been stopped.
+// What cannot be found out leaves the attribution unknown: the session ends and its verdict is written all the same.
 class LossesByProcess {
  public:
   LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
@@ -158,20 +159,28 @@ class LossesByProcess {
     losses.processes = account_processes(counts_, monotonic_now());
     losses.cuts = read_cuts(config);
     if (losses.complete()) losses.attribution = LossAttribution::kExact;
-    if (needed()) events_ = read_recorded_events(config.lttng_session_name());
+    try {
+      if (needed()) events_ = read_recorded_events(config.lttng_session_name());
+    } catch (const TraceError&) {
+      unknown_ = true;
+    }
   }
 
   // Reads the trace, which takes a second for a million events; only when something was lost.
   void look_into(const std::string& recording) {
     const std::optional<std::filesystem::path> report = installed_program("launch-report");
-    if (!needed()) return;
-    RecordedProcesses recorded;
-    if (report) {
-      const std::string output = program_output(*report, {"--recorded", recording});
-      if (!output.empty()) recorded = parse_recorded_processes(output);
+    if (!needed() || unknown_) return;
+    try {
+      RecordedProcesses recorded;
+      if (report) {
+        const std::string output = program_output(*report, {"--recorded", recording});
+        if (!output.empty()) recorded = parse_recorded_processes(output);
+      }
+      if (recorded.empty()) counts_.clear();  // then only buffers of its own tell what a process lost
+      attribute_losses(losses_, counts_, events_, recorded, read_packet_index(recording));
+    } catch (const TraceError&) {
+      losses_.attribution = LossAttribution::kUnknown;
     }
-    if (recorded.empty()) counts_.clear();  // then only buffers of its own tell what a process lost
-    attribute_losses(losses_, counts_, events_, recorded, read_packet_index(recording));
   }
 
  private:
@@ -186,6 +195,7 @@ class LossesByProcess {
   LossAccount& losses_;
   std::vector<EventCounts> counts_;
   RecordedEvents events_;
+  bool unknown_ = false;
 };
 
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
