@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
             Example{"27_late_start",
                     {},
                     {"I heard: [Hello World: ", "writing tracing session to: ", ", 2 processes, none lost)"}},
-            Example{"29_deadline", {}, {"snapshot written to: ", "(a message was taken after more than 0.01 ms)"}}),
+            Example{"28_deadline", {}, {"snapshot written to: ", "(a message was taken after more than 0.01 ms)"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 
