@@ -3,7 +3,13 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_graph.hpp"
+#include "rclcpp/node_interfaces/node_logging.hpp"
+#include "rclcpp/node_interfaces/node_waitables.hpp"
 #include "rclcpp_action/client.hpp"
 #include "rclcpp_action/detail/add_to_node.hpp"
 
