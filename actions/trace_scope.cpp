@@ -125,8 +125,6 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   const auto traced = static_cast<std::size_t>(
       std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
   const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
-  counters_ = tracing::EventCounterDirectory::shared();
-  config_.event_counters = counters_ ? counters_->path().string() : "";
   if (choices_.auto_buffers) {
     config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
   }
@@ -290,7 +288,10 @@ void TraceScope::tell_result(const Tell& tell) const {
   }
 }
 
-std::vector<std::string> TraceScope::clean_up_command() const {
+std::vector<std::string> TraceScope::clean_up_command() {
+  // Whoever asks is going to run this: a dry run makes no directory.
+  counters_ = tracing::EventCounterDirectory::shared();
+  config_.event_counters = counters_ ? counters_->path().string() : "";
   // It is told before the session is created: one that has the name already is somebody else's.
   std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),
                                       fmt::format("--created-since={}", created_)};

@@ -47,7 +47,7 @@ class TraceScope : public RunScope {
   void begin(EventLoop& loop, Tell tell, Completion done) override;
   void end(EventLoop& loop, Tell tell, Completion done) override;
   void hurry() override { hurry_ = true; }
-  std::vector<std::string> clean_up_command() const override;
+  std::vector<std::string> clean_up_command() override;
   void prepare(ProcessSpec& spec) const override;
   bool wants_records() const override { return config_.launch_events; }
   void record(const LaunchRecord& record) override;

@@ -106,7 +106,7 @@ class LaunchService {
   void check_finished();
   void post_check();
   void end_next_scope();
-  void guard(const RunScope& scope);
+  void guard(RunScope& scope);
   void unguard(const RunScope& scope);
   RunScope::Tell teller();
   void record(const ProcessEvent& event);

@@ -152,7 +152,7 @@ void LaunchService::end_next_scope() {
 }
 
 // From before begin(), so that there is no moment at which a killed launcher leaves the scope's work behind.
-void LaunchService::guard(const RunScope& scope) {
+void LaunchService::guard(RunScope& scope) {
   const std::vector<std::string> command = scope.clean_up_command();
   if (guardian_ != nullptr && !command.empty()) {
     clean_ups_.emplace(&scope, guardian_->add_clean_up(command));

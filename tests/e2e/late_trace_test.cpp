@@ -52,9 +52,11 @@ class LateTrace : public testing::Test {
   void expect_readable(const json& report) {
     std::vector<std::string> callbacks;
     for (const json& callback : report["callbacks"]) callbacks.push_back(description(callback));
-    EXPECT_THAT(callbacks, UnorderedElementsAre("/talker, timer: Talker::Talker()::{lambda()#1}",
-                                                "/listener, subscription /chatter: "
-                                                "Listener::Listener()::{lambda(std_msgs::msg::String const&)#1}"));
+    EXPECT_THAT(callbacks,
+                UnorderedElementsAre(
+                    "/talker, timer: demo_nodes_cpp::Talker::Talker(rclcpp::NodeOptions const&)::{lambda()#1}",
+                    "/listener, subscription /chatter: demo_nodes_cpp::(anonymous namespace)::listen(rclcpp::Node&, "
+                    "rclcpp::QoS const&)::{lambda(std_msgs::msg::String const&)#1}"));
     for (const json& topic : report["topics"]) {
       if (topic["name"] != "/chatter") continue;
       EXPECT_EQ(topic["publishers"], 1);

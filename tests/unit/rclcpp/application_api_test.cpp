@@ -160,10 +160,11 @@ TEST_F(Application, DrivesClocksOfItsOwnFromSimulatedTime) {
 }
 
 TEST(Qos, TellsWhetherTwoProfilesMatch) {
-  const auto result = rclcpp::qos_check_compatible(rclcpp::QoS(1).best_effort(), rclcpp::QoS(1).reliable());
+  const rclcpp::QoS all_said = rclcpp::QoS(1).liveliness(rclcpp::LivelinessPolicy::Automatic);
+  const auto result =
+      rclcpp::qos_check_compatible(rclcpp::QoS(all_said).best_effort(), rclcpp::QoS(all_said).reliable());
   EXPECT_EQ(result.compatibility, rclcpp::QoSCompatibility::Error);
   EXPECT_EQ(result.reason, "ERROR: best effort publisher and reliable subscription;");
-  const rclcpp::QoS all_said = rclcpp::QoS(1).liveliness(rclcpp::LivelinessPolicy::Automatic);
   EXPECT_EQ(rclcpp::qos_check_compatible(all_said, all_said).compatibility, rclcpp::QoSCompatibility::Ok);
 }
 

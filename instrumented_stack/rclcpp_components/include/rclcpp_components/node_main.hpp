@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include "rclcpp/rclcpp.hpp"
 #include "rclcpp_components/component_library.hpp"
@@ -31,7 +33,8 @@ int node_main(const char* class_name, int argc, char** argv) {
     rclcpp::shutdown();
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", argc > 0 ? argv[0] : class_name, error.what());
+    const std::string program = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : class_name;
+    std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
     return EXIT_FAILURE;
   }
 }
