@@ -49,7 +49,8 @@ class RunScope {
   virtual void hurry() = 0;
 
   // The program and its arguments that release what begin() takes when the launcher is killed before end(). It runs
-  // after the last process has gone. Empty: nothing would be left. Called before begin(), once, and not when nothing is to run.
+  // after the last process has gone. Empty: nothing would be left. Called before begin(), once, and not when nothing is
+  // to run.
   virtual std::vector<std::string> clean_up_command() { return {}; }
 
   // Changes what every process that starts while the scope is active is given, such as LD_PRELOAD.

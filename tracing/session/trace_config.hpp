@@ -67,8 +67,8 @@ struct TraceConfig {
   std::string url;               // of a relay daemon, net://HOST[:CONTROL[:DATA]]; empty: recorded below base_path
   std::uint32_t live_timer = 0;  // µs between two deliveries to the viewers of a live session; 0: not a live session
   bool snapshot_mode = false;
-  std::uint64_t snapshot_size = 0;    // largest size of a snapshot in bytes; 0: 10 userspace sub-buffers
-  std::uint64_t snapshot_limit = 10;  // snapshots of a flight recorder that are kept
+  std::uint64_t snapshot_size = 0;              // largest size of a snapshot in bytes; 0: 10 userspace sub-buffers
+  std::uint64_t snapshot_limit = 10;            // snapshots of a flight recorder that are kept
   std::vector<std::string> further_events_ust;  // recorded beside events_ust, in the same channel
   // Of one processor, for all traced processes together; above it classes of events are dropped in this order
   // (event_classes.hpp). 0: no limit.

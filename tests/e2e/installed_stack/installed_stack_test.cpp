@@ -81,9 +81,8 @@ TEST_F(InstalledStack, BuildsAmentPackagesUnchanged) {
   const fs::path driver = sandbox_.directory() / "driver";
   const fs::path monitor = sandbox_.directory() / "monitor";
   build_ament_package("arm_driver", sandbox_.directory() / "build_driver", driver, prefix_.string());
-  EXPECT_EQ(
-      run({(driver / "lib/arm_driver/arm_node").string(), "--ros-args", "-r", "__ns:=/left"}).out,
-      "/left/arm\n{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"shoulder\"}, torques: [3.0, 1.5]}\n");
+  EXPECT_EQ(run({(driver / "lib/arm_driver/arm_node").string(), "--ros-args", "-r", "__ns:=/left"}).out,
+            "/left/arm\n{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"shoulder\"}, torques: [3.0, 1.5]}\n");
   EXPECT_EQ(test_support::read_file(driver / "share/ament_index/resource_index/rclcpp_components/arm_driver"),
             "arm_driver::ArmComponent;lib/libarm_component.so\narm_driver::SelfTest;lib/libarm_component.so\n");
   EXPECT_EQ(run({(driver / "lib/arm_driver/self_test").string()}).out, "the arm is there\n");
