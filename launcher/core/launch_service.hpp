@@ -82,7 +82,7 @@ class LaunchService {
   // Visits actions in a scope of their own and carries out what they ask for.
   void visit(Scope scope, const std::vector<ActionPtr>& actions);
   void invoke(std::vector<Invocation> invocations);
-  void run_invocation();
+  void run_invocations();
 
   void carry_out(Requests requests);
   void begin_next();
@@ -129,7 +129,7 @@ class LaunchService {
   std::list<std::shared_ptr<const EventHandler>> waits_;  // those for conditions
   Coroutines coroutines_;
   StartOrder start_order_;
-  std::deque<Invocation> invocations_;  // each has a post of its own
+  std::deque<std::vector<Invocation>> events_;  // whose handlers are to be visited; each has a post of its own
   bool output_observed_ = false;
 
   std::deque<Round> waiting_;   // the first one may be beginning its scopes

@@ -108,7 +108,7 @@ void LaunchService::post_check() {
 }
 
 void LaunchService::check_finished() {
-  if (ending_ || scope_is_beginning_ || farewell_ || !waiting_.empty() || !timers_.empty() || !invocations_.empty() ||
+  if (ending_ || scope_is_beginning_ || farewell_ || !waiting_.empty() || !timers_.empty() || !events_.empty() ||
       !start_order_.empty() || supervisor_.active() != 0 || !coroutines_.idle() ||
       (ros_tasks_ && !ros_tasks_->idle())) {
     return;

@@ -9,19 +9,20 @@ namespace launch {
 
 // In a later turn: handlers start and stop processes, which observers of their events should not.
 void LaunchService::invoke(std::vector<Invocation> invocations) {
-  for (Invocation& invocation : invocations) {
-    invocations_.push_back(std::move(invocation));
-    loop_.post([this] { run_invocation(); });
+  if (!invocations.empty()) {
+    events_.push_back(std::move(invocations));
+    loop_.post([this] { run_invocations(); });
   }
 }
 
-void LaunchService::run_invocation() {
-  if (invocations_.empty()) {
-    return;  // its handler was unregistered meanwhile
+// All handlers of one event: one of them may unregister another, which still hears of this event but of no later one.
+void LaunchService::run_invocations() {
+  const std::vector<Invocation> invocations = std::move(events_.front());
+  events_.pop_front();
+  for (const Invocation& invocation : invocations) {
+    visit(invocation.scope(), invocation.handler->actions);
   }
-  const Invocation invocation = std::move(invocations_.front());
-  invocations_.pop_front();
-  visit(invocation.scope(), invocation.handler->actions);
+  check_finished();
 }
 
 void LaunchService::on_step() {
@@ -45,8 +46,10 @@ void LaunchService::register_handler(EventHandler handler) {
 
 void LaunchService::unregister_handlers(const UnregisterRequest& request) {
   const bool registered = handlers_.remove(request.name) | state_handlers_.remove(request.name);
-  // Those of it that wait for their turn.
-  std::erase_if(invocations_, [&](const Invocation& each) { return each.handler->name == request.name; });
+  // Events that wait for their turn.
+  for (std::vector<Invocation>& event : events_) {
+    std::erase_if(event, [&](const Invocation& each) { return each.handler->name == request.name; });
+  }
   if (!registered) {
     context_.message(
         LogLevel::kWarning, "launch",

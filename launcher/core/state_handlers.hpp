@@ -1,4 +1,5 @@
-// The handlers of nodes with a managed life cycle: each watches its node.
+// The handlers of nodes with a managed life cycle. Each node is watched once, so that its handlers hear of a change
+// together, in the order of their registration.
 #pragma once
 
 #include <functional>
@@ -26,12 +27,16 @@ class StateHandlers {
   void clear() { watches_.clear(); }
 
  private:
+  // Of one node in one graph, by at least one handler.
   struct Watch {
-    std::shared_ptr<const EventHandler> handler;
+    std::string node;
+    Environment environment;
+    std::vector<std::shared_ptr<const EventHandler>> handlers;
     EventLoop::SourcePtr source;
   };
+  using Place = std::list<Watch>::iterator;
 
-  void on_answer(std::list<Watch>::iterator watch, const RosAnswer& answer);
+  void on_answer(Place watch, const RosAnswer& answer);
 
   std::function<void(std::vector<Invocation>)> invoke_;
   std::function<void(const LaunchError&)> fail_;

@@ -16,7 +16,7 @@ class StateHandlersTest : public LaunchServiceTest {
  protected:
   StateHandlersTest() { client = &client_; }
 
-  // The client is told of the change at this time, which so many handlers watch.
+  // The client is told of the change at this time, for which it was asked so many times.
   void change_at(Duration time, std::string from, std::string to, int watches) {
     timers_.push_back(loop_.after(time, [this, from = std::move(from), to = std::move(to), watches] {
       EXPECT_EQ(client_.change_state("/left/n", from, to), watches);
@@ -29,10 +29,10 @@ class StateHandlersTest : public LaunchServiceTest {
 
 TEST_F(StateHandlersTest, AreVisitedForTheStatesThatTheyAskFor) {
   runner_.default_script({.exits_after = 10s});
-  change_at(1s, "unconfigured", "configuring", 3);
-  change_at(2s, "configuring", "inactive", 3);
-  change_at(3s, "inactive", "activating", 2);
-  change_at(4s, "configuring", "inactive", 2);
+  change_at(1s, "unconfigured", "configuring", 1);
+  change_at(2s, "configuring", "inactive", 1);
+  change_at(3s, "inactive", "activating", 1);
+  change_at(4s, "configuring", "inactive", 1);
   EXPECT_EQ(run(R"xml(<executable cmd="n"/><push_ros_namespace namespace="left"/>
 <on_state_transition node="n" goal_state="inactive" once="true"><log message="configured"/></on_state_transition>
 <on_state_transition node="/left/n" start_state="inactive"><log message="leaves inactive"/></on_state_transition>
@@ -95,13 +95,29 @@ TEST_F(StateHandlersTest, AndOthersHearNothingMoreOnceUnregistered) {
   EXPECT_THAT(messages_, ElementsAre("[launch.user] one"));
 }
 
-TEST_F(StateHandlersTest, UnregisteringAnotherHandlerStopsWhatIsUnderWay) {
-  runner_.script("a", {{.exits_after = 5s, .output = {{.at = 1s, .text = "both\n"}}}});
+TEST_F(StateHandlersTest, UnregisteringAnotherHandlerOfAnEventStopsItFromTheNextOn) {
+  runner_.script("a", {{.exits_after = 5s, .output = {{.at = 1s, .text = "one\ntwo\n"}}}});
   EXPECT_EQ(run(R"xml(<executable cmd="a"/>
-<on_process_io process="a"><log message="first"/><unregister_event_handler name="second"/></on_process_io>
-<on_process_io process="a" name="second"><log message="second"/></on_process_io>)xml"),
+<on_process_io process="a" pattern="one"><unregister_event_handler name="second"/></on_process_io>
+<on_process_io process="a"><log message="first: $(var event.text)"/></on_process_io>
+<on_process_io process="a" name="second"><log message="second: $(var event.text)"/></on_process_io>)xml"),
             0);
-  EXPECT_THAT(messages_, ElementsAre("[launch.user] first"));
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch.user] first: one", "[launch.user] second: one", "[launch.user] first: two"));
+}
+
+TEST_F(StateHandlersTest, ANodesHandlersHearOfAChangeTogether) {
+  runner_.default_script({.exits_after = 10s});
+  change_at(1s, "unconfigured", "configuring", 1);
+  change_at(2s, "configuring", "inactive", 1);
+  EXPECT_EQ(run(R"xml(<executable cmd="n"/>
+<on_state_transition node="/left/n"><unregister_event_handler name="second"/><log message="first"/></on_state_transition>
+<on_state_transition node="/left/n" name="second"><log message="second"/></on_state_transition>)xml"),
+            0);
+  EXPECT_THAT(client_.asked, ElementsAre("the state of '/left/n'"));
+  EXPECT_THAT(messages_, ElementsAre("[launch.user] first", "[launch.user] second", "[launch.user] first",
+                                     "[launch] no event handler is registered that is named 'second' "
+                                     "(/test/system.launch.xml:3:69)"));
 }
 
 TEST_F(StateHandlersTest, UnregisteringWhatIsNotThereIsAWarning) {
