@@ -54,10 +54,12 @@ class AppendEnvironmentVariable : public Action {
     const std::string value = value_.perform(scope);
     const bool prepend = prepend_.perform(scope);
     const std::string separator = separator_ ? separator_->perform(scope) : ":";
-    const auto [variable, absent] = scope.environment.try_emplace(name, value);
-    if (!absent) {
-      variable->second = prepend ? value + separator + variable->second : variable->second + separator + value;
+    if (!scope.environment.contains(name)) {
+      scope.environment.insert_or_assign(name, value);
+      return;
     }
+    const std::string& before = scope.environment.at(name);
+    scope.environment.insert_or_assign(name, prepend ? value + separator + before : before + separator + value);
   }
 
  private:

@@ -83,12 +83,13 @@ ActionPtr make_on_process_exit(const Fields& fields) {
 ActionPtr make_on_process_io(const Fields& fields) {
   const std::optional<Template> pattern = fields.optional_text("pattern");
   const std::optional<Template> stream = fields.optional_text("stream");
-  auto make_event = [pattern, stream](Scope& scope) -> Event {
+  RegisterEventHandler::MakeEvent make_event = [pattern, stream](Scope& scope) -> Event {
     return OnProcessIo{OutputPattern(pattern ? pattern->perform(scope) : "", pattern ? pattern->where() : SourceRange(),
                                      stream ? stream->perform(scope) : "both",
                                      stream ? stream->where() : SourceRange())};
   };
-  return std::make_shared<RegisterEventHandler>(fields, checked(make_event, is_literal(pattern) && is_literal(stream)));
+  return std::make_shared<RegisterEventHandler>(
+      fields, checked(std::move(make_event), is_literal(pattern) && is_literal(stream)));
 }
 
 ActionPtr make_on_shutdown(const Fields& fields) {

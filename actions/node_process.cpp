@@ -63,7 +63,9 @@ NodeProcess::NodeProcess(const Fields& fields)
       ros_arguments_(fields.optional_words("ros_args")),
       remaps_(remaps_of(fields)),
       process_(fields) {
-  for (const Fields* parameter : fields.items("param")) {
+  const std::vector<const Fields*> parameters = fields.items("param");
+  parameters_.reserve(parameters.size());
+  for (const Fields* parameter : parameters) {
     parameters_.emplace_back(*parameter);
   }
 }
@@ -71,6 +73,7 @@ NodeProcess::NodeProcess(const Fields& fields)
 std::string NodeProcess::request(LaunchContext& context) const {
   Scope& scope = context.scope();
   ProcessSpec spec;
+  spec.argv.reserve(arguments_.size() + 2 * (parameters_.size() + remaps_.size()) + 8);
   spec.argv.push_back(program(scope));
   for (const Template& word : arguments_) {
     spec.argv.push_back(word.perform(scope));
@@ -89,7 +92,10 @@ std::string NodeProcess::request(LaunchContext& context) const {
   node.executable = executable_.perform(scope);
   node.name = node_name(scope);
   node.name_space = resolve_namespace(namespace_, scope, where_);
-  const auto remap = [&](const std::string& rule) { spec.argv.insert(spec.argv.end(), {"-r", rule}); };
+  const auto remap = [&](std::string rule) {
+    spec.argv.emplace_back("-r");
+    spec.argv.push_back(std::move(rule));
+  };
   if (node.name) {
     remap("__node:=" + *node.name);
   }

@@ -173,6 +173,9 @@ ParameterValueSource::ParameterValueSource(const Value& value, const std::string
     }
   }
 
+  if (!is_list_) {
+    return;
+  }
   std::vector<ParameterScalar> known;
   for (const Item& item : items_) {
     if (const auto* const finished = std::get_if<ParameterScalar>(&item)) {

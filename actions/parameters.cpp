@@ -130,9 +130,10 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
   if (tree_) {
     std::vector<NamedParameter> parameters;
     perform_tree(*tree_, "", scope, parameters);
-    content = fmt::format("{}:\n  ros__parameters:\n", qualified_name.empty() ? "/**" : qualified_name);
+    content.append(qualified_name.empty() ? "/**" : qualified_name).append(":\n  ros__parameters:\n");
     for (const NamedParameter& parameter : parameters) {
-      content += fmt::format("    {}: {}\n", quote_yaml_if_needed(parameter.name), to_yaml(parameter.value));
+      content.append("    ").append(quote_yaml_if_needed(parameter.name));
+      content.append(": ").append(to_yaml(parameter.value)).append("\n");
     }
   } else {
     const std::string path = file_->perform(scope);

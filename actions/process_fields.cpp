@@ -276,7 +276,7 @@ Duration ProcessFields::timeout(Scope& scope, const std::optional<NumberField>& 
   }
   if (const std::string* const text = find_configuration(scope, configuration)) {
     try {
-      NumberField number(Template({std::make_shared<Text>(*text, where_)}, where_), false);
+      NumberField number(Template(*text, where_), false);
       number.require_not_negative();
       return seconds(number.perform(scope));
     } catch (const LaunchError& error) {

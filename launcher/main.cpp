@@ -27,7 +27,7 @@ launch::Environment environment_of_process() {
     const std::string_view text(*variable);
     const std::size_t separator = text.find('=');
     if (separator != std::string_view::npos) {
-      environment.emplace(text.substr(0, separator), text.substr(separator + 1));
+      environment.emplace(std::string(text.substr(0, separator)), std::string(text.substr(separator + 1)));
     }
   }
   return environment;

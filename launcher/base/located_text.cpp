@@ -6,8 +6,8 @@
 namespace launch {
 
 LocatedText::LocatedText(std::string text, SourceRange range) : text_(std::move(text)), range_(std::move(range)) {
-  if (!text_.empty()) {
-    anchors_.push_back({0, range_.begin, range_.end, text_.size() == range_.end - range_.begin});
+  if (range_ && text_.size() != range_.end - range_.begin) {
+    anchors_.push_back({0, range_.begin, range_.end, false});
   }
 }
 
@@ -17,6 +17,14 @@ void LocatedText::append(std::string_view decoded, std::uint32_t raw_begin, std:
   }
   const auto start = static_cast<std::uint32_t>(text_.size());
   const bool verbatim = decoded.size() == raw_end - raw_begin;
+  if (anchors_.empty() && verbatim && range_.end == raw_begin && start == range_.end - range_.begin) {
+    text_.append(decoded);
+    range_.end = raw_end;
+    return;
+  }
+  if (anchors_.empty() && start > 0) {
+    anchors_.push_back({0, range_.begin, range_.end, true});
+  }
   Anchor* last = anchors_.empty() ? nullptr : &anchors_.back();
   if (last != nullptr && verbatim && last->verbatim && last->raw_end == raw_begin) {
     last->raw_end = raw_end;
@@ -33,8 +41,12 @@ SourceRange LocatedText::range(std::size_t position, std::size_t length) const {
   }
   // Where byte `at` of the text stands: the raw bytes of itself, or of the whole run it was decoded from.
   const auto place = [this](std::size_t at) -> std::pair<std::uint32_t, std::uint32_t> {
-    if (at >= text_.size() || anchors_.empty()) {
+    if (at >= text_.size()) {
       return {range_.end, range_.end};
+    }
+    if (anchors_.empty()) {
+      const auto raw = static_cast<std::uint32_t>(range_.begin + at);
+      return {raw, raw + 1};
     }
     const auto after = std::upper_bound(anchors_.begin(), anchors_.end(), at,
                                         [](std::size_t value, const Anchor& anchor) { return value < anchor.decoded; });

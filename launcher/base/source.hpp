@@ -75,7 +75,7 @@ class LocatedText {
 
  private:
   // Decoded bytes from `decoded` on stand in the file from `raw` on, up to the next anchor. `verbatim` is false where
-  // one decoded run stands for a longer or shorter raw run (an entity, an escape).
+  // one decoded run stands for a longer or shorter raw run (an entity, an escape). No anchors: all of it is verbatim.
   struct Anchor {
     std::uint32_t decoded;
     std::uint32_t raw_begin;

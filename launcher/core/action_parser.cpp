@@ -213,6 +213,7 @@ void ActionParser::report_unknown_child(const Entity& parent, const Entity& chil
 
 void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
                                     bool conditions, Fields& fields) {
+  fields.attributes_.reserve(entity.attributes.size());
   for (const Attribute& attribute : entity.attributes) {
     if (conditions && (attribute.name == "if" || attribute.name == "unless")) {
       continue;
@@ -239,10 +240,11 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
                                    fmt::format("'{}' has", entity.type_name))});
       continue;
     }
-    collect([&] {
-      fields.attributes_.emplace(attribute.name,
-                                 Fields::Entry{parse_value(entity, attribute, *spec), attribute.value.where});
-    });
+    if (!fields.has(spec->name)) {
+      collect([&] {
+        fields.attributes_.push_back({spec->name, parse_value(entity, attribute, *spec), attribute.value.where});
+      });
+    }
   }
   for (const AttributeSpec& spec : specs) {
     if (spec.required && entity.find(spec.name) == nullptr) {
@@ -326,7 +328,7 @@ void ActionParser::parse_item(const Entity& entity, const ItemSpec& spec, Fields
       report_unknown_child(entity, child, items, false);
     }
   }
-  parent.items_.emplace_back(entity.type_name, std::move(fields));
+  parent.items_.push_back({spec.tag, std::move(fields)});
 }
 
 }  // namespace launch

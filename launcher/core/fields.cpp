@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "launcher/substitution/boolean.hpp"
@@ -83,13 +84,19 @@ void NumberField::require_not_negative() {
   }
 }
 
+const Fields::Entry* Fields::find(std::string_view attribute) const {
+  const auto found =
+      std::find_if(attributes_.begin(), attributes_.end(), [&](const Entry& entry) { return entry.name == attribute; });
+  return found == attributes_.end() ? nullptr : &*found;
+}
+
 const SourceRange& Fields::where(std::string_view attribute) const {
-  const auto found = attributes_.find(attribute);
-  return found == attributes_.end() ? where_ : found->second.where;
+  const Entry* const found = find(attribute);
+  return found == nullptr ? where_ : found->where;
 }
 
 const Template& Fields::text(std::string_view attribute) const {
-  return std::get<Template>(attributes_.find(attribute)->second.parsed);
+  return get<Template>(attribute);
 }
 
 std::optional<Template> Fields::optional_text(std::string_view attribute) const {
@@ -97,7 +104,7 @@ std::optional<Template> Fields::optional_text(std::string_view attribute) const 
 }
 
 std::string Fields::literal(std::string_view attribute, std::string fallback) const {
-  return has(attribute) ? std::get<std::string>(attributes_.find(attribute)->second.parsed) : std::move(fallback);
+  return has(attribute) ? get<std::string>(attribute) : std::move(fallback);
 }
 
 std::vector<Template> Fields::words(std::string_view attribute) const {
@@ -108,29 +115,29 @@ std::optional<std::vector<Template>> Fields::optional_words(std::string_view att
   if (!has(attribute)) {
     return std::nullopt;
   }
-  return std::get<std::vector<Template>>(attributes_.find(attribute)->second.parsed);
+  return get<std::vector<Template>>(attribute);
 }
 
 BooleanField Fields::boolean(std::string_view attribute, bool fallback) const {
-  return has(attribute) ? std::get<BooleanField>(attributes_.find(attribute)->second.parsed) : BooleanField(fallback);
+  return has(attribute) ? get<BooleanField>(attribute) : BooleanField(fallback);
 }
 
 std::optional<NumberField> Fields::number(std::string_view attribute) const {
   if (!has(attribute)) {
     return std::nullopt;
   }
-  return std::get<NumberField>(attributes_.find(attribute)->second.parsed);
+  return get<NumberField>(attribute);
 }
 
 const Value& Fields::value(std::string_view attribute) const {
-  return std::get<Value>(attributes_.find(attribute)->second.parsed);
+  return get<Value>(attribute);
 }
 
 std::vector<const Fields*> Fields::items(std::string_view tag) const {
   std::vector<const Fields*> found;
-  for (const auto& [item_tag, fields] : items_) {
-    if (item_tag == tag) {
-      found.push_back(&fields);
+  for (const Item& item : items_) {
+    if (item.tag == tag) {
+      found.push_back(&item.fields);
     }
   }
   return found;

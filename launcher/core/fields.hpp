@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,7 +52,7 @@ class Fields {
   const SourceRange& where() const { return where_; }
   // Place of an attribute's value; of the tag when it isn't given.
   const SourceRange& where(std::string_view attribute) const;
-  bool has(std::string_view attribute) const { return attributes_.find(attribute) != attributes_.end(); }
+  bool has(std::string_view attribute) const { return find(attribute) != nullptr; }
 
   // Attributes by the type of their declaration. A getter without fallback must be asked for given attributes only,
   // those that return an optional give nullopt for others.
@@ -73,16 +72,30 @@ class Fields {
 
  private:
   friend class ActionParser;
+  // Names are those of the declarations, which outlive the fields.
   struct Entry {
+    std::string_view name;
     Parsed parsed;
     SourceRange where;
   };
+  struct Item;
+
+  const Entry* find(std::string_view attribute) const;
+  template <typename Type>
+  const Type& get(std::string_view attribute) const {
+    return std::get<Type>(find(attribute)->parsed);
+  }
 
   SourceRange where_;
-  std::map<std::string, Entry, std::less<>> attributes_;
-  std::vector<std::pair<std::string, Fields>> items_;
+  std::vector<Entry> attributes_;  // a few
+  std::vector<Item> items_;
   std::vector<ActionPtr> actions_;
   Condition condition_;
+};
+
+struct Fields::Item {
+  std::string_view tag;
+  Fields fields;
 };
 
 }  // namespace launch

@@ -18,7 +18,7 @@ class PythonHost : public python::Host {
   PythonHost(PythonFile& file, LaunchContext& context);
 
   Variables& configurations() override { return scope_.configurations; }
-  Variables& environment() override { return scope_.environment; }
+  Variables& environment() override { return scope_.environment.own(); }
   std::string log_directory() override { return scope_.log_directory; }
   std::string perform(const python::Text& text) override;
   std::string perform(const python::Text& text, Variables& configurations) override;

@@ -12,7 +12,7 @@ std::optional<Diagnostic> find_bad_character(const LocatedText& source) {
     return Diagnostic{Severity::kError, "the file is encoded in UTF-16", source.range(0, 0), "save it as UTF-8"};
   }
   for (std::size_t i = 0; i < text.size();) {
-    if (text[i] >= 0x20) {  // ASCII, most of it
+    if (text[i] >= 0x20 || text[i] == '\n') {  // ASCII, most of it
       ++i;
       continue;
     }

@@ -11,7 +11,7 @@ namespace launch {
 namespace {
 
 constexpr std::size_t kMaximumDepth = 50;
-constexpr std::size_t kUsualKeys = 4;     // of a mapping: what is reserved
+constexpr std::size_t kUsualKeys = 2;     // of a mapping: what is reserved
 constexpr std::size_t kMaximumKey = 500;  // YAML ends the search for the ':' of a key somewhere behind
 
 // Thrown for what is out of the ordinary; caught in this file.
@@ -31,7 +31,14 @@ class SimpleYaml {
     if (position_ == text_.size()) {
       throw GiveUp();  // no node at all
     }
-    YamlNode root = at_flow() ? flow_of_whole_text() : block(column_, 0);
+    YamlNode root;
+    if (at_flow()) {
+      flow(root, 0);
+      end_line();
+      next_line();
+    } else {
+      block(root, column_, 0);
+    }
     if (position_ != text_.size()) {
       throw GiveUp();
     }
@@ -76,65 +83,68 @@ class SimpleYaml {
     column_ = 0;
   }
 
-  YamlNode collection(YamlNode::Kind kind) const {
-    YamlNode node;
+  // Nodes are read in their place in the tree: moving them there costs more than reading them.
+  void begin_collection(YamlNode& node, YamlNode::Kind kind) const {
     node.kind = kind;
     node.where = source_.range(position_, 1);
-    return node;
   }
 
   // The collection whose entries begin in this column. Ends at the first line that begins further to the left.
-  YamlNode block(std::size_t indentation, std::size_t depth) {
+  void block(YamlNode& node, std::size_t indentation, std::size_t depth) {
     if (depth > kMaximumDepth) {
       throw GiveUp();
     }
-    return at_dash() ? sequence(indentation, depth) : mapping(indentation, depth);
+    if (at_dash()) {
+      sequence(node, indentation, depth);
+    } else {
+      mapping(node, indentation, depth);
+    }
   }
 
-  YamlNode sequence(std::size_t indentation, std::size_t depth) {
-    YamlNode node = collection(YamlNode::Kind::kSequence);
+  void sequence(YamlNode& node, std::size_t indentation, std::size_t depth) {
+    begin_collection(node, YamlNode::Kind::kSequence);
     while (position_ < text_.size() && column_ == indentation && at_dash()) {
       const std::size_t dash = position_++;
       skip_blanks();
       const std::size_t item_column = indentation + (position_ - dash);
       if (at_dash() || is_key()) {
         column_ = item_column;
-        node.items.push_back(block(item_column, depth + 1));
+        block(node.items.emplace_back(), item_column, depth + 1);
       } else {
-        node.items.push_back(value_of_line());
+        value_of_line(node.items.emplace_back());
       }
     }
     require_end_of_block(indentation);
-    return node;
   }
 
-  YamlNode mapping(std::size_t indentation, std::size_t depth) {
-    YamlNode node = collection(YamlNode::Kind::kMapping);
+  void mapping(YamlNode& node, std::size_t indentation, std::size_t depth) {
+    begin_collection(node, YamlNode::Kind::kMapping);
     node.entries.reserve(kUsualKeys);
     while (position_ < text_.size() && column_ == indentation && !at_dash()) {
       if (!is_key()) {
         throw GiveUp();
       }
-      YamlNode name = key();
+      YamlEntry& entry = node.entries.emplace_back();
+      key(entry.key);
+      require_new_key(node);
       skip_blanks();
       if (peek() == '\n' || peek() == '#') {
-        add(node, std::move(name), nested(indentation, depth));
+        nested(entry.value, indentation, depth);
       } else {
-        add(node, std::move(name), value_of_line());
+        value_of_line(entry.value);
       }
     }
     require_end_of_block(indentation);
-    return node;
   }
 
   // What follows the line of its key: deeper, or a list in the column of the key.
-  YamlNode nested(std::size_t indentation, std::size_t depth) {
+  void nested(YamlNode& node, std::size_t indentation, std::size_t depth) {
     end_line();
     next_line();
     if (position_ == text_.size() || (column_ <= indentation && !(column_ == indentation && at_dash()))) {
       throw GiveUp();  // an empty value
     }
-    return block(column_, depth + 1);
+    block(node, column_, depth + 1);
   }
 
   void require_end_of_block(std::size_t indentation) const {
@@ -144,18 +154,16 @@ class SimpleYaml {
   }
 
   // A value that ends with its line.
-  YamlNode value_of_line() {
-    YamlNode node;
+  void value_of_line(YamlNode& node) {
     if (at_flow()) {
-      node = flow(0);
+      flow(node, 0);
     } else if (peek() == '"' || peek() == '\'') {
-      node = quoted();
+      quoted(node);
     } else {
-      node = plain(plain_end());
+      plain(node, plain_end());
     }
     end_line();
     next_line();
-    return node;
   }
 
   // Where the plain text that begins here ends in a block: before blanks, and before a comment.
@@ -192,10 +200,9 @@ class SimpleYaml {
     return end != std::string_view::npos && end < std::min(line.find(" #"), kMaximumKey);
   }
 
-  YamlNode key() {
-    YamlNode node;
+  void key(YamlNode& node) {
     if (peek() == '"' || peek() == '\'') {
-      node = quoted();
+      quoted(node);
     } else {
       std::size_t colon = position_;
       while (!(text_[colon] == ':' &&
@@ -205,31 +212,30 @@ class SimpleYaml {
       if (colon == position_ || text_[colon - 1] == ' ') {
         throw GiveUp();
       }
-      node = plain(colon);
+      plain(node, colon);
     }
     if (peek() != ':' || (peek(1) != ' ' && peek(1) != '\n')) {
       throw GiveUp();
     }
     ++position_;
-    return node;
   }
 
-  void add(YamlNode& mapping, YamlNode key, YamlNode value) const {
-    for (const YamlEntry& entry : mapping.entries) {
-      if (entry.key.scalar.text.text() == key.scalar.text.text()) {
+  // The key of the last entry is not that of another.
+  static void require_new_key(const YamlNode& mapping) {
+    const std::string& key = mapping.entries.back().key.scalar.text.text();
+    for (std::size_t i = 0; i + 1 < mapping.entries.size(); ++i) {
+      if (mapping.entries[i].key.scalar.text.text() == key) {
         throw GiveUp();
       }
     }
-    mapping.entries.push_back({std::move(key), std::move(value)});
   }
 
   // A text that stands for itself, from here to `end`.
-  YamlNode plain(std::size_t end) {
+  void plain(YamlNode& node, std::size_t end) {
     const std::string_view text = text_.substr(position_, end - position_);
     if (!is_plain_scalar(text)) {
       throw GiveUp();
     }
-    YamlNode node;
     node.scalar = yaml11_scalar(located(position_, end));
     if (node.scalar.type == Scalar::Type::kNull) {
       throw GiveUp();
@@ -237,24 +243,27 @@ class SimpleYaml {
     node.where = node.scalar.text.range();
     node.is_plain = true;
     position_ = end;
-    return node;
   }
 
   LocatedText located(std::size_t begin, std::size_t end) const {
-    LocatedText text({}, source_.range(begin, 0));
-    append(text, text_.substr(begin, end - begin), begin, end);
-    return text;
+    const SourceRange range = source_.range(begin, end - begin);
+    require_verbatim(range, end - begin);
+    return LocatedText(std::string(text_.substr(begin, end - begin)), range);
+  }
+
+  static void require_verbatim(const SourceRange& range, std::size_t size) {
+    if (range && range.end - range.begin != size) {
+      throw GiveUp();  // an entity of XML
+    }
   }
 
   void append(LocatedText& text, std::string_view decoded, std::size_t begin, std::size_t end) const {
     const SourceRange range = source_.range(begin, end - begin);
-    if (range && range.end - range.begin != end - begin) {
-      throw GiveUp();  // an entity of XML
-    }
+    require_verbatim(range, end - begin);
     text.append(decoded, range.begin, range.end);
   }
 
-  YamlNode quoted() {
+  void quoted(YamlNode& node) {
     const char quote = text_[position_++];
     const std::size_t begin = position_;
     LocatedText text({}, source_.range(position_, 0));
@@ -278,44 +287,37 @@ class SimpleYaml {
     }
     append(text, text_.substr(run, position_ - run), run, position_);
     ++position_;
-    YamlNode node;
     node.where = text.range();
     node.scalar.type = Scalar::Type::kString;
     node.scalar.text = std::move(text);
-    return node;
-  }
-
-  YamlNode flow_of_whole_text() {
-    YamlNode node = flow(0);
-    end_line();
-    next_line();
-    return node;
   }
 
   // [a, b] or {a: b} on one line.
-  YamlNode flow(std::size_t depth) {
+  void flow(YamlNode& node, std::size_t depth) {
     if (depth > kMaximumDepth) {
       throw GiveUp();
     }
     const bool is_list = peek() == '[';
     const char closing = is_list ? ']' : '}';
-    YamlNode node = collection(is_list ? YamlNode::Kind::kSequence : YamlNode::Kind::kMapping);
+    begin_collection(node, is_list ? YamlNode::Kind::kSequence : YamlNode::Kind::kMapping);
     ++position_;
     skip_blanks();
     while (peek() != closing) {
       if (is_list) {
-        node.items.push_back(flow_value(depth));
+        flow_value(node.items.emplace_back(), depth);
         if (peek() == ':') {
           throw GiveUp();
         }
       } else {
-        YamlNode name = flow_value(depth);
-        if (name.kind != YamlNode::Kind::kScalar || peek() != ':' || peek(1) != ' ') {
+        YamlEntry& entry = node.entries.emplace_back();
+        flow_value(entry.key, depth);
+        if (entry.key.kind != YamlNode::Kind::kScalar || peek() != ':' || peek(1) != ' ') {
           throw GiveUp();
         }
+        require_new_key(node);
         ++position_;
         skip_blanks();
-        add(node, std::move(name), flow_value(depth));
+        flow_value(entry.value, depth);
       }
       skip_blanks();
       if (peek() == ',' && peek(1) == ' ') {
@@ -329,15 +331,16 @@ class SimpleYaml {
       }
     }
     ++position_;
-    return node;
   }
 
-  YamlNode flow_value(std::size_t depth) {
+  void flow_value(YamlNode& node, std::size_t depth) {
     if (at_flow()) {
-      return flow(depth + 1);
+      flow(node, depth + 1);
+      return;
     }
     if (peek() == '"' || peek() == '\'') {
-      return quoted();
+      quoted(node);
+      return;
     }
     std::size_t end = position_;
     while (end < text_.size() && std::string_view(",[]{}\n").find(text_[end]) == std::string_view::npos &&
@@ -347,7 +350,7 @@ class SimpleYaml {
     while (end > position_ && text_[end - 1] == ' ') {
       --end;
     }
-    return plain(end);
+    plain(node, end);
   }
 
   const LocatedText& source_;

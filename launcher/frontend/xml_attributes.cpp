@@ -61,8 +61,8 @@ bool read_attribute(XmlCursor& cursor, XmlTag& tag, std::string_view name, std::
     return false;
   }
   cursor.position = value_end + 1;
-  const std::size_t less = cursor.text.find('<', value_begin);
-  if (less < value_end) {
+  const std::size_t less = cursor.text.substr(0, value_end).find('<', value_begin);
+  if (less != std::string_view::npos) {
     cursor.error(fmt::format("'<' in the value of the attribute '{}'", name), less, less + 1,
                  fmt::format("write &lt; for the character, or add the quote {} that is missing before it", quote));
     const bool quote_is_missing = cursor.position < cursor.text.size() && !is_xml_blank(cursor.text[cursor.position]) &&
@@ -72,20 +72,19 @@ bool read_attribute(XmlCursor& cursor, XmlTag& tag, std::string_view name, std::
       return false;
     }
   }
-  XmlAttribute attribute;
-  attribute.name = name;
-  attribute.name_where = cursor.range(begin, name_end);
-  attribute.value = decode_xml_attribute(cursor, value_begin, value_end);
+  LocatedText value = decode_xml_attribute(cursor, value_begin, value_end);
   const bool empty = value_begin == value_end;
-  attribute.value_where = empty ? cursor.range(value_begin - 1, value_end + 1) : cursor.range(value_begin, value_end);
   const auto same = std::find_if(tag.attributes.begin(), tag.attributes.end(),
-                                 [&](const XmlAttribute& other) { return other.name == name; });
+                                 [&](const Attribute& other) { return other.name == name; });
   if (same != tag.attributes.end()) {
     const SourceFile::Position first = cursor.file->position(same->name_where.begin);
     cursor.error(fmt::format("duplicate attribute '{}' of <{}>", name, tag.name), begin, name_end,
                  fmt::format("it was given first at line {}, column {}", first.line, first.column));
   }
-  tag.attributes.push_back(std::move(attribute));
+  tag.attributes.push_back({std::string(name),
+                            cursor.range(begin, name_end),
+                            {Scalar{.text = std::move(value)}, empty ? cursor.range(value_begin - 1, value_end + 1)
+                                                                     : cursor.range(value_begin, value_end)}});
   return true;
 }
 

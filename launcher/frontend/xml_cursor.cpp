@@ -11,19 +11,6 @@ constexpr std::size_t kMaximumErrors = 20;
 
 }  // namespace
 
-bool is_xml_blank(char c) {
-  return kXmlBlanks.find(c) != std::string_view::npos;
-}
-
-bool is_xml_name_start(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
-         static_cast<unsigned char>(c) >= 0x80;
-}
-
-bool is_xml_name_character(char c) {
-  return is_xml_name_start(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
-}
-
 SourceRange XmlCursor::range(std::size_t begin, std::size_t end) const {
   return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }

@@ -16,9 +16,16 @@ struct XmlTag;
 
 inline constexpr std::string_view kXmlBlanks = " \t\r\n";
 
-bool is_xml_blank(char c);
-bool is_xml_name_start(char c);
-bool is_xml_name_character(char c);
+inline bool is_xml_blank(char c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+inline bool is_xml_name_start(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+inline bool is_xml_name_character(char c) {
+  return is_xml_name_start(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+}
 
 struct XmlCursor {
   explicit XmlCursor(const std::shared_ptr<const SourceFile>& source) : file(source), text(source->text()) {}

@@ -10,24 +10,26 @@ namespace launch {
 
 namespace {
 
+std::size_t count_children(const tinyxml2::XMLElement& element) {
+  std::size_t count = 0;
+  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    ++count;
+  }
+  return count;
+}
+
 // Builds the entity of `element` and its children; takes their tags from `next` on, which stand in the same order.
 Entity build(const tinyxml2::XMLElement& element, std::vector<XmlTag>::iterator& next) {
   XmlTag& tag = *next++;
   Entity entity;
-  entity.type_name = element.Name();
-  entity.where = tag.where;
-  entity.attributes.reserve(tag.attributes.size());
-  for (XmlAttribute& attribute : tag.attributes) {
-    // Namespace declarations are no attributes to a namespace-aware parser.
-    if (attribute.name == "xmlns" || attribute.name.starts_with("xmlns:")) {
-      continue;
-    }
-    Scalar scalar;
-    scalar.text = std::move(attribute.value);
-    entity.attributes.push_back({std::move(attribute.name),
-                                 std::move(attribute.name_where),
-                                 {std::move(scalar), std::move(attribute.value_where)}});
-  }
+  entity.type_name = std::move(tag.name);
+  entity.where = std::move(tag.where);
+  entity.attributes = std::move(tag.attributes);
+  // Namespace declarations are no attributes to a namespace-aware parser.
+  std::erase_if(entity.attributes, [](const Attribute& attribute) {
+    return attribute.name == "xmlns" || attribute.name.starts_with("xmlns:");
+  });
+  entity.children.reserve(count_children(element));
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     entity.children.push_back(build(*child, next));
   }

@@ -184,7 +184,7 @@ class XmlScanner : private XmlCursor {
     if (stopped) {
       return;
     }
-    scan_.markup.append(text.substr(begin, position - begin));
+    scan_.markup.append("<").append(tag.name).append(closed ? "/>" : ">");
     Open element{tag.name, begin, declared_prefixes(tag)};
     check_prefixes(tag, element);
     scan_.tags.push_back(std::move(tag));
@@ -218,7 +218,7 @@ class XmlScanner : private XmlCursor {
         never_closed(open_.back(),
                      fmt::format("add </{}> before </{}> on line {}", open_.back().name, name, line(begin)));
       }
-      scan_.markup.append(text.substr(begin, position - begin));
+      scan_.markup.append("</").append(name).append(">");
       open_.pop_back();
     } else if (!open_.empty() && !did_you_mean(name, {open_.back().name}).empty()) {
       error(fmt::format("closing tag </{}> does not match <{}>", name, open_.back().name), begin + 2, name_end,
@@ -250,7 +250,7 @@ class XmlScanner : private XmlCursor {
   static std::vector<std::string> declared_prefixes(const XmlTag& tag) {
     constexpr std::string_view kDeclaration = "xmlns:";
     std::vector<std::string> prefixes;
-    for (const XmlAttribute& attribute : tag.attributes) {
+    for (const Attribute& attribute : tag.attributes) {
       if (attribute.name.starts_with(kDeclaration)) {
         prefixes.push_back(attribute.name.substr(kDeclaration.size()));
       }
@@ -275,7 +275,7 @@ class XmlScanner : private XmlCursor {
       }
     };
     check(tag.name, tag.where);
-    for (const XmlAttribute& attribute : tag.attributes) {
+    for (const Attribute& attribute : tag.attributes) {
       check(attribute.name, attribute.name_where);
     }
   }

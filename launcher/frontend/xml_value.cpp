@@ -19,6 +19,11 @@ bool is_xml_character(char32_t c) {
 }  // namespace
 
 LocatedText decode_xml_attribute(XmlCursor& cursor, std::size_t begin, std::size_t end) {
+  const std::string_view raw = cursor.text.substr(begin, end - begin);
+  const auto stands_for_itself = [](char c) { return c != '&' && (c == ' ' || !is_xml_blank(c)); };
+  if (!cursor.latin1 && std::all_of(raw.begin(), raw.end(), stands_for_itself)) {
+    return LocatedText(std::string(raw), cursor.range(begin, end));
+  }
   LocatedText value({}, cursor.range(begin, begin));
   const auto add = [&](std::string_view decoded, std::size_t from, std::size_t to) {
     value.append(decoded, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));

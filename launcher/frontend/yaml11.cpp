@@ -2,6 +2,7 @@
 // follow YAML 1.2 and differ in octal, sexagesimal and exponent forms.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -255,6 +256,27 @@ double float_value(std::string_view text) {
   return sign * value;
 }
 
+// "[1.0, two]": a list of plain scalars in one line, which most lists of parameters are. Nullopt for anything else.
+std::optional<Value> plain_list(const LocatedText& located) {
+  const std::string_view text = located.text();
+  if (text.size() < 3 || text.front() != '[' || text.back() != ']') {
+    return std::nullopt;
+  }
+  std::vector<Value> items;
+  for (std::size_t begin = 1; begin < text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size() - 1);
+    const std::size_t first = std::min(text.find_first_not_of(' ', begin), end);
+    const std::size_t last = text.find_last_not_of(' ', end - 1) + 1;
+    if (first >= last || !is_plain_scalar(text.substr(first, last - first))) {
+      return std::nullopt;
+    }
+    const SourceRange where = located.range(first, last - first);
+    items.push_back({yaml11_scalar(LocatedText(std::string(text.substr(first, last - first)), where)), where});
+    begin = end + 1;
+  }
+  return Value{std::move(items), located.range()};
+}
+
 Value to_value(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::kMapping) {
     throw LaunchError("expected a scalar or a list, found a mapping", node.where, "quote a text that has ': ' in it");
@@ -269,12 +291,25 @@ Value to_value(const YamlNode& node) {
   return {std::move(items), node.where};
 }
 
+// Whether numbers and dates begin so.
+bool may_be_number(std::string_view text) {
+  return !text.empty() && (is_digit(text.front()) || text.front() == '+' || text.front() == '-' || text.front() == '.');
+}
+// Whether a text has the length of the words that stand for booleans and null.
+bool may_be_word(std::string_view text) {
+  return text.size() <= std::string_view("false").size();
+}
+
 }  // namespace
 
 Scalar yaml11_scalar(LocatedText located) {
   const std::string_view text = located.text();
   Scalar scalar;
   scalar.type = Scalar::Type::kString;
+  if (!may_be_number(text) && !may_be_word(text)) {
+    scalar.text = std::move(located);
+    return scalar;
+  }
   if (is_one_of(text, std::array<std::string_view, 9>{"yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"})) {
     scalar.type = Scalar::Type::kBool;
     scalar.bool_value = true;
@@ -283,6 +318,8 @@ Scalar yaml11_scalar(LocatedText located) {
     scalar.type = Scalar::Type::kBool;
   } else if (is_one_of(text, std::array<std::string_view, 5>{"", "~", "null", "Null", "NULL"})) {
     scalar.type = Scalar::Type::kNull;
+  } else if (!may_be_number(text)) {
+    // a short text
   } else if (is_float(text)) {
     scalar.type = Scalar::Type::kFloat;
     scalar.float_value = float_value(text);
@@ -303,6 +340,9 @@ Scalar yaml11_scalar(LocatedText located) {
 Value yaml11_value(const LocatedText& text) {
   if (is_plain_scalar(text.text())) {
     return {yaml11_scalar(text), text.range()};
+  }
+  if (std::optional<Value> list = plain_list(text)) {
+    return *std::move(list);
   }
   std::vector<Diagnostic> errors;
   const YamlNode node = read_yaml(text, errors);

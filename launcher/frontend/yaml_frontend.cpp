@@ -76,6 +76,7 @@ class EntityBuilder {
   }
 
   void actions(YamlNode& list, std::vector<Entity>& result) {
+    result.reserve(list.items.size());
     for (YamlNode& item : list.items) {
       if (item.kind != Kind::kMapping || item.entries.empty()) {
         error(fmt::format("expected an action, found {}",
@@ -141,6 +142,7 @@ class EntityBuilder {
       return;
     }
     entity.has_children_list = false;
+    entity.attributes.reserve(content.entries.size());
     for (YamlEntry& entry : content.entries) {
       if (check_name(entry.key)) {
         attribute(entity, entry.key, entry.value);
@@ -179,6 +181,7 @@ class EntityBuilder {
 
   // A list of mappings: one child for each, named after the key.
   void structured_items(Entity& entity, const YamlNode& key, YamlNode& list) {
+    entity.children.reserve(entity.children.size() + list.items.size());
     for (YamlNode& item : list.items) {
       if (item.kind != Kind::kMapping) {
         error(fmt::format("expected a mapping in the list '{}', found {}", key.scalar.text.text(), describe(item)),

@@ -6,12 +6,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "launcher/base/environment.hpp"
 #include "launcher/base/source.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
@@ -62,10 +62,10 @@ struct ProcessSpec {
   std::string name;                      // label without its number; the supervisor appends "-N"
   std::vector<std::string> other_names;  // by which it may be spoken of besides, such as that of its ROS node
   std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
-  std::map<std::string, std::string> environment;  // complete, not a difference
-  std::string working_directory;                   // empty: the launcher's
-  bool shell = false;                              // run argv joined with spaces through /bin/sh -c
-  bool emulate_tty = false;                        // stdout and stderr are pseudo-terminals
+  Environment environment;        // complete, not a difference
+  std::string working_directory;  // empty: the launcher's
+  bool shell = false;             // run argv joined with spaces through /bin/sh -c
+  bool emulate_tty = false;       // stdout and stderr are pseudo-terminals
   OutputRouting output;
   ResourceLimits limits;
   RespawnPolicy respawn;

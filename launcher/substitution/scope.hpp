@@ -8,14 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/base/environment.hpp"
 #include "launcher/base/source.hpp"
 #include "launcher/substitution/parameter.hpp"
 
 namespace launch {
 
 class PackageIndex;
-
-using Environment = std::map<std::string, std::string>;
 
 // Copied when a scoped group begins and put back when it ends (launcher/core/launch_context.hpp).
 struct Scope {

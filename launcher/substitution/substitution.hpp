@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,12 +43,13 @@ class Text : public Substitution {
   std::string text_;
 };
 
-// A parsed template: literal runs and substitutions in order, pasted together when performed. Cheap to copy.
+// A parsed template: literal runs and substitutions in order, pasted together when performed. Copies share their parts.
 class Template {
  public:
   Template() = default;
-  Template(std::vector<SubstitutionPtr> parts, SourceRange where)
-      : parts_(std::move(parts)), where_(std::move(where)) {}
+  Template(std::vector<SubstitutionPtr> parts, SourceRange where);
+  // Literal text, already unescaped: what most templates are.
+  Template(std::string literal, SourceRange where);
 
   std::string perform(Scope& scope) const;
   // The parts joined by " + "; '' when empty.
@@ -55,13 +57,17 @@ class Template {
 
   // True when it holds no substitution but literal text.
   bool is_literal() const;
-  bool empty() const { return parts_.empty(); }
-  const std::vector<SubstitutionPtr>& parts() const { return parts_; }
-  const SourceRange& where() const { return where_; }
+  bool empty() const { return body_ == nullptr || (!body_->literal && body_->parts.empty()); }
+  std::vector<SubstitutionPtr> parts() const;
+  const SourceRange& where() const;
 
  private:
-  std::vector<SubstitutionPtr> parts_;
-  SourceRange where_;
+  struct Body {
+    std::optional<std::string> literal;  // instead of parts
+    std::vector<SubstitutionPtr> parts;
+    SourceRange where;
+  };
+  std::shared_ptr<const Body> body_;
 };
 
 }  // namespace launch

@@ -50,6 +50,10 @@ class TemplateParser {
   explicit TemplateParser(const LocatedText& source) : source_(source), text_(source.text()) {}
 
   Template parse() {
+    if (text_.find("$(") == std::string::npos) {
+      return text_.empty() ? Template(std::vector<SubstitutionPtr>(), source_.range())
+                           : Template(unescape(text_), source_.range());
+    }
     std::vector<SubstitutionPtr> parts;
     while (position_ < text_.size()) {
       parts.push_back(at_substitution() ? substitution(kNone) : literal(text_run_end()));
@@ -277,6 +281,9 @@ Template parse_template(const LocatedText& text) {
 }
 
 std::string unescape(std::string_view text) {
+  if (text.find('\\') == std::string_view::npos) {
+    return std::string(text);
+  }
   std::string result;
   result.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
