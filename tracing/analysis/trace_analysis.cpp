@@ -10,6 +10,8 @@ void TraceAnalysis::on_event(const Event& event) {
     ros2_.on_event(origin, *decoded);
   } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
     ros2_.on_end(origin, *end);
+  } else if (const std::optional<ros2::ExecutionEvent> execution = executions_.decode(event)) {
+    ros2_.on_execution(origin, *execution);
   }
 }
 

@@ -28,6 +28,7 @@ class TraceAnalysis : public TraceSink {
   std::vector<std::string> warnings_;
   ros2::Decoder decoder_{[this](const std::string& problem) { warnings_.push_back(problem); }};
   ros2::ObjectEndDecoder ends_;
+  ros2::ExecutionEventDecoder executions_;
   bool lacks_thread_context_ = false;
 };
 
