@@ -110,8 +110,20 @@ struct Ros2Results {
   bool lacks_thread_context = false;        // events without vpid or vtid: processes and threads can't be told apart
 };
 
+// A process that the launcher started.
+struct StartResult {
+  std::int64_t vpid = 0;
+  std::string process;  // as the launcher calls it: "talker-1"
+  std::string file;     // the place in the launch file that asked for it
+  std::int64_t line = 0;
+  std::int64_t exec_ns = 0;                    // when its program ran
+  std::optional<std::int64_t> node_after_ns;   // from then to its first node; nullopt: none, or not in the trace
+  std::optional<std::int64_t> ready_after_ns;  // to the first event of an executor after that
+};
+
 struct TraceResults {
   TraceOverview overview;
+  std::vector<StartResult> starts;  // with the launcher's events only; in their order
   Ros2Results ros2;
   std::vector<std::string> warnings;  // about events that are not as ros2_tracing records them
 };

@@ -120,6 +120,20 @@ Json event_counts(const TraceOverview& overview) {
   return list;
 }
 
+Json process_starts(const std::vector<StartResult>& starts) {
+  Json list = Json::array();
+  for (const StartResult& start : starts) {
+    list.push_back({{"vpid", start.vpid},
+                    {"process", start.process},
+                    {"file", start.file},
+                    {"line", start.line},
+                    {"exec_ns", start.exec_ns},
+                    {"node_after_ns", optional(start.node_after_ns)},
+                    {"ready_after_ns", optional(start.ready_after_ns)}});
+  }
+  return list;
+}
+
 Json losses(const TraceOverview& overview) {
   Json list = Json::array();
   for (const LossResult& loss : overview.losses) {
@@ -137,7 +151,7 @@ Json losses(const TraceOverview& overview) {
 }  // namespace
 
 std::string json_report(const Report& report) {
-  const auto& [overview, ros2, warnings] = report.results;
+  const auto& [overview, starts, ros2, warnings] = report.results;
   Json json{{"version", 1},
             {"directory", report.directory.string()},
             {"error", report.error.empty() ? Json(nullptr) : Json(report.error)},
@@ -145,6 +159,7 @@ std::string json_report(const Report& report) {
             {"end_ns", optional(overview.end_ns)},
             {"events", overview.events},
             {"processes", processes(overview)},
+            {"starts", process_starts(starts)},
             {"losses", losses(overview)},
             {"event_counts", event_counts(overview)},
             {"callbacks", Json::array()},

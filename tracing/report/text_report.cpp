@@ -82,6 +82,20 @@ std::string event_section(const TraceOverview& overview) {
   return text;
 }
 
+std::string start_section(const std::vector<StartResult>& starts) {
+  if (starts.empty()) return "";
+  const TextTable table(56, {12, 12});
+  std::string text = "\n" + table.row("Start of processes", {"first node", "ready"});
+  const auto cell = [](const std::optional<std::int64_t>& after) {
+    return after ? format_duration(static_cast<double>(*after)) : std::string("-");
+  };
+  for (const StartResult& start : starts) {
+    text += table.row(fmt::format("  {} [{}]", start.process, start.vpid),
+                      {cell(start.node_after_ns), cell(start.ready_after_ns)});
+  }
+  return text + "  (after exec; ready: an executor looks for work)\n";
+}
+
 std::string owner_label(const CallbackResult& callback) {
   switch (callback.owner) {
     case CallbackResult::Owner::kSubscription:
@@ -196,8 +210,7 @@ std::string call_section(const Ros2Results& ros2) {
       text += fmt::format("    {} without a response\n", format_count(call.requests - call.responses, "request"));
     }
   }
-  return text +
-         "  (from rmw_send_request to rmw_take_response; in the service: rmw_take_request to rmw_send_response)\n";
+  return text + "  (from rmw_send_request to rmw_take_response; in the service: from rmw_take_request on)\n";
 }
 
 std::string execution_label(const ExecutionResult& execution) {
@@ -259,8 +272,8 @@ std::string notes(const TraceResults& results) {
 
 std::string text_report(const Report& report) {
   return trace_section(report) + loss_section(report) + event_section(report.results.overview) +
-         callback_section(report.results) + topic_section(report.results.ros2) + call_section(report.results.ros2) +
-         execution_section(report.results) + notes(report.results);
+         start_section(report.results.starts) + callback_section(report.results) + topic_section(report.results.ros2) +
+         call_section(report.results.ros2) + execution_section(report.results) + notes(report.results);
 }
 
 }  // namespace tracing
