@@ -1,5 +1,6 @@
 #include "tracing/analysis/service_matcher.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace tracing {
@@ -21,7 +22,7 @@ ServiceMatcher::Call& ServiceMatcher::begin(const Key& key) {
       const auto oldest = calls_.find(oldest_first_.front());
       oldest_first_.pop_front();
       if (oldest != calls_.end() && oldest != found) {
-        end(oldest->second, std::nullopt);
+        end(oldest->second);
         calls_.erase(oldest);
       }
     }
@@ -31,8 +32,11 @@ ServiceMatcher::Call& ServiceMatcher::begin(const Key& key) {
 
 void ServiceMatcher::send_request(ObjectId client, const ros2::Gid& gid, std::int64_t sequence_number,
                                   std::int64_t time_ns) {
-  Call& call = begin({gid, sequence_number});
-  call = {client, kNoObject, time_ns, std::nullopt, std::nullopt};
+  const Key key{gid, sequence_number};
+  Call& call = begin(key);
+  call.client = client;
+  call.sent_ns = time_ns;
+  if (call.received_ns) end_now(key);
 }
 
 void ServiceMatcher::take_request(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number,
@@ -48,36 +52,40 @@ void ServiceMatcher::send_response(ObjectId service, const ros2::Gid& gid, std::
   const auto call = calls_.find({gid, sequence_number});
   if (call == calls_.end() || call->second.service != service || call->second.answered_ns) return;
   call->second.answered_ns = time_ns;
-  if (call->second.sent_ns) return;  // goes on at the client
-  end(call->second, std::nullopt);
-  calls_.erase(call);
 }
 
 void ServiceMatcher::take_response(const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns) {
-  const auto call = calls_.find({gid, sequence_number});
+  const Key key{gid, sequence_number};
+  const auto call = calls_.find(key);
   if (call == calls_.end()) return;
-  end(call->second, time_ns);
+  call->second.received_ns = time_ns;
+  if (call->second.sent_ns) end_now(key);
+}
+
+void ServiceMatcher::end_now(const Key& key) {
+  const auto call = calls_.find(key);
+  end(call->second);
   calls_.erase(call);
 }
 
 void ServiceMatcher::finish() {
-  for (const auto& [key, call] : calls_) end(call, std::nullopt);
+  for (const auto& [key, call] : calls_) end(call);
   calls_.clear();
   oldest_first_.clear();
 }
 
-void ServiceMatcher::end(const Call& call, std::optional<std::int64_t> response_taken_ns) {
+void ServiceMatcher::end(const Call& call) {
   CallRecord& record = records_[{call.client, call.service}];
   ++record.requests;
-  if (response_taken_ns || (!call.sent_ns && call.answered_ns)) ++record.responses;
+  if (call.received_ns || (!call.sent_ns && call.answered_ns)) ++record.responses;
   const auto add = [](DurationStatistics& durations, const std::optional<std::int64_t>& from,
                       const std::optional<std::int64_t>& to) {
-    if (from && to) durations.add(*to - *from);
+    if (from && to) durations.add(std::max<std::int64_t>(*to - *from, 0));
   };
-  add(record.round_trip, call.sent_ns, response_taken_ns);
+  add(record.round_trip, call.sent_ns, call.received_ns);
   add(record.request, call.sent_ns, call.taken_ns);
   add(record.service, call.taken_ns, call.answered_ns);
-  add(record.response, call.answered_ns, response_taken_ns);
+  add(record.response, call.answered_ns, call.received_ns);
 }
 
 }  // namespace tracing

@@ -1,4 +1,7 @@
 // Follows requests from a client to a service and their responses back, by the client's gid and the sequence number.
+//
+// A client records rmw_send_request when the request is on its way, for only then it has a number: the service may have
+// taken it before, and even the response may have come. A part of a call that would be negative for that counts as 0.
 #pragma once
 
 #include <cstdint>
@@ -55,12 +58,14 @@ class ServiceMatcher {
     std::optional<std::int64_t> sent_ns;
     std::optional<std::int64_t> taken_ns;
     std::optional<std::int64_t> answered_ns;
+    std::optional<std::int64_t> received_ns;
   };
 
   Call& begin(const Key& key);
-  void end(const Call& call, std::optional<std::int64_t> response_taken_ns);
+  void end_now(const Key& key);  // one of calls_
+  void end(const Call& call);
 
-  std::unordered_map<Key, Call, HashKey> calls_;  // that have no response yet
+  std::unordered_map<Key, Call, HashKey> calls_;  // that have no response yet, or no client in the trace
   std::deque<Key> oldest_first_;                  // of calls_, and of some that have ended
   std::map<Pair, CallRecord> records_;
 };

@@ -54,6 +54,28 @@ TEST(ServiceCalls, TellWhoAskedWhomAndHowLongEachPartTook) {
   EXPECT_TRUE(results.executions.empty());
 }
 
+// The client tells of a request when it is on its way.
+TEST(ServiceCalls, FollowsARequestThatIsTakenOrAnsweredBeforeTheClientTellsOfIt) {
+  Feed feed = with_client_and_service();
+  feed.in(kServer, kServer)(ros2::RmwTakeRequest{6, 9, kGid, 1, true});
+  feed.in(kClient, kClient)(ros2::RmwSendRequest{4, 9, 1});
+  feed.in(kServer, kServer)(ros2::RmwSendResponse{6, 9, kGid, 1, 1})(ros2::RmwTakeRequest{6, 9, kGid, 2, true});
+  feed.in(kClient, kClient)(ros2::RmwTakeResponse{4, 9, 1, 1, true});
+  feed.in(kServer, kServer)(ros2::RmwSendResponse{6, 9, kGid, 2, 1});
+  feed.in(kClient, kClient + 1)(ros2::RmwTakeResponse{4, 9, 2, 1, true});
+  feed.in(kClient, kClient)(ros2::RmwSendRequest{4, 9, 2});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.calls.size(), 1u);
+  EXPECT_EQ(results.calls[0].client, "/asker");
+  EXPECT_EQ(results.calls[0].server, "/adder");
+  EXPECT_EQ(results.calls[0].requests, 2u);
+  EXPECT_EQ(results.calls[0].responses, 2u);
+  EXPECT_EQ(results.calls[0].round_trip.max_ns, 30);
+  EXPECT_EQ(results.calls[0].round_trip.min_ns, 0);
+  EXPECT_EQ(results.calls[0].request.max_ns, 0);
+  EXPECT_EQ(results.calls[0].in_service.count, 2u);
+}
+
 TEST(ServiceCalls, KeepsClientsOfOneServiceApartByTheirGids) {
   Feed feed = with_client_and_service();
   const ros2::Gid other{{9}, 16};
