@@ -74,7 +74,7 @@ launch::ProcessSpec sleeper() {
   spec.argv = {"/bin/sleep", "1000"};
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string text = *variable;
-    spec.environment.emplace(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
+    spec.environment.emplace(std::string(text.substr(0, text.find('='))), std::string(text.substr(text.find('=') + 1)));
   }
   spec.output = *launch::OutputRouting::from_mode("log");
   return spec;

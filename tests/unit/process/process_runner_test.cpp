@@ -142,7 +142,7 @@ TEST_F(Runner, SkipsFilesOnThePathThatAreNotExecutable) {
 
 TEST_F(Runner, FindsStandardProgramsWithoutAPath) {
   ProcessSpec spec = command({"echo", "hello"});
-  spec.environment.clear();
+  spec.environment = {};
   EXPECT_EQ(output_of(spec), "hello\n");
 }
 

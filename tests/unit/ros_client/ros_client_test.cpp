@@ -37,7 +37,7 @@ launch::Environment own_environment() {
   launch::Environment environment;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string text(*variable);
-    environment.emplace(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
+    environment.emplace(std::string(text.substr(0, text.find('='))), std::string(text.substr(text.find('=') + 1)));
   }
   return environment;
 }

@@ -71,14 +71,14 @@ TEST_F(PackageIndexTest, FollowsAChangeOfTheSearchPath) {
 TEST_F(PackageIndexTest, SearchesItsOwnPrefixLast) {
   PackageIndex index(second_.string());
   EXPECT_EQ(index.prefix("both", environment_), first_.string());
-  environment_.clear();
+  environment_ = {};
   EXPECT_EQ(index.prefix("demo_nodes", environment_), second_.string());
 }
 
 TEST_F(PackageIndexTest, SaysWhereItSearched) {
   EXPECT_EQ(message_of([&] { index_.prefix("demo", environment_); }),
             "package 'demo' not found, searching: ['" + first_.string() + "', '" + second_.string() + "']");
-  environment_.clear();
+  environment_ = {};
   EXPECT_EQ(message_of([&] { index_.prefix("demo", environment_); }),
             "package 'demo' not found: environment variable 'AMENT_PREFIX_PATH' is not set or empty");
 }
