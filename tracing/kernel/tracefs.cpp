@@ -96,7 +96,7 @@ void TracefsInstance::enable_event(const std::string& pattern, const std::string
     }
   }
   if (found == 0) {
-    throw KernelTraceError(fmt::format("the kernel has no event '{}'", pattern),
+    throw UnknownNameError(fmt::format("the kernel has no event '{}'", pattern),
                            fmt::format("{}/available_events lists them", kMountPoint));
   }
 }
@@ -114,7 +114,7 @@ void TracefsInstance::enable_syscall(const std::string& name) {
     }
   }
   if (found == 0) {
-    throw KernelTraceError(
+    throw UnknownNameError(
         fmt::format("the kernel has no system call '{}' to trace", name),
         fs::exists(folder) ? "name it without 'sys_', as in openat" : "it was built without CONFIG_FTRACE_SYSCALLS");
   }
