@@ -87,10 +87,10 @@ void TracefsInstance::enable_event(const std::string& pattern, const std::string
       if (!event.is_directory()) continue;
       const std::string name = event.path().filename();
       // LTTng puts the group before some names.
-      if (fnmatch(pattern.c_str(), name.c_str(), 0) != 0 &&
-          fnmatch(pattern.c_str(), (group_name + "_" + name).c_str(), 0) != 0) {
-        continue;
-      }
+      const auto is_meant = [&pattern](const std::string& called) {
+        return fnmatch(pattern.c_str(), called.c_str(), 0) == 0;
+      };
+      if (!is_meant(name) && !is_meant(lttng_name(name)) && !is_meant(group_name + "_" + name)) continue;
       enable(event.path(), filter);
       ++found;
     }
