@@ -106,6 +106,16 @@ TEST_F(StateHandlersTest, UnregisteringAnotherHandlerOfAnEventStopsItFromTheNext
               ElementsAre("[launch.user] first: one", "[launch.user] second: one", "[launch.user] first: two"));
 }
 
+TEST_F(StateHandlersTest, TheLaunchIsNotIdleBeforeTheLastHandlerOfAnEvent) {
+  runner_.default_script({.exits_after = 1s});
+  EXPECT_EQ(run(R"xml(<executable cmd="n"/>
+<on_process_exit process="n"><log message="first"/></on_process_exit>
+<on_process_exit process="n"><shutdown reason="done"/></on_process_exit>
+<on_shutdown><log message="$(var event.reason)"/></on_shutdown>)xml"),
+            0);
+  EXPECT_THAT(messages_, ElementsAre("[launch.user] first", "[launch.user] done"));
+}
+
 TEST_F(StateHandlersTest, ANodesHandlersHearOfAChangeTogether) {
   runner_.default_script({.exits_after = 10s});
   change_at(1s, "unconfigured", "configuring", 1);
