@@ -45,7 +45,13 @@ void GraphCache::remove_participant(const Gid& gid) {
     if (gone_.size() > kRemembered) {
       gone_.pop_front();
     }
-    std::erase_if(endpoints_, [&](const auto& entry) { return same_participant(entry.first, gid); });
+    std::erase_if(endpoints_, [&](const auto& entry) {
+      const bool of_participant = same_participant(entry.first, gid);
+      if (of_participant) {
+        leave_topic(entry.second);
+      }
+      return of_participant;
+    });
   }
   on_change_();
 }
@@ -53,7 +59,13 @@ void GraphCache::remove_participant(const Gid& gid) {
 void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
   {
     std::lock_guard lock(mutex_);
-    endpoints_.insert_or_assign(gid, std::move(endpoint));
+    const auto found = endpoints_.find(gid);
+    if (found == endpoints_.end()) {
+      enter_topic(endpoints_.emplace(gid, std::move(endpoint)).first->second);
+    } else {
+      // Discovery tells again when something changes, which topic and type don't.
+      found->second.qos = endpoint.qos;
+    }
   }
   on_change_();
 }
@@ -61,9 +73,37 @@ void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
 void GraphCache::remove_endpoint(const Gid& gid) {
   {
     std::lock_guard lock(mutex_);
-    endpoints_.erase(gid);
+    if (const auto found = endpoints_.find(gid); found != endpoints_.end()) {
+      leave_topic(found->second);
+      endpoints_.erase(found);
+    }
   }
   on_change_();
+}
+
+void GraphCache::enter_topic(const Endpoint& endpoint) {
+  const auto tell = [](const Endpoint& told) {
+    if (told.incompatible_type) {
+      told.incompatible_type->update([](rmw_incompatible_type_status_t& status) {
+        ++status.total_count;
+        ++status.total_count_change;
+      });
+    }
+  };
+  const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
+  for (auto entry = begin; entry != end; ++entry) {
+    const Endpoint& other = *entry->second;
+    if (other.kind != endpoint.kind && other.type != endpoint.type) {
+      tell(other);
+      tell(endpoint);
+    }
+  }
+  endpoints_by_topic_.emplace(endpoint.topic, &endpoint);
+}
+
+void GraphCache::leave_topic(const Endpoint& endpoint) {
+  const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
+  endpoints_by_topic_.erase(std::find_if(begin, end, [&](const auto& entry) { return entry.second == &endpoint; }));
 }
 
 void GraphCache::update_nodes(const EntitiesInfo& info) {
@@ -141,9 +181,9 @@ GraphCache::EntitiesInfo GraphCache::remove_node_endpoint(const Gid& participant
 
 std::size_t GraphCache::count(Kind kind, std::string_view topic) const {
   std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(std::count_if(endpoints_.begin(), endpoints_.end(), [&](const auto& entry) {
-    return entry.second.kind == kind && entry.second.topic == topic;
-  }));
+  const auto [begin, end] = endpoints_by_topic_.equal_range(topic);
+  return static_cast<std::size_t>(
+      std::count_if(begin, end, [&](const auto& entry) { return entry.second->kind == kind; }));
 }
 
 std::vector<GraphCache::Node> GraphCache::nodes() const {
