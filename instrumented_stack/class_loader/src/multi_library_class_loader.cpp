@@ -3,11 +3,8 @@
 namespace class_loader {
 
 void MultiLibraryClassLoader::loadLibrary(const std::string& library_path) {
-  const auto found = loaders_.find(library_path);
-  if (found == loaders_.end()) {
+  if (!isLibraryAvailable(library_path)) {
     loaders_.emplace(library_path, std::make_unique<ClassLoader>(library_path, on_demand_));
-  } else if (!on_demand_) {
-    found->second->loadLibrary();
   }
 }
 

@@ -1,6 +1,7 @@
 #include "graph_cache.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace rmw_fastrtps {
@@ -24,6 +25,15 @@ Gid gid_in(const rmw_dds_common::msg::Gid& message) {
 template <typename NodeInfo>
 auto& endpoints_of(NodeInfo& node, GraphCache::Kind kind) {
   return kind == GraphCache::Kind::kWriter ? node.writer_gid_seq : node.reader_gid_seq;
+}
+
+void tell_incompatible(const GraphCache::Endpoint& endpoint, std::size_t count) {
+  if (endpoint.incompatible_type && count != 0) {
+    endpoint.incompatible_type->update([count](rmw_incompatible_type_status_t& status) {
+      status.total_count += static_cast<std::int32_t>(count);
+      status.total_count_change += static_cast<std::int32_t>(count);
+    });
+  }
 }
 
 }  // namespace
@@ -63,8 +73,13 @@ void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
     if (found == endpoints_.end()) {
       enter_topic(endpoints_.emplace(gid, std::move(endpoint)).first->second);
     } else {
-      // Discovery tells again when something changes, which topic and type don't.
-      found->second.qos = endpoint.qos;
+      // Discovery finds the own ones, too, and tells again when something changes, which topic and type don't.
+      Endpoint& known = found->second;
+      known.qos = endpoint.qos;
+      if (endpoint.incompatible_type) {
+        known.incompatible_type = std::move(endpoint.incompatible_type);
+        tell_incompatible(known, incompatible_with(known).size());
+      }
     }
   }
   on_change_();
@@ -81,22 +96,21 @@ void GraphCache::remove_endpoint(const Gid& gid) {
   on_change_();
 }
 
-void GraphCache::enter_topic(const Endpoint& endpoint) {
-  const auto tell = [](const Endpoint& told) {
-    if (told.incompatible_type) {
-      told.incompatible_type->update([](rmw_incompatible_type_status_t& status) {
-        ++status.total_count;
-        ++status.total_count_change;
-      });
-    }
-  };
+std::vector<const GraphCache::Endpoint*> GraphCache::incompatible_with(const Endpoint& endpoint) const {
+  std::vector<const Endpoint*> incompatible;
   const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
   for (auto entry = begin; entry != end; ++entry) {
-    const Endpoint& other = *entry->second;
-    if (other.kind != endpoint.kind && other.type != endpoint.type) {
-      tell(other);
-      tell(endpoint);
+    if (entry->second->kind != endpoint.kind && entry->second->type != endpoint.type) {
+      incompatible.push_back(entry->second);
     }
+  }
+  return incompatible;
+}
+
+void GraphCache::enter_topic(const Endpoint& endpoint) {
+  for (const Endpoint* other : incompatible_with(endpoint)) {
+    tell_incompatible(*other, 1);
+    tell_incompatible(endpoint, 1);
   }
   endpoints_by_topic_.emplace(endpoint.topic, &endpoint);
 }

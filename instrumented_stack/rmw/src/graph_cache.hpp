@@ -100,6 +100,7 @@ class GraphCache {
   EntitiesInfo change_nodes(const Gid& gid, Change change);
 
   // Under the lock:
+  std::vector<const Endpoint*> incompatible_with(const Endpoint& endpoint) const;
   void enter_topic(const Endpoint& endpoint);
   void leave_topic(const Endpoint& endpoint);
 

@@ -170,9 +170,9 @@ class WaitSetKeepsTimers : public testing::Test {
 };
 
 TEST_F(WaitSetKeepsTimers, EachIsLeftWhenItIsDue) {
-  const std::vector<std::vector<std::ptrdiff_t>> expected = {{}, {1}, {}, {1, 3}, {}, {0, 1}, {}, {1, 3}, {}, {1}};
+  const std::vector<std::vector<std::ptrdiff_t>> expected = {{}, {1}, {1, 3}, {0, 1}, {1, 3}, {1}};
   for (size_t i = 0; i < expected.size(); ++i) {
-    set_time(100 + static_cast<int64_t>(i) * 5);
+    set_time(100 + static_cast<int64_t>(i) * 10);
     EXPECT_EQ(call_ready(), expected[i]) << i;
     EXPECT_EQ(call_ready(), std::vector<std::ptrdiff_t>()) << i;
   }

@@ -102,6 +102,15 @@ TEST_F(Graph, TellsEndpointsOfOthersOnTheirTopicWithAnotherType) {
   EXPECT_EQ(taken_from(*subscription), 2);
   EXPECT_EQ(taken_from(*publisher), 1);
 
+  // Discovery may find an own endpoint before its creation is told, and again.
+  const auto late = std::make_shared<IncompatibleType>();
+  graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
+  EXPECT_EQ(taken_from(*publisher), 1);
+  graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}, late});
+  graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
+  EXPECT_EQ(taken_from(*late), 1);
+  EXPECT_FALSE(publisher->is_ready());
+
   graph_.remove_endpoint(gid_of(6));
   graph_.add_endpoint(gid_of(7), {GraphCache::Kind::kWriter, "rt/chatter", "Float32", {}});
   EXPECT_FALSE(subscription->is_ready());

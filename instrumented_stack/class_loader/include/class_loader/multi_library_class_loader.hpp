@@ -15,9 +15,9 @@ class MultiLibraryClassLoader {
  public:
   explicit MultiLibraryClassLoader(bool enable_ondemand_loadunload) : on_demand_(enable_ondemand_loadunload) {}
 
-  // Throws LibraryLoadException. A library that is there already is loaded once more.
+  // Throws LibraryLoadException. Nothing happens for one that is there already.
   void loadLibrary(const std::string& library_path);
-  // How often it must still be called. Throws LibraryUnloadException for a library that is not there.
+  // How often it must still be called: 0. Throws LibraryUnloadException for a library that is not there.
   int unloadLibrary(const std::string& library_path);
   bool isLibraryAvailable(const std::string& library_path) const { return loaders_.count(library_path) != 0; }
   std::vector<std::string> getRegisteredLibraries() const;
@@ -26,7 +26,7 @@ class MultiLibraryClassLoader {
   std::vector<std::string> getAvailableClasses() const {
     std::vector<std::string> classes;
     for (const auto& [path, loader] : loaders_) {
-      const std::vector<std::string> of_library = loader->getAvailableClasses<Base>();
+      const std::vector<std::string> of_library = loader->template getAvailableClasses<Base>();
       classes.insert(classes.end(), of_library.begin(), of_library.end());
     }
     return classes;
@@ -38,7 +38,7 @@ class MultiLibraryClassLoader {
   template <typename Base>
   bool isClassAvailable(const std::string& class_name) const {
     for (const auto& [path, loader] : loaders_) {
-      if (loader->isClassAvailable<Base>(class_name)) {
+      if (loader->template isClassAvailable<Base>(class_name)) {
         return true;
       }
     }
@@ -80,7 +80,7 @@ class MultiLibraryClassLoader {
       if (on_demand_ && !loader->isLibraryLoaded()) {
         loader->loadLibrary();
       }
-      if (loader->isClassAvailable<Base>(class_name)) {
+      if (loader->template isClassAvailable<Base>(class_name)) {
         return *loader;
       }
     }

@@ -121,7 +121,7 @@ class ClassLoader : public ClassLoaderBase {
       throw LibraryLoadException("failed to load the library of plugin '" + lookup_name + "': " + error.what());
     }
   }
-  // How often it must still be called. Throws LibraryUnloadException for a library that is not loaded.
+  // How often it must still be called: 0. Throws LibraryUnloadException for a library that is not loaded.
   int unloadLibraryForClass(const std::string& lookup_name) override {
     try {
       return loader_.unloadLibrary(plugin(lookup_name).resolved_library_path_);
