@@ -92,7 +92,11 @@ INSTANTIATE_TEST_SUITE_P(
             Example{"27_late_start",
                     {},
                     {"I heard: [Hello World: ", "writing tracing session to: ", ", 2 processes, none lost)"}},
-            Example{"28_deadline", {}, {"snapshot written to: ", "(a message was taken after more than 0.01 ms)"}}),
+            Example{"28_deadline", {}, {"snapshot written to: ", "(a message was taken after more than 0.01 ms)"}},
+            Example{"29_ros2_tracing",
+                    {},
+                    {"[test_pong]: [output] are you there?", "[test_ping]: [output] yes, here I am",
+                     "trace written to: ", "/my-tracing-session (", "trace is complete: no events lost"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/e2e/recorded_trace.hpp"
@@ -53,6 +54,40 @@ std::vector<RecordedEvent> with_name(const RecordedTrace& trace, const std::stri
   return found;
 }
 
+// What `launch report` makes of the same trace.
+void expect_reported(const std::filesystem::path& directory) {
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "report", "--json", directory.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json report = nlohmann::json::parse(result.out);
+  ASSERT_EQ(report["calls"].size(), 1U) << report["calls"];
+  const nlohmann::json& call = report["calls"][0];
+  EXPECT_EQ(call["service"], "/add_two_ints");
+  EXPECT_EQ(call["client"], "/client");
+  EXPECT_EQ(call["server"], "/server");
+  EXPECT_EQ(call["requests"], 3);
+  EXPECT_EQ(call["responses"], 3);
+  EXPECT_EQ(call["round_trip"]["count"], 3);
+  EXPECT_EQ(call["in_service"]["count"], 3);
+  EXPECT_GT(call["round_trip"]["min_ns"], call["in_service"]["min_ns"]);
+
+  std::map<std::string, int> callbacks;
+  for (const nlohmann::json& callback : report["callbacks"]) {
+    if (callback.value("service", "") == "/add_two_ints") callbacks[callback["owner"]] = callback["duration"]["count"];
+  }
+  EXPECT_THAT(callbacks, ElementsAre(testing::Pair("client", 3), testing::Pair("service", 3)));
+  std::map<std::string, int> served;
+  for (const nlohmann::json& execution : report["executions"]) {
+    if (execution.value("service", "") == "/add_two_ints") served[execution["kind"]] = execution["duration"]["count"];
+  }
+  EXPECT_THAT(served, ElementsAre(testing::Pair("client", 3), testing::Pair("service", 3)));
+
+  ASSERT_EQ(report["starts"].size(), 2U);
+  for (const nlohmann::json& start : report["starts"]) {
+    EXPECT_GT(start["node_after_ns"], 0) << start;
+    EXPECT_GT(start["ready_after_ns"], start["node_after_ns"]) << start;
+  }
+}
+
 TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
   Sandbox sandbox;
   const std::filesystem::path file = sandbox.directory() / "ext.launch.xml";
@@ -94,6 +129,7 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
   }
   // Nothing was there before the session: no state dump.
   EXPECT_THAT(with_name(trace, "ros2_ext:state_dump_begin"), SizeIs(0));
+  expect_reported(sandbox.trace_directory() / "ext");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -57,6 +58,16 @@ class KernelTrace : public testing::Test {
       return value == std::string::npos ? -1 : std::stol(lines[i].substr(value + key.size() + 3));
     }
     return -1;
+  }
+
+  // From the oldest to the newest.
+  std::vector<fs::path> snapshots_of(const std::string& session) const {
+    std::vector<fs::path> snapshots;
+    for (const auto& entry : fs::directory_iterator(sandbox_.trace_directory() / session)) {
+      if (entry.path().filename().string().starts_with("snapshot-")) snapshots.push_back(entry.path());
+    }
+    std::sort(snapshots.begin(), snapshots.end());
+    return snapshots;
   }
 
   // The kernel has its instances once for all sandboxes.
@@ -170,6 +181,60 @@ TEST_F(KernelTrace, WhatHappensDuringAPauseIsNotRecorded) {
   EXPECT_TRUE(recorded("before"));
   EXPECT_FALSE(recorded("meanwhile"));
   EXPECT_TRUE(recorded("after"));
+}
+
+TEST_F(KernelTrace, AFlightRecorderHoldsWhatTheKernelDidBeforeTheCrash) {
+  const fs::path unlucky = sandbox_.directory() / "unlucky";
+  fs::copy_file("/bin/sh", unlucky);
+  const CommandResult result =
+      launch("<trace session-name=\"" + session_ + "\" snapshot-on-crash=\"true\" events-kernel=\"sched_process_*\"/>" +
+             "<executable cmd=\"" + unlucky.string() + " -c '" TRACED_APP " 3 10 &lt;/dev/null; kill -SEGV $$'\"/>");
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("snapshot written to: "));
+  const std::vector<fs::path> snapshots = snapshots_of(session_);
+  ASSERT_EQ(snapshots.size(), 1U);
+  const std::vector<std::string> lines = lines_of(snapshots.front());
+  std::size_t exec = 0;
+  std::size_t told = 0;
+  std::size_t exited = 0;
+  const long pid = number_in(lines, {"sched_process_exec: ", "/unlucky\""}, "vpid", exec);
+  EXPECT_GT(pid, 0);
+  EXPECT_GT(number_in(lines, {"sched_process_exit: ", "comm = \"unlucky\""}, "vpid", exited), 0);
+  EXPECT_GT(number_in(lines, {"ros2:rcl_init: "}, "vtid", told), 0);
+  EXPECT_LT(exec, told);
+  EXPECT_LT(told, exited);
+  EXPECT_FALSE(fs::exists(snapshots.front().parent_path() / "kernel-recorder.pid"));
+  EXPECT_FALSE(fs::exists(snapshots.front().parent_path() / "kernel-recorder.json"));
+}
+
+TEST_F(KernelTrace, ASnapshotByCommandBeginsWhereTheOneBeforeEnded) {
+  const auto trace = [this](const std::string& verb, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> argv = {LAUNCH_PROGRAM, "trace", verb, session_};
+    argv.insert(argv.end(), more.begin(), more.end());
+    const CommandResult result = run_command(argv);
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  };
+  const auto run_as = [this](const std::string& name) {
+    const fs::path copy = sandbox_.directory() / name;
+    fs::copy_file("/bin/true", copy);
+    run_command({copy.string()});
+  };
+  const auto recorded = [](const fs::path& snapshot, const std::string& name) {
+    std::size_t found = 0;
+    return number_in(lines_of(snapshot), {"sched_process_exec: ", "/" + name + "\""}, "vpid", found) > 0;
+  };
+  trace("start", {"--snapshot-mode", "-k", "sched_process_exec"});
+  run_as("first");
+  trace("record_snapshot");
+  run_as("second");
+  trace("record_snapshot");
+  trace("stop");
+  const std::vector<fs::path> snapshots = snapshots_of(session_);
+  ASSERT_EQ(snapshots.size(), 2U);
+  EXPECT_TRUE(recorded(snapshots[0], "first"));
+  EXPECT_FALSE(recorded(snapshots[0], "second"));
+  EXPECT_FALSE(recorded(snapshots[1], "first"));
+  EXPECT_TRUE(recorded(snapshots[1], "second"));
 }
 
 TEST_F(KernelTrace, WhoIsNotRootIsToldWhatToDo) {

@@ -66,6 +66,16 @@ TEST_F(PythonLaunch, TheTraceActionRecordsTheRun) {
   EXPECT_THAT(found.processes, testing::IsSupersetOf({"ping", "pong"}));
 }
 
+// As the documentation of ros2_tracing says it, but for the first word of the command.
+TEST_F(PythonLaunch, TheExampleOfRos2TracingRunsUnderItsNames) {
+  const CommandResult result = launch({"tracetools_launch", "example.launch.py"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(result.err, "");
+  const Found found = trace_of("my-tracing-session");
+  EXPECT_EQ(found.processes, (std::set<std::string>{"test_ping", "test_pong"}));
+  EXPECT_THAT(found.events, testing::IsSupersetOf({"ros2:rcl_node_init", "ros2:rmw_take", "ros2:callback_end"}));
+}
+
 TEST_F(PythonLaunch, DomainsOfContextFieldsMustBeKnown) {
   const std::string file = write("bad.launch.py", R"(from launch import LaunchDescription
 from tracetools_launch.action import Trace

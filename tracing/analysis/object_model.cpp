@@ -135,12 +135,27 @@ void ObjectModel::on(const Origin& origin, const ros2::RclServiceInit& event) {
   ServiceObject service{find(node_index_, origin.vpid, event.node_handle), std::string(event.service_name)};
   const ObjectId id = find(service_index_, origin.vpid, event.service_handle);
   if (id != kNoObject && services_[id] == service) return;
-  service_index_[{origin.vpid, event.service_handle}] = append(services_, std::move(service));
+  const ObjectId added = append(services_, std::move(service));
+  service_index_[{origin.vpid, event.service_handle}] = added;
+  rmw_service_index_[{origin.vpid, event.rmw_service_handle}] = added;
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppServiceCallbackAdded& event) {
   add_callback(origin.vpid, event.callback, CallbackObject::Owner::kService,
                find(service_index_, origin.vpid, event.service_handle));
+}
+
+void ObjectModel::on(const Origin& origin, const ros2::RmwClientInit& event) {
+  add_rmw(rmw_client_index_, origin.vpid, event.rmw_client_handle, event.gid);
+}
+
+void ObjectModel::on(const Origin& origin, const ros2::RclClientInit& event) {
+  RmwEndpoint& rmw = rmw_client_index_[{origin.vpid, event.rmw_client_handle}];
+  ClientObject client{find(node_index_, origin.vpid, event.node_handle), std::string(event.service_name), rmw.gid};
+  const ObjectId id = find(client_index_, origin.vpid, event.client_handle);
+  if (id != kNoObject && rmw.endpoint == id && clients_[id] == client) return;
+  rmw.endpoint = append(clients_, std::move(client));
+  client_index_[{origin.vpid, event.client_handle}] = rmw.endpoint;
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclTimerInit& event) {
@@ -204,6 +219,15 @@ void ObjectModel::on(const Origin& origin, const ros2::ObjectEnd& end) {
     case Kind::kRclService:
       service_index_.erase(key);
       break;
+    case Kind::kRmwService:
+      rmw_service_index_.erase(key);
+      break;
+    case Kind::kRclClient:
+      client_index_.erase(key);
+      break;
+    case Kind::kRmwClient:
+      rmw_client_index_.erase(key);
+      break;
     case Kind::kRclTimer:
       timer_index_.erase(key);
       break;
@@ -225,9 +249,29 @@ RmwLookup ObjectModel::rmw_subscription(Vpid vpid, ros2::Handle handle) const {
   return find_rmw(rmw_subscription_index_, vpid, handle);
 }
 
+ObjectId ObjectModel::service(Vpid vpid, ros2::Handle rcl_handle) const {
+  return find(service_index_, vpid, rcl_handle);
+}
+
+ObjectId ObjectModel::client(Vpid vpid, ros2::Handle rcl_handle) const {
+  return find(client_index_, vpid, rcl_handle);
+}
+
+ObjectId ObjectModel::rmw_service(Vpid vpid, ros2::Handle handle) const {
+  return find(rmw_service_index_, vpid, handle);
+}
+
+ObjectId ObjectModel::rmw_client(Vpid vpid, ros2::Handle handle) const {
+  return find_rmw(rmw_client_index_, vpid, handle).id;
+}
+
 ObjectId ObjectModel::callback(Vpid vpid, ros2::Handle address) {
   const ObjectId id = find(callback_index_, vpid, address);
   return id != kNoObject ? id : add_callback(vpid, address, CallbackObject::Owner::kUnknown, kNoObject);
+}
+
+ObjectId ObjectModel::client_callback(Vpid vpid, ros2::Handle rcl_handle) {
+  return add_callback(vpid, rcl_handle, CallbackObject::Owner::kClient, client(vpid, rcl_handle));
 }
 
 ObjectId ObjectModel::subscription_of(const CallbackObject& callback) const {

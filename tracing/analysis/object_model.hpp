@@ -66,12 +66,19 @@ struct ServiceObject {
   bool operator==(const ServiceObject&) const = default;
 };
 
+struct ClientObject {
+  ObjectId node = kNoObject;
+  std::string name;  // of the service
+  ros2::Gid gid;     // size 0 when its rmw_client_init is not in the trace
+  bool operator==(const ClientObject&) const = default;
+};
+
 struct CallbackObject {
-  enum class Owner { kUnknown, kSubscription, kTimer, kService };
+  enum class Owner { kUnknown, kSubscription, kTimer, kService, kClient };
   Vpid vpid = 0;
-  ros2::Handle address = 0;
+  ros2::Handle address = 0;  // of a client's: rcl's handle of the client
   Owner owner = Owner::kUnknown;
-  ObjectId owner_id = kNoObject;  // of a subscription object, timer or service
+  ObjectId owner_id = kNoObject;  // of a subscription object, timer, service or client
   std::string symbol;             // as recorded, may be empty
 };
 
@@ -99,6 +106,8 @@ class ObjectModel {
   void on(const Origin&, const ros2::RclcppSubscriptionCallbackAdded&);
   void on(const Origin&, const ros2::RclServiceInit&);
   void on(const Origin&, const ros2::RclcppServiceCallbackAdded&);
+  void on(const Origin&, const ros2::RmwClientInit&);
+  void on(const Origin&, const ros2::RclClientInit&);
   void on(const Origin&, const ros2::RclTimerInit&);
   void on(const Origin&, const ros2::RclcppTimerCallbackAdded&);
   void on(const Origin&, const ros2::RclcppTimerLinkNode&);
@@ -110,8 +119,14 @@ class ObjectModel {
   ObjectId publisher(Vpid vpid, ros2::Handle rcl_handle) const;
   RmwLookup rmw_publisher(Vpid vpid, ros2::Handle handle) const;
   RmwLookup rmw_subscription(Vpid vpid, ros2::Handle handle) const;
+  ObjectId service(Vpid vpid, ros2::Handle rcl_handle) const;
+  ObjectId client(Vpid vpid, ros2::Handle rcl_handle) const;
+  ObjectId rmw_service(Vpid vpid, ros2::Handle handle) const;
+  ObjectId rmw_client(Vpid vpid, ros2::Handle handle) const;
   // Makes one when none is known: a callback can run whose initialisation is not in the trace.
   ObjectId callback(Vpid vpid, ros2::Handle address);
+  // What a client does with responses.
+  ObjectId client_callback(Vpid vpid, ros2::Handle rcl_handle);
 
   // The subscription that a callback serves, or kNoObject.
   ObjectId subscription_of(const CallbackObject& callback) const;
@@ -122,6 +137,7 @@ class ObjectModel {
   const std::vector<EndpointObject>& subscriptions() const { return subscriptions_; }
   const std::vector<TimerObject>& timers() const { return timers_; }
   const std::vector<ServiceObject>& services() const { return services_; }
+  const std::vector<ClientObject>& clients() const { return clients_; }
   const std::vector<CallbackObject>& callbacks() const { return callbacks_; }
 
  private:
@@ -162,6 +178,7 @@ class ObjectModel {
   std::vector<SubscriptionObject> subscription_objects_;
   std::vector<TimerObject> timers_;
   std::vector<ServiceObject> services_;
+  std::vector<ClientObject> clients_;
   std::vector<CallbackObject> callbacks_;
 
   Index node_index_;
@@ -172,6 +189,9 @@ class ObjectModel {
   Index subscription_object_index_;
   Index timer_index_;
   Index service_index_;
+  Index rmw_service_index_;
+  Index client_index_;
+  RmwIndex rmw_client_index_;  // to clients_
   Index callback_index_;
   std::unordered_map<std::string, ObjectId> topic_index_;
 };

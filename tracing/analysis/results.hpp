@@ -49,11 +49,11 @@ struct TraceOverview {
 };
 
 struct CallbackResult {
-  enum class Owner { kUnknown, kSubscription, kTimer, kService };
+  enum class Owner { kUnknown, kSubscription, kTimer, kService, kClient };
   std::int64_t vpid = 0;
   std::string node;  // fully qualified; empty when the trace doesn't tell
   Owner owner = Owner::kUnknown;
-  std::string owner_name;      // topic or service; empty for timers
+  std::string owner_name;      // topic or service, of a client the one that it asks; empty for timers
   std::int64_t period_ns = 0;  // of a timer
   std::uint64_t address = 0;
   std::string symbol;               // readable; empty when the trace doesn't tell
@@ -73,16 +73,57 @@ struct TopicResult {
   DurationSummary latency;           // event rmw_publish to event callback_start, of messages with both
 };
 
+// What one client asked one service.
+struct CallResult {
+  std::string service;                      // its name
+  std::optional<std::int64_t> client_vpid;  // nullopt: the client is not in the trace
+  std::string client;                       // its node; empty when the trace doesn't tell
+  std::optional<std::int64_t> server_vpid;  // nullopt: the service is not in the trace, or never took a request
+  std::string server;                       // its node
+  std::uint64_t requests = 0;
+  std::uint64_t responses = 0;  // fewer than requests: some were not answered within the trace
+  DurationSummary round_trip;   // rmw_send_request to rmw_take_response
+  DurationSummary request;      // rmw_send_request to rmw_take_request
+  DurationSummary in_service;   // rmw_take_request to rmw_send_response
+  DurationSummary response;     // rmw_send_response to rmw_take_response
+};
+
+// What executors served that has no rclcpp_executor_execute.
+struct ExecutionResult {
+  enum class Kind { kService, kClient, kWaitable };
+  std::int64_t vpid = 0;
+  Kind kind = Kind::kService;
+  std::string node;           // empty for waitables, and when the trace doesn't tell
+  std::string service;        // likewise
+  std::uint64_t address = 0;  // of a waitable, and of what has no name in the trace
+  std::uint64_t count = 0;
+  DurationSummary durations;  // until the response was sent, or the client's callback had ended; none of waitables
+};
+
 struct Ros2Results {
-  std::vector<CallbackResult> callbacks;  // that ran at least once; by process, node, owner
-  std::vector<TopicResult> topics;        // by name
-  std::uint64_t internal_messages = 0;    // published or taken by the middleware for itself
-  std::uint64_t unknown_messages = 0;     // published or taken by objects whose initialisation is not in the trace
-  bool lacks_thread_context = false;      // events without vpid or vtid: processes and threads can't be told apart
+  std::vector<CallbackResult> callbacks;    // that ran at least once; by process, node, owner
+  std::vector<TopicResult> topics;          // by name
+  std::vector<CallResult> calls;            // by service, client, server
+  std::vector<ExecutionResult> executions;  // by process, kind; empty without events of `ros2_ext`
+  std::uint64_t internal_messages = 0;      // published or taken by the middleware for itself
+  std::uint64_t unknown_messages = 0;       // published or taken by objects whose initialisation is not in the trace
+  bool lacks_thread_context = false;        // events without vpid or vtid: processes and threads can't be told apart
+};
+
+// A process that the launcher started.
+struct StartResult {
+  std::int64_t vpid = 0;
+  std::string process;  // as the launcher calls it: "talker-1"
+  std::string file;     // the place in the launch file that asked for it
+  std::int64_t line = 0;
+  std::int64_t exec_ns = 0;                    // when its program ran
+  std::optional<std::int64_t> node_after_ns;   // from then to its first node; nullopt: none, or not in the trace
+  std::optional<std::int64_t> ready_after_ns;  // to the first event of an executor after that
 };
 
 struct TraceResults {
   TraceOverview overview;
+  std::vector<StartResult> starts;  // with the launcher's events only; in their order
   Ros2Results ros2;
   std::vector<std::string> warnings;  // about events that are not as ros2_tracing records them
 };

@@ -1,6 +1,7 @@
 #include "tracing/analysis/ros2_analysis.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -92,6 +93,70 @@ void Ros2Analysis::on(const Origin& origin, const ros2::CallbackEnd& event) {
   callbacks_.end(thread(origin).active_callbacks, event.callback, origin.time_ns);
 }
 
+// Without its rmw_client_init a client has an identity of its own, so that its requests are still found at its
+// responses.
+ros2::Gid Ros2Analysis::gid_of(ObjectId client) const {
+  ros2::Gid gid = model_.clients()[client].gid;
+  if (gid.size == 0) std::memcpy(gid.bytes.data(), &client, sizeof client);
+  return gid;
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RmwSendRequest& event) {
+  const ObjectId client = model_.rmw_client(origin.vpid, event.rmw_client_handle);
+  if (client == kNoObject) return;
+  calls_.send_request(client, gid_of(client), event.sequence_number, origin.time_ns);
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RmwTakeRequest& event) {
+  if (!event.taken) return;
+  calls_.take_request(model_.rmw_service(origin.vpid, event.rmw_service_handle), event.client_gid,
+                      event.sequence_number, origin.time_ns);
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RmwSendResponse& event) {
+  calls_.send_response(model_.rmw_service(origin.vpid, event.rmw_service_handle), event.client_gid,
+                       event.sequence_number, origin.time_ns);
+  executions_.end(thread(origin).execution, ros2::ExecutionEvent::Kind::kService, origin.time_ns);
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RmwTakeResponse& event) {
+  const ObjectId client = model_.rmw_client(origin.vpid, event.rmw_client_handle);
+  if (!event.taken || client == kNoObject) return;
+  calls_.take_response(gid_of(client), event.sequence_number, origin.time_ns);
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorGetNextReady&) {
+  thread(origin).execution.reset();
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorWaitForWork&) {
+  thread(origin).execution.reset();
+}
+
+void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorExecute&) {
+  thread(origin).execution.reset();
+}
+
+void Ros2Analysis::on_execution(const Origin& origin, const ros2::ExecutionEvent& event) {
+  using Kind = ros2::ExecutionEvent::Kind;
+  Thread& running = thread(origin);
+  if (event.kind == Kind::kClientCallbackStart) {
+    const ObjectId callback = model_.client_callback(origin.vpid, event.handle);
+    callbacks_.start(running.active_callbacks, {event.handle, callback, origin.time_ns, false});
+    return;
+  }
+  if (event.kind == Kind::kClientCallbackEnd) {
+    callbacks_.end(running.active_callbacks, event.handle, origin.time_ns);
+    executions_.end(running.execution, Kind::kClient, origin.time_ns);
+    return;
+  }
+  Served served{origin.vpid, event.kind, kNoObject, 0};
+  if (event.kind == Kind::kService) served.id = model_.service(origin.vpid, event.handle);
+  if (event.kind == Kind::kClient) served.id = model_.client(origin.vpid, event.handle);
+  if (served.id == kNoObject) served.address = event.handle;
+  executions_.start(running.execution, served, origin.time_ns);
+}
+
 CallbackResult Ros2Analysis::callback_result(ObjectId id) const {
   const CallbackObject& callback = model_.callbacks()[id];
   const CallbackRecord& record = callbacks_.records()[id];
@@ -117,6 +182,12 @@ CallbackResult Ros2Analysis::callback_result(ObjectId id) const {
     node = model_.services()[callback.owner_id].node;
     result.owner = CallbackResult::Owner::kService;
     result.owner_name = model_.services()[callback.owner_id].name;
+  } else if (callback.owner == CallbackObject::Owner::kClient) {
+    result.owner = CallbackResult::Owner::kClient;
+    if (callback.owner_id != kNoObject) {
+      node = model_.clients()[callback.owner_id].node;
+      result.owner_name = model_.clients()[callback.owner_id].name;
+    }
   }
   if (node != kNoObject) result.node = model_.nodes()[node].name;
   return result;
@@ -137,11 +208,63 @@ TopicResult Ros2Analysis::topic_result(ObjectId id) const {
   return result;
 }
 
+CallResult Ros2Analysis::call_result(const ServiceMatcher::Pair& pair, const CallRecord& record) const {
+  CallResult result;
+  const auto& [client, service] = pair;
+  const auto fill = [this](ObjectId node, std::optional<std::int64_t>& vpid, std::string& name) {
+    if (node == kNoObject) return;
+    vpid = model_.nodes()[node].vpid;
+    name = model_.nodes()[node].name;
+  };
+  if (service != kNoObject) {
+    result.service = model_.services()[service].name;
+    fill(model_.services()[service].node, result.server_vpid, result.server);
+  }
+  if (client != kNoObject) {
+    result.service = model_.clients()[client].name;
+    fill(model_.clients()[client].node, result.client_vpid, result.client);
+  }
+  result.requests = record.requests;
+  result.responses = record.responses;
+  result.round_trip = record.round_trip.summary();
+  result.request = record.request.summary();
+  result.in_service = record.service.summary();
+  result.response = record.response.summary();
+  return result;
+}
+
+ExecutionResult Ros2Analysis::execution_result(const Served& served, const ExecutionRecord& record) const {
+  using Kind = ros2::ExecutionEvent::Kind;
+  ExecutionResult result;
+  result.vpid = served.vpid;
+  result.address = served.address;
+  result.count = record.count;
+  result.durations = record.durations.summary();
+  ObjectId node = kNoObject;
+  if (served.kind == Kind::kService) {
+    if (served.id != kNoObject) {
+      node = model_.services()[served.id].node;
+      result.service = model_.services()[served.id].name;
+    }
+  } else if (served.kind == Kind::kClient) {
+    result.kind = ExecutionResult::Kind::kClient;
+    if (served.id != kNoObject) {
+      node = model_.clients()[served.id].node;
+      result.service = model_.clients()[served.id].name;
+    }
+  } else {
+    result.kind = ExecutionResult::Kind::kWaitable;
+  }
+  if (node != kNoObject) result.node = model_.nodes()[node].name;
+  return result;
+}
+
 Ros2Results Ros2Analysis::finish() {
   for (const auto& [key, state] : threads_) callbacks_.abandon(state.active_callbacks);
   threads_.clear();
   last_thread_ = nullptr;
   messages_.finish();
+  calls_.finish();
 
   Ros2Results results;
   for (ObjectId id = 0; id < callbacks_.records().size(); ++id) {
@@ -156,6 +279,14 @@ Ros2Results Ros2Analysis::finish() {
   for (ObjectId id = 0; id < model_.topics().size(); ++id) results.topics.push_back(topic_result(id));
   std::sort(results.topics.begin(), results.topics.end(),
             [](const TopicResult& left, const TopicResult& right) { return left.name < right.name; });
+  for (const auto& [pair, record] : calls_.records()) results.calls.push_back(call_result(pair, record));
+  std::sort(results.calls.begin(), results.calls.end(), [](const CallResult& left, const CallResult& right) {
+    return std::tie(left.service, left.client, left.client_vpid, left.server, left.server_vpid) <
+           std::tie(right.service, right.client, right.client_vpid, right.server, right.server_vpid);
+  });
+  for (const auto& [served, record] : executions_.records()) {
+    results.executions.push_back(execution_result(served, record));
+  }
   results.internal_messages = internal_messages_;
   results.unknown_messages = unknown_messages_;
   return results;

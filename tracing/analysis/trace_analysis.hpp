@@ -10,6 +10,7 @@
 #include "tracing/analysis/overview_counter.hpp"
 #include "tracing/analysis/results.hpp"
 #include "tracing/analysis/ros2_analysis.hpp"
+#include "tracing/analysis/start_tracker.hpp"
 #include "tracing/reader/ros2_decoder.hpp"
 #include "tracing/reader/trace_reader.hpp"
 
@@ -24,10 +25,12 @@ class TraceAnalysis : public TraceSink {
 
  private:
   OverviewCounter overview_;
+  StartTracker starts_;
   Ros2Analysis ros2_;
   std::vector<std::string> warnings_;
   ros2::Decoder decoder_{[this](const std::string& problem) { warnings_.push_back(problem); }};
   ros2::ObjectEndDecoder ends_;
+  ros2::ExecutionEventDecoder executions_;
   bool lacks_thread_context_ = false;
 };
 

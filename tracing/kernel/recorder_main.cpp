@@ -1,10 +1,15 @@
-// launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME | context FIELD]…
+// launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME | context FIELD | snapshots]…
 //
 // Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. SIGUSR1 pauses it, with
 // everything written, SIGUSR2 lets it go on. Says "ready" once it records, or "error: …" and "hint: …", and closes its
 // output. While it runs DIRECTORY/../kernel-recorder.pid holds its number and what it does, "recording" or "paused": a
 // new file takes its place when that has changed. At the end kernel-recorder.json there says what it has recorded and
 // lost. (Readers of CTF take every file of DIRECTORY for a stream.)
+//
+// With `snapshots` it writes nothing into DIRECTORY: the kernel's buffers keep the newest events. When it gets SIGRTMIN
+// it reads DIRECTORY/../kernel-recorder.request, a directory and on the next line "keep" or "clear", and writes what
+// the buffers hold, and what snapshots before have kept, into `kernel` there; with "clear" the next one begins after
+// it. What it does is then the name of that directory, or "failed" with the reason.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -23,6 +28,7 @@
 #include <vector>
 
 #include "tracing/kernel/ctf_writer.hpp"
+#include "tracing/kernel/page_history.hpp"
 #include "tracing/kernel/ring_page.hpp"
 #include "tracing/kernel/thread_table.hpp"
 #include "tracing/kernel/tracefs.hpp"
@@ -57,7 +63,7 @@ struct RingBuffer {
 int control_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2}) sigaddset(&signals, signal);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGRTMIN}) sigaddset(&signals, signal);
   sigprocmask(SIG_BLOCK, &signals, nullptr);
   return signalfd(-1, &signals, SFD_CLOEXEC);
 }
@@ -72,26 +78,38 @@ std::vector<RingBuffer> open_buffers(const TracefsInstance& instance) {
   return buffers;
 }
 
-// Everything that is there, of all processors: what threads are is learnt from all of it before any is written.
-void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTable& threads) {
+// Calls take(cpu, page) for everything that is there, of all processors.
+template <class Take>
+void read_buffers(const std::vector<RingBuffer>& buffers, Take&& take) {
   static std::array<std::uint8_t, kLargestPage> page;
-  std::vector<std::pair<unsigned, std::vector<std::uint8_t>>> pages;
   for (const RingBuffer& buffer : buffers) {
     for (ssize_t length; (length = read(buffer.file.get(), page.data(), page.size())) > 0;) {
-      pages.emplace_back(buffer.cpu, std::vector<std::uint8_t>(page.begin(), page.begin() + length));
+      take(buffer.cpu, std::vector<std::uint8_t>(page.begin(), page.begin() + length));
     }
   }
-  for (const auto& [cpu, bytes] : pages) {
-    read_ring_page(bytes,
-                   [&](std::uint64_t time, std::span<const std::uint8_t> record) { threads.learn(time, record); });
-  }
+}
+
+void learn(ThreadTable& threads, std::span<const std::uint8_t> page) {
+  read_ring_page(page, [&](std::uint64_t time, std::span<const std::uint8_t> record) { threads.learn(time, record); });
+}
+
+// What threads are is learnt from all of it before any is written.
+void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTable& threads) {
+  std::vector<std::pair<unsigned, std::vector<std::uint8_t>>> pages;
+  read_buffers(buffers,
+               [&](unsigned cpu, std::vector<std::uint8_t> page) { pages.emplace_back(cpu, std::move(page)); });
+  for (const auto& [cpu, bytes] : pages) learn(threads, bytes);
   for (const auto& [cpu, bytes] : pages) writer.write_page(cpu, bytes);
   threads.forget_the_past();
 }
 
-// Returns the context fields.
-std::vector<std::string> enable(TracefsInstance& instance, int argc, char** argv) {
+struct Options {
   std::vector<std::string> context_fields;
+  bool snapshots = false;
+};
+
+Options enable(TracefsInstance& instance, int argc, char** argv) {
+  Options options;
   for (int i = 3; i < argc;) {
     const std::string kind = argv[i];
     if (kind == "event" && i + 2 < argc) {
@@ -101,13 +119,16 @@ std::vector<std::string> enable(TracefsInstance& instance, int argc, char** argv
       instance.enable_syscall(argv[i + 1]);
       i += 2;
     } else if (kind == "context" && i + 1 < argc) {
-      context_fields.emplace_back(argv[i + 1]);
+      options.context_fields.emplace_back(argv[i + 1]);
       i += 2;
+    } else if (kind == "snapshots") {
+      options.snapshots = true;
+      i += 1;
     } else {
       throw KernelTraceError("launch-kernel-recorder: bad arguments");
     }
   }
-  return context_fields;
+  return options;
 }
 
 void say(const std::string& text) {
@@ -119,10 +140,16 @@ void say(const std::string& text) {
 }
 
 // Whoever waits for a change watches the directory.
-void tell_state(const fs::path& beside, const char* state) {
+void tell_state(const fs::path& beside, const std::string& state) {
   const fs::path next = beside / "kernel-recorder.next";
   std::ofstream(next) << getpid() << " " << state << "\n";
   fs::rename(next, beside / "kernel-recorder.pid");
+}
+
+void tell_end(const fs::path& beside, std::uint64_t events, std::uint64_t lost_events, std::uint64_t bytes) {
+  std::ofstream(beside / "kernel-recorder.json")
+      << fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n", events, lost_events, bytes);
+  fs::remove(beside / "kernel-recorder.pid");
 }
 
 int next_signal(int signals) {
@@ -171,10 +198,72 @@ void record(TracefsInstance& instance, const fs::path& directory, const std::vec
     }
   }
   stop_and_write();
-  std::ofstream(beside / "kernel-recorder.json")
-      << fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n", writer.events(), writer.lost_events(),
-                     writer.bytes());
-  fs::remove(beside / "kernel-recorder.pid");
+  tell_end(beside, writer.events(), writer.lost_events(), writer.bytes());
+}
+
+struct Request {
+  fs::path snapshot;
+  bool clear = false;
+};
+
+Request requested(const fs::path& beside) {
+  std::ifstream file(beside / "kernel-recorder.request");
+  std::string directory, what;
+  std::getline(file, directory);
+  std::getline(file, what);
+  return {directory, what == "clear"};
+}
+
+// What threads are is learnt from the snapshot's own events: what is older is overwritten, and /proc knows the rest.
+void write_snapshot(const fs::path& directory, const PageHistory& history, const std::vector<EventFormat>& formats,
+                    const std::vector<std::string>& context_fields, ThreadTable threads) {
+  fs::create_directories(directory / "kernel");
+  CtfWriter writer(directory / "kernel", formats, context_fields, threads);
+  for (const auto& [cpu, processor] : history.processors()) {
+    for (const PageHistory::Page& page : processor.pages) learn(threads, page);
+  }
+  for (const auto& [cpu, processor] : history.processors()) {
+    for (const PageHistory::Page& page : processor.pages) writer.write_page(cpu, page);
+  }
+  writer.write_metadata(clock_beside(directory / "ust"));
+}
+
+void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside,
+                        const std::vector<std::string>& context_fields, int signals) {
+  fs::create_directories(beside);
+  instance.keep_newest();
+  const ThreadTable no_threads(instance.watch_event("task/task_newtask"), instance.watch_event("task/task_rename"));
+  const std::vector<EventFormat> formats = instance.formats();
+  const std::vector<RingBuffer> buffers = open_buffers(instance);
+  PageHistory history(TracefsInstance::kBufferBytes);
+  instance.start();
+  tell_state(beside, "recording");
+  say("ready\n");
+
+  for (bool ended = false; !ended;) {
+    const int signal = next_signal(signals);
+    if (signal == SIGRTMIN) {
+      const auto [snapshot, clear] = requested(beside);
+      try {
+        read_buffers(buffers, [&](unsigned cpu, PageHistory::Page page) { history.add(cpu, std::move(page)); });
+        write_snapshot(snapshot, history, formats, context_fields, no_threads);
+        if (clear) history.clear();
+        tell_state(beside, snapshot.filename());
+      } catch (const std::exception& error) {
+        tell_state(beside, fmt::format("failed {}: {}", snapshot.filename().string(), error.what()));
+      }
+    } else if (signal == SIGUSR1) {
+      instance.stop();
+      tell_state(beside, "paused");
+    } else if (signal == SIGUSR2) {
+      instance.start();
+      tell_state(beside, "recording");
+    } else {
+      ended = true;
+    }
+  }
+  fs::remove(beside / "kernel-recorder.request");
+  tell_end(beside, 0, 0, 0);  // a snapshot has lost what is older, by design
 }
 
 }  // namespace
@@ -184,8 +273,13 @@ int main(int argc, char** argv) {
   const int signals = control_signals();
   try {
     TracefsInstance instance(argv[1]);
-    const std::vector<std::string> context_fields = enable(instance, argc, argv);
-    record(instance, argv[2], context_fields, signals);
+    const Options options = enable(instance, argc, argv);
+    const fs::path directory = argv[2];
+    if (options.snapshots) {
+      keep_for_snapshots(instance, directory.parent_path(), options.context_fields, signals);
+    } else {
+      record(instance, directory, options.context_fields, signals);
+    }
     return 0;
   } catch (const KernelTraceError& error) {
     say(fmt::format("error: {}\n{}", error.what(),

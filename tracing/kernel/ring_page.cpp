@@ -76,4 +76,12 @@ RingPage read_ring_page(std::span<const std::uint8_t> page,
   return read;
 }
 
+bool forget_lost_records(std::span<std::uint8_t> page) {
+  auto commit = load<std::uint64_t>(page, 8);
+  if (page.size() < kHeaderSize || (commit & kMissedEvents) == 0) return false;
+  commit &= ~(kMissedEvents | kMissedStored);
+  std::memcpy(page.data() + 8, &commit, sizeof commit);
+  return true;
+}
+
 }  // namespace tracing::kernel

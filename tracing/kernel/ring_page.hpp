@@ -18,4 +18,7 @@ struct RingPage {
 RingPage read_ring_page(std::span<const std::uint8_t> page,
                         const std::function<void(std::uint64_t time, std::span<const std::uint8_t> record)>& record);
 
+// Takes what the page says of records that were lost before it out of it. Returns whether there were some.
+bool forget_lost_records(std::span<std::uint8_t> page);
+
 }  // namespace tracing::kernel

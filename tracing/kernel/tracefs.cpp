@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kMountPoint = "/sys/kernel/tracing";
 constexpr const char* kOldMountPoint = "/sys/kernel/debug/tracing";
 constexpr const char* kPrivilege = "run as root: the kernel's tracer is nobody else's";
-constexpr const char* kBufferKilobytes = "4096";  // for each processor
-constexpr const char* kReadAtPercent = "10";      // of the buffer filled a reader is woken
+constexpr const char* kReadAtPercent = "10";  // of the buffer filled a reader is woken
 
 bool is_tracefs(const fs::path& directory) {
   std::error_code ignored;
@@ -66,7 +65,7 @@ TracefsInstance::TracefsInstance(const std::string& name) {
   try {
     write("tracing_on", "0");
     write("trace_clock", "mono");  // CLOCK_MONOTONIC, as LTTng's
-    write("buffer_size_kb", kBufferKilobytes);
+    write("buffer_size_kb", std::to_string(kBufferBytes / 1024));
     std::ofstream(directory_ / "buffer_percent") << kReadAtPercent;  // since Linux 5.0
   } catch (const KernelTraceError&) {
     fs::remove(directory_, error);
@@ -145,6 +144,10 @@ std::vector<EventFormat> TracefsInstance::formats() const {
   std::vector<EventFormat> formats;
   for (const fs::path& event : enabled_) formats.push_back(parse_event_format(read_file(event / "format")));
   return formats;
+}
+
+void TracefsInstance::keep_newest() {
+  write("options/overwrite", "1");
 }
 
 void TracefsInstance::start() {

@@ -24,6 +24,8 @@ class KernelTraceError : public std::runtime_error {
 
 class TracefsInstance {
  public:
+  static constexpr std::size_t kBufferBytes = std::size_t{4} << 20;  // for each processor
+
   // Mounts tracefs in a mount namespace of this process where it isn't mounted. All throw KernelTraceError.
   explicit TracefsInstance(const std::string& name);
   ~TracefsInstance();  // removes it
@@ -39,6 +41,9 @@ class TracefsInstance {
   EventFormat watch_event(const std::string& path);
   // What has been enabled, each once.
   std::vector<EventFormat> formats() const;
+
+  // When the buffers are full the oldest events are overwritten.
+  void keep_newest();
 
   void start();
   void stop();

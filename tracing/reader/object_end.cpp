@@ -11,7 +11,7 @@ namespace {
 
 std::optional<ObjectEnd::Kind> kind_of(std::string_view event) {
   using Kind = ObjectEnd::Kind;
-  static constexpr std::array<std::pair<std::string_view, Kind>, 9> kKinds{{
+  static constexpr std::array<std::pair<std::string_view, Kind>, 12> kKinds{{
       {"ros2_ext:rcl_node_fini", Kind::kRclNode},
       {"ros2_ext:rmw_publisher_fini", Kind::kRmwPublisher},
       {"ros2_ext:rcl_publisher_fini", Kind::kRclPublisher},
@@ -19,6 +19,9 @@ std::optional<ObjectEnd::Kind> kind_of(std::string_view event) {
       {"ros2_ext:rcl_subscription_fini", Kind::kRclSubscription},
       {"ros2_ext:rclcpp_subscription_fini", Kind::kRclcppSubscription},
       {"ros2_ext:rcl_service_fini", Kind::kRclService},
+      {"ros2_ext:rmw_service_fini", Kind::kRmwService},
+      {"ros2_ext:rcl_client_fini", Kind::kRclClient},
+      {"ros2_ext:rmw_client_fini", Kind::kRmwClient},
       {"ros2_ext:rcl_timer_fini", Kind::kRclTimer},
       {"ros2_ext:rclcpp_callback_fini", Kind::kRclcppCallback},
   }};

@@ -22,6 +22,9 @@ struct ObjectEnd {
     kRclSubscription,
     kRclcppSubscription,
     kRclService,
+    kRmwService,
+    kRclClient,
+    kRmwClient,
     kRclTimer,
     kRclcppCallback,
   };

@@ -35,6 +35,8 @@ const char* owner_name(CallbackResult::Owner owner) {
       return "timer";
     case CallbackResult::Owner::kService:
       return "service";
+    case CallbackResult::Owner::kClient:
+      return "client";
     case CallbackResult::Owner::kUnknown:
       return "unknown";
   }
@@ -44,7 +46,9 @@ const char* owner_name(CallbackResult::Owner owner) {
 Json callback(const CallbackResult& result) {
   Json json{{"vpid", result.vpid}, {"node", result.node}, {"owner", owner_name(result.owner)}};
   if (result.owner == CallbackResult::Owner::kSubscription) json["topic"] = result.owner_name;
-  if (result.owner == CallbackResult::Owner::kService) json["service"] = result.owner_name;
+  const bool of_service =
+      result.owner == CallbackResult::Owner::kService || result.owner == CallbackResult::Owner::kClient;
+  if (of_service) json["service"] = result.owner_name;
   if (result.owner == CallbackResult::Owner::kTimer) json["period_ns"] = result.period_ns;
   json["address"] = result.address;
   json["symbol"] = result.symbol;
@@ -63,6 +67,38 @@ Json topic(const TopicResult& result) {
           {"published_only", result.published_only},
           {"received_only", result.received_only},
           {"latency", durations(result.latency)}};
+}
+
+Json call(const CallResult& result) {
+  return {{"service", result.service},
+          {"client_vpid", optional(result.client_vpid)},
+          {"client", result.client},
+          {"server_vpid", optional(result.server_vpid)},
+          {"server", result.server},
+          {"requests", result.requests},
+          {"responses", result.responses},
+          {"round_trip", durations(result.round_trip)},
+          {"request", durations(result.request)},
+          {"in_service", durations(result.in_service)},
+          {"response", durations(result.response)}};
+}
+
+Json execution(const ExecutionResult& result) {
+  Json json{{"vpid", result.vpid}, {"node", result.node}};
+  switch (result.kind) {
+    case ExecutionResult::Kind::kService:
+    case ExecutionResult::Kind::kClient:
+      json["kind"] = result.kind == ExecutionResult::Kind::kService ? "service" : "client";
+      json["service"] = result.service;
+      break;
+    case ExecutionResult::Kind::kWaitable:
+      json["kind"] = "waitable";
+      json["address"] = result.address;
+      break;
+  }
+  json["count"] = result.count;
+  json["duration"] = durations(result.durations);
+  return json;
 }
 
 Json processes(const TraceOverview& overview) {
@@ -84,6 +120,20 @@ Json event_counts(const TraceOverview& overview) {
   return list;
 }
 
+Json process_starts(const std::vector<StartResult>& starts) {
+  Json list = Json::array();
+  for (const StartResult& start : starts) {
+    list.push_back({{"vpid", start.vpid},
+                    {"process", start.process},
+                    {"file", start.file},
+                    {"line", start.line},
+                    {"exec_ns", start.exec_ns},
+                    {"node_after_ns", optional(start.node_after_ns)},
+                    {"ready_after_ns", optional(start.ready_after_ns)}});
+  }
+  return list;
+}
+
 Json losses(const TraceOverview& overview) {
   Json list = Json::array();
   for (const LossResult& loss : overview.losses) {
@@ -101,7 +151,7 @@ Json losses(const TraceOverview& overview) {
 }  // namespace
 
 std::string json_report(const Report& report) {
-  const auto& [overview, ros2, warnings] = report.results;
+  const auto& [overview, starts, ros2, warnings] = report.results;
   Json json{{"version", 1},
             {"directory", report.directory.string()},
             {"error", report.error.empty() ? Json(nullptr) : Json(report.error)},
@@ -109,12 +159,17 @@ std::string json_report(const Report& report) {
             {"end_ns", optional(overview.end_ns)},
             {"events", overview.events},
             {"processes", processes(overview)},
+            {"starts", process_starts(starts)},
             {"losses", losses(overview)},
             {"event_counts", event_counts(overview)},
             {"callbacks", Json::array()},
-            {"topics", Json::array()}};
+            {"topics", Json::array()},
+            {"calls", Json::array()},
+            {"executions", Json::array()}};
   for (const CallbackResult& result : ros2.callbacks) json["callbacks"].push_back(callback(result));
   for (const TopicResult& result : ros2.topics) json["topics"].push_back(topic(result));
+  for (const CallResult& result : ros2.calls) json["calls"].push_back(call(result));
+  for (const ExecutionResult& result : ros2.executions) json["executions"].push_back(execution(result));
   json["internal_messages"] = ros2.internal_messages;
   json["unknown_messages"] = ros2.unknown_messages;
   json["lacks_thread_context"] = ros2.lacks_thread_context;

@@ -82,12 +82,29 @@ std::string event_section(const TraceOverview& overview) {
   return text;
 }
 
+std::string start_section(const std::vector<StartResult>& starts) {
+  if (starts.empty()) return "";
+  const TextTable table(56, {12, 12});
+  std::string text = "\n" + table.row("Start of processes", {"first node", "ready"});
+  const auto cell = [](const std::optional<std::int64_t>& after) {
+    return after ? format_duration(static_cast<double>(*after)) : std::string("-");
+  };
+  for (const StartResult& start : starts) {
+    text += table.row(fmt::format("  {} [{}]", start.process, start.vpid),
+                      {cell(start.node_after_ns), cell(start.ready_after_ns)});
+  }
+  return text + "  (after exec; ready: an executor looks for work)\n";
+}
+
 std::string owner_label(const CallbackResult& callback) {
   switch (callback.owner) {
     case CallbackResult::Owner::kSubscription:
       return "subscription " + callback.owner_name;
     case CallbackResult::Owner::kService:
       return "service " + callback.owner_name;
+    case CallbackResult::Owner::kClient:
+      return callback.owner_name.empty() ? fmt::format("client {:#x}", callback.address)
+                                         : "client of " + callback.owner_name;
     case CallbackResult::Owner::kTimer:
       return "timer " + format_duration(static_cast<double>(callback.period_ns));
     case CallbackResult::Owner::kUnknown:
@@ -96,34 +113,42 @@ std::string owner_label(const CallbackResult& callback) {
   return "";
 }
 
-std::string node_label(const CallbackResult& callback, const TraceOverview& overview) {
-  const auto process =
-      std::find_if(overview.processes.begin(), overview.processes.end(),
-                   [&](const ProcessResult& candidate) { return candidate.vpid.value_or(0) == callback.vpid; });
+std::string node_label(const std::string& node, std::int64_t vpid, const TraceOverview& overview) {
+  const auto process = std::find_if(overview.processes.begin(), overview.processes.end(),
+                                    [&](const ProcessResult& candidate) { return candidate.vpid.value_or(0) == vpid; });
   const std::string label = process == overview.processes.end() ? "?" : process_label(*process);
-  return callback.node.empty() ? fmt::format("node unknown, {}", label) : fmt::format("{}, {}", callback.node, label);
+  return node.empty() ? fmt::format("node unknown, {}", label) : fmt::format("{}, {}", node, label);
+}
+
+// The columns of durations, after a label: their titles, and the cells of one.
+TextTable duration_table() {
+  constexpr std::size_t kDuration = 8;
+  return {36, {8, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration}};
+}
+
+const std::vector<std::string> kDurationTitles{"count", "mean", "stddev", "min", "p50", "p90", "p99", "max"};
+
+std::vector<std::string> duration_cells(const DurationSummary& took) {
+  std::vector<std::string> cells{fmt::format("{}", took.count)};
+  if (took.count == 0) return cells;
+  cells.push_back(format_duration(took.mean_ns));
+  cells.push_back(took.count == 1 ? "-" : format_duration(took.stddev_ns));
+  for (const std::int64_t value : {took.min_ns, took.p50_ns, took.p90_ns, took.p99_ns, took.max_ns}) {
+    cells.push_back(format_duration(static_cast<double>(value)));
+  }
+  return cells;
 }
 
 std::string callback_section(const TraceResults& results) {
   if (results.ros2.callbacks.empty()) return "";
-  constexpr std::size_t kDuration = 8;
-  const TextTable table(36, {8, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
-  std::string text = "\n" + table.row("Callbacks", {"count", "mean", "stddev", "min", "p50", "p90", "p99", "max"});
+  const TextTable table = duration_table();
+  std::string text = "\n" + table.row("Callbacks", kDurationTitles);
   std::string last_node;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    const std::string node = node_label(callback, results.overview);
+    const std::string node = node_label(callback.node, callback.vpid, results.overview);
     if (node != last_node) text += fmt::format("{}\n", node);
     last_node = node;
-    const DurationSummary& took = callback.durations;
-    std::vector<std::string> cells{fmt::format("{}", took.count)};
-    if (took.count > 0) {
-      cells.push_back(format_duration(took.mean_ns));
-      cells.push_back(took.count == 1 ? "-" : format_duration(took.stddev_ns));
-      for (const std::int64_t value : {took.min_ns, took.p50_ns, took.p90_ns, took.p99_ns, took.max_ns}) {
-        cells.push_back(format_duration(static_cast<double>(value)));
-      }
-    }
-    text += table.row("  " + owner_label(callback), cells);
+    text += table.row("  " + owner_label(callback), duration_cells(callback.durations));
     if (!callback.symbol.empty()) text += fmt::format("    {}\n", callback.symbol);
     if (callback.intra_process > 0) text += fmt::format("    {} of them intra-process\n", callback.intra_process);
     if (callback.unfinished > 0) text += fmt::format("    {} more without an end\n", callback.unfinished);
@@ -167,6 +192,55 @@ std::string topic_section(const Ros2Results& ros2) {
          fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
 }
 
+std::string call_section(const Ros2Results& ros2) {
+  if (ros2.calls.empty()) return "";
+  const TextTable table = duration_table();
+  std::string text = "\n" + table.row("Services", kDurationTitles);
+  for (const CallResult& call : ros2.calls) {
+    const auto name = [](const std::string& node, const std::optional<std::int64_t>& vpid) {
+      return vpid ? node : std::string("unknown");
+    };
+    text += fmt::format("{}, {} asks {}\n", call.service, name(call.client, call.client_vpid),
+                        name(call.server, call.server_vpid));
+    text += table.row("  round trip", duration_cells(call.round_trip));
+    text += table.row("    way to the service", duration_cells(call.request));
+    text += table.row("    in the service", duration_cells(call.in_service));
+    text += table.row("    way back", duration_cells(call.response));
+    if (call.responses < call.requests) {
+      text += fmt::format("    {} without a response\n", format_count(call.requests - call.responses, "request"));
+    }
+  }
+  return text + "  (from rmw_send_request to rmw_take_response; in the service: from rmw_take_request on)\n";
+}
+
+std::string execution_label(const ExecutionResult& execution) {
+  switch (execution.kind) {
+    case ExecutionResult::Kind::kService:
+      return execution.node.empty() ? fmt::format("service {:#x}", execution.address) : "service " + execution.service;
+    case ExecutionResult::Kind::kClient:
+      return execution.node.empty() ? fmt::format("client {:#x}", execution.address) : "client of " + execution.service;
+    case ExecutionResult::Kind::kWaitable:
+      return fmt::format("waitable {:#x}", execution.address);
+  }
+  return "";
+}
+
+std::string execution_section(const TraceResults& results) {
+  if (results.ros2.executions.empty()) return "";
+  const TextTable table = duration_table();
+  std::string text = "\n" + table.row("Served by executors", kDurationTitles);
+  std::string last_node;
+  for (const ExecutionResult& execution : results.ros2.executions) {
+    const std::string node = node_label(execution.node, execution.vpid, results.overview);
+    if (node != last_node) text += fmt::format("{}\n", node);
+    last_node = node;
+    std::vector<std::string> cells = duration_cells(execution.durations);
+    cells.front() = fmt::format("{}", execution.count);
+    text += table.row("  " + execution_label(execution), cells);
+  }
+  return text + "  (until the response is sent, or the client's callback has ended)\n";
+}
+
 std::string notes(const TraceResults& results) {
   std::string text;
   const auto note = [&text](const std::string& sentence) { text += fmt::format("  {}\n", sentence); };
@@ -182,7 +256,9 @@ std::string notes(const TraceResults& results) {
   if (std::any_of(ros2.callbacks.begin(), ros2.callbacks.end(),
                   [&](const CallbackResult& callback) { return estimated(callback.durations); }) ||
       std::any_of(ros2.topics.begin(), ros2.topics.end(),
-                  [&](const TopicResult& topic) { return estimated(topic.latency); })) {
+                  [&](const TopicResult& topic) { return estimated(topic.latency); }) ||
+      std::any_of(ros2.calls.begin(), ros2.calls.end(),
+                  [&](const CallResult& call) { return estimated(call.round_trip) || estimated(call.request); })) {
     note(fmt::format("Percentiles of more than {} values are estimates from a random sample.",
                      DurationStatistics::kKept));
   }
@@ -196,7 +272,8 @@ std::string notes(const TraceResults& results) {
 
 std::string text_report(const Report& report) {
   return trace_section(report) + loss_section(report) + event_section(report.results.overview) +
-         callback_section(report.results) + topic_section(report.results.ros2) + notes(report.results);
+         start_section(report.results.starts) + callback_section(report.results) + topic_section(report.results.ros2) +
+         call_section(report.results.ros2) + execution_section(report.results) + notes(report.results);
 }
 
 }  // namespace tracing

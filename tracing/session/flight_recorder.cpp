@@ -1,7 +1,6 @@
 #include "tracing/session/flight_recorder.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "tracing/session/snapshot.hpp"
@@ -12,29 +11,6 @@ namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
-
-// LTTng numbers the snapshots of a session in their names: snapshot-20261121-190000-17.
-long number_of(const fs::path& snapshot) {
-  const std::string name = snapshot.filename();
-  const std::size_t digits = name.rfind('-') + 1;
-  long number = -1;
-  std::from_chars(name.data() + digits, name.data() + name.size(), number);
-  return number;
-}
-
-// From the oldest to the newest.
-std::vector<fs::path> snapshots_in(const fs::path& directory) {
-  std::vector<fs::path> snapshots;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory, none)) {
-    if (entry.path().filename().string().starts_with(std::string(kSnapshotName) + "-")) {
-      snapshots.push_back(entry.path());
-    }
-  }
-  std::sort(snapshots.begin(), snapshots.end(),
-            [](const fs::path& a, const fs::path& b) { return number_of(a) < number_of(b); });
-  return snapshots;
-}
 
 }  // namespace
 

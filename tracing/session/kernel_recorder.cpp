@@ -29,8 +29,9 @@ constexpr const char* kChannel = "kernel";
 constexpr int kLongestEnd = 30'000;  // ms
 
 std::vector<std::string> arguments_of(const fs::path& program, const std::string& session, const fs::path& recording,
-                                      const std::vector<ChannelPlan>& plans) {
+                                      const std::vector<ChannelPlan>& plans, KernelRecording what) {
   std::vector<std::string> arguments = {program.string(), "launch-" + session, (recording / kFolder).string()};
+  if (what == KernelRecording::kSnapshots) arguments.emplace_back("snapshots");
   std::set<std::string> fields;  // of all channels: they go into one
   for (const ChannelPlan& plan : plans) {
     if (plan.domain != LTTNG_DOMAIN_KERNEL) continue;
@@ -89,11 +90,14 @@ constexpr std::array<std::string_view, 5> kFields = {"procname", "pid", "tid", "
 struct Recorder {
   pid_t pid = 0;  // 0: none
   std::string state;
+  std::string reason;  // of state "failed"
 };
 
 Recorder recorder_of(const fs::path& recording) {
   Recorder recorder;
-  std::ifstream(recording / "kernel-recorder.pid") >> recorder.pid >> recorder.state;
+  std::ifstream file(recording / "kernel-recorder.pid");
+  file >> recorder.pid >> recorder.state >> std::ws;
+  std::getline(file, recorder.reason);
   return recorder;
 }
 
@@ -103,9 +107,17 @@ void bring_to(const std::string& state, int signal, const fs::path& recording) {
   if (recorder.pid <= 0 || recorder.state == state) return;
   const int changes = inotify_init1(IN_CLOEXEC);
   inotify_add_watch(changes, recording.c_str(), IN_MOVED_TO);
-  kill(recorder.pid, signal);
+  if (kill(recorder.pid, signal) != 0) {
+    close(changes);
+    throw TraceError(fmt::format("the kernel recorder (process {}) is gone", recorder.pid),
+                     "kernel events are recorded again by another session");
+  }
   pollfd change{changes, POLLIN, 0};
-  while (recorder_of(recording).state != state) {
+  for (Recorder now; (now = recorder_of(recording)).state != state;) {
+    if (now.state == "failed" && now.reason != recorder.reason) {
+      close(changes);
+      throw TraceError(fmt::format("the kernel recorder cannot write a snapshot: {}", now.reason));
+    }
     const int ready = poll(&change, 1, kLongestEnd);
     std::array<char, 4096> event{};
     if (ready > 0 && read(changes, event.data(), event.size()) > 0) continue;
@@ -140,9 +152,15 @@ void resume_kernel_recorder(const fs::path& recording) {
   bring_to("recording", SIGUSR2, recording);
 }
 
+void take_kernel_snapshot(const fs::path& recording, const fs::path& snapshot, bool clear) {
+  if (recorder_of(recording).pid <= 0) return;
+  std::ofstream(recording / "kernel-recorder.request") << snapshot.string() << "\n" << (clear ? "clear\n" : "keep\n");
+  bring_to(snapshot.filename(), SIGRTMIN, recording);
+}
+
 void start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
-                           const std::vector<ChannelPlan>& plans) {
-  const std::string said = start_and_listen(arguments_of(program, session, recording, plans));
+                           const std::vector<ChannelPlan>& plans, KernelRecording what) {
+  const std::string said = start_and_listen(arguments_of(program, session, recording, plans, what));
   if (said.starts_with("ready")) return;
   const std::string reason = line_after(said, "error: ");
   throw TraceError(

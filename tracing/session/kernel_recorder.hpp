@@ -13,10 +13,19 @@ namespace tracing {
 
 inline constexpr const char* kKernelRecorder = "launch-kernel-recorder";
 
-// Starts it for the kernel channels of `plans`, writing to `recording`/kernel. Returns when it records. Throws
-// TraceError.
+enum class KernelRecording {
+  kEverything,  // into `recording`/kernel
+  kSnapshots,   // the newest events are kept for take_kernel_snapshot()
+};
+
+// Starts it for the kernel channels of `plans`. Returns when it records. Throws TraceError.
 void start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
-                           const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans);
+                           const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans,
+                           KernelRecording what);
+
+// Writes what the recorder of `recording` has kept beside what the snapshot has of userspace; with `clear` the next
+// snapshot begins after this one. Nothing happens when none runs there. Throws TraceError.
+void take_kernel_snapshot(const std::filesystem::path& recording, const std::filesystem::path& snapshot, bool clear);
 
 // What keeps these kernel channels from being recorded this way: a context field that tracefs does not tell. Throws
 // TraceError.

@@ -209,6 +209,13 @@ void judge(LossAccount& losses, const std::string& name, const std::string& dire
   }
 }
 
+// Where the kernel recorder of a session runs: beside what is recorded, or beside the snapshots.
+std::string recorder_directory(const std::string& name) {
+  if (const auto snapshots = snapshot_directory(name)) return *snapshots;
+  const std::optional<SessionSummary> session = find_session(name);
+  return session ? session->path : "";
+}
+
 class LttngTracer : public Tracer {
  public:
   SetupReport start(const TraceConfig& config) override;
@@ -243,9 +250,8 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
   try {
     check_kernel_tracer();
   } catch (const TraceError& error) {
-    // Snapshots and relay daemons are LTTng's own.
-    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.records_snapshots() || config.over_network())
-      throw;
+    // Relay daemons are LTTng's own.
+    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.over_network()) throw;
     why = error.what();
   }
   if (why.empty()) {
@@ -305,9 +311,9 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
   check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
   timer.finished("start");
   if (!through_tracefs.empty()) {
-    const std::optional<SessionSummary> created = find_session(session_name);
-    start_kernel_recorder(*installed_program(kKernelRecorder), session_name, created ? created->path : "",
-                          through_tracefs);
+    start_kernel_recorder(*installed_program(kKernelRecorder), session_name, recorder_directory(session_name),
+                          through_tracefs,
+                          config.records_snapshots() ? KernelRecording::kSnapshots : KernelRecording::kEverything);
     timer.finished("kernel recorder");
   }
   report.notes = prefer_consumers(session_daemon_pid());
@@ -326,7 +332,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   std::string kernel_failure;
   if (session) {
     try {
-      kernel = finish_kernel_recorder(session->path);
+      kernel = finish_kernel_recorder(recorder_directory(name));
     } catch (const TraceError& error) {
       kernel_failure = error.what();
     }
@@ -337,7 +343,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   }
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
-  if (kernel) losses.channels.push_back(*kernel);
+  if (kernel && !session->snapshot) losses.channels.push_back(*kernel);
   const bool hurried = losses.cut_short || (give_up && give_up());
   // The first session on a machine takes some 30 ms longer to end: the measurement. It disturbs nobody then.
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
@@ -350,12 +356,12 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
 void LttngTracer::pause(const std::string& name) {
   // Waits for the data: whoever pauses wants to look at the trace.
   check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
-  if (const auto session = find_session(name)) pause_kernel_recorder(session->path);
+  pause_kernel_recorder(recorder_directory(name));
 }
 
 void LttngTracer::resume(const std::string& name) {
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
-  if (const auto session = find_session(name)) resume_kernel_recorder(session->path);
+  resume_kernel_recorder(recorder_directory(name));
 }
 
 void LttngTracer::record_snapshot(const std::string& name) {

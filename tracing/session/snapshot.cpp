@@ -5,12 +5,16 @@
 #include <sys/sysinfo.h>
 
 #include <algorithm>
+#include <charconv>
 #include <memory>
 
+#include "tracing/session/kernel_recorder.hpp"
 #include "tracing/session/lttng_error.hpp"
 
 namespace tracing {
 namespace {
+
+namespace fs = std::filesystem;
 
 // In sub-buffers of the userspace channel: ten as in ros2_tracing, or all where there are more processors than that is
 // enough for. LTTng refuses less than one for each.
@@ -19,6 +23,24 @@ std::uint64_t largest_snapshot(const TraceConfig& config) {
 }
 
 constexpr int kWaitForever = -1;
+
+// LTTng numbers the snapshots of a session in their names: snapshot-20261121-190000-17.
+long number_of(const fs::path& snapshot) {
+  const std::string name = snapshot.filename();
+  const std::size_t digits = name.rfind('-') + 1;
+  long number = -1;
+  std::from_chars(name.data() + digits, name.data() + name.size(), number);
+  return number;
+}
+
+// After LTTng's, into the newest snapshot: it holds what comes before the reason for both.
+void record(const std::string& name, bool clear) {
+  check_lttng(lttng_snapshot_record(name.c_str(), nullptr, 0), fmt::format("record a snapshot of session '{}'", name));
+  const std::optional<fs::path> directory = snapshot_directory(name);
+  if (!directory) return;
+  const std::vector<fs::path> snapshots = snapshots_in(*directory);
+  if (!snapshots.empty()) take_kernel_snapshot(*directory, snapshots.back(), clear);
+}
 
 }  // namespace
 
@@ -40,12 +62,39 @@ void add_snapshot_output(const TraceConfig& config) {
   check_lttng(lttng_snapshot_add_output(config.lttng_session_name().c_str(), output.get()), doing);
 }
 
+std::optional<fs::path> snapshot_directory(const std::string& name) {
+  lttng_snapshot_output_list* listed = nullptr;
+  if (lttng_snapshot_list_output(name.c_str(), &listed) != 0) return std::nullopt;
+  const std::unique_ptr<lttng_snapshot_output_list, decltype(&lttng_snapshot_output_list_destroy)> outputs(
+      listed, &lttng_snapshot_output_list_destroy);
+  const lttng_snapshot_output* const output = lttng_snapshot_output_list_get_next(outputs.get());
+  if (output == nullptr) return std::nullopt;
+  const std::string url = lttng_snapshot_output_get_ctrl_url(output);
+  if (url.starts_with('/')) return url;
+  constexpr std::string_view kFile = "file://";
+  if (url.starts_with(kFile)) return url.substr(kFile.size());
+  return std::nullopt;
+}
+
+std::vector<fs::path> snapshots_in(const fs::path& directory) {
+  std::vector<fs::path> snapshots;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, none)) {
+    if (entry.path().filename().string().starts_with(std::string(kSnapshotName) + "-")) {
+      snapshots.push_back(entry.path());
+    }
+  }
+  std::sort(snapshots.begin(), snapshots.end(),
+            [](const fs::path& a, const fs::path& b) { return number_of(a) < number_of(b); });
+  return snapshots;
+}
+
 void record_snapshot(const std::string& name) {
-  check_lttng(lttng_snapshot_record(name.c_str(), nullptr, 0), fmt::format("record a snapshot of session '{}'", name));
+  record(name, false);
 }
 
 void record_and_clear(const std::string& name) {
-  record_snapshot(name);
+  record(name, true);
 
   const std::string doing = fmt::format("clear session '{}' after its snapshot", name);
   lttng_clear_handle* started = nullptr;

@@ -7,6 +7,7 @@
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/reader/execution_event.hpp"
 #include "tracing/reader/object_end.hpp"
 #include "tracing/reader/trace_reader.hpp"
 
@@ -133,6 +134,36 @@ TEST(ObjectEndDecoder, KnowsTheEndsOfObjectsByTheirNames) {
   EXPECT_THAT(sink.ends,
               ElementsAre(ros2::ObjectEnd{Kind::kRclNode, kHandle}, ros2::ObjectEnd{Kind::kRclcppCallback, kHandle},
                           std::nullopt, ros2::ObjectEnd{Kind::kRclNode, kHandle}));
+}
+
+TEST(ExecutionEventDecoder, KnowsWhatExecutorsAndClientsDo) {
+  using Kind = ros2::ExecutionEvent::Kind;
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  constexpr const char* kField = "\t\tinteger { size = 64; align = 8; signed = 0; base = 16; } _handle;\n";
+  const std::string handle("\x08\x07\x06\x05\x04\x03\x02\x01", 8);
+  std::int64_t time = 0;
+  for (const char* name : {"ros2_ext:rclcpp_executor_execute_service", "ros2_ext:rclcpp_executor_execute_client",
+                           "ros2_ext:rclcpp_executor_execute_waitable", "ros2_ext:rclcpp_client_callback_start",
+                           "ros2_ext:rclcpp_client_callback_end", "ros2_ext:rcl_node_fini"}) {
+    writer.write_raw(0, ++time, kThread, writer.declare(name, kField), handle);
+  }
+  writer.finish();
+
+  class Sink : public TraceSink {
+   public:
+    void on_event(const Event& event) override { events.push_back(decoder.decode(event)); }
+    void on_loss(const Loss&) override {}
+    ros2::ExecutionEventDecoder decoder;
+    std::vector<std::optional<ros2::ExecutionEvent>> events;
+  } sink;
+  TraceReader(directory.path()).read(sink);
+
+  constexpr ros2::Handle kHandle = 0x0102030405060708;
+  using Decoded = ros2::ExecutionEvent;
+  EXPECT_THAT(sink.events, ElementsAre(Decoded{Kind::kService, kHandle}, Decoded{Kind::kClient, kHandle},
+                                       Decoded{Kind::kWaitable, kHandle}, Decoded{Kind::kClientCallbackStart, kHandle},
+                                       Decoded{Kind::kClientCallbackEnd, kHandle}, std::nullopt));
 }
 
 std::string bytes(std::initializer_list<std::uint64_t> values) {

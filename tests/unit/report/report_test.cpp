@@ -118,7 +118,37 @@ Report report_with_results() {
   subscription.durations = {70'000, 1'500.0, 250.0, 1'000, 99'000'000, 1'400, 2'000, 3'000, false};
   subscription.intra_process = 5;
   subscription.unfinished = 0;
+  report.results.starts = {{71, "ping-1", "a.launch.xml", 3, kBegin, 12'000'000, 20'000'000},
+                           {72, "sh-2", "a.launch.xml", 4, kBegin, std::nullopt, std::nullopt}};
   report.results.ros2.callbacks = {callback, subscription};
+  CallbackResult client = callback;
+  client.node = "/ns/node";
+  client.owner = CallbackResult::Owner::kClient;
+  client.owner_name = "/add";
+  client.durations = {1, 1'000.0, 0.0, 1'000, 1'000, 1'000, 1'000, 1'000, true};
+  client.unfinished = 0;
+  report.results.ros2.callbacks.push_back(client);
+  CallResult call;
+  call.service = "/add";
+  call.client_vpid = 71;
+  call.client = "/ns/node";
+  call.requests = 2;
+  call.responses = 1;
+  call.round_trip = {1, 3'000.0, 0.0, 3'000, 3'000, 3'000, 3'000, 3'000, true};
+  report.results.ros2.calls = {call};
+  ExecutionResult served;
+  served.vpid = 71;
+  served.kind = ExecutionResult::Kind::kClient;
+  served.node = "/ns/node";
+  served.service = "/add";
+  served.count = 2;
+  served.durations = {1, 2'000.0, 0.0, 2'000, 2'000, 2'000, 2'000, 2'000, true};
+  ExecutionResult waitable;
+  waitable.vpid = 71;
+  waitable.kind = ExecutionResult::Kind::kWaitable;
+  waitable.address = 0xabc;
+  waitable.count = 7;
+  report.results.ros2.executions = {served, waitable};
   TopicResult topic;
   topic.name = "/camera/front/image_raw/compressed";
   topic.published = 70'010;
@@ -144,6 +174,11 @@ Losses     no events lost
 
 Events by process                              total  ping [71]
 
+Start of processes                                        first node       ready
+  ping-1 [71]                                                12.0 ms     20.0 ms
+  sh-2 [72]                                                        -           -
+  (after exec; ready: an executor looks for work)
+
 Callbacks                              count    mean  stddev     min     p50     p90     p99     max
 node unknown, ping [71]
   callback 0xcb                            0
@@ -153,6 +188,7 @@ node unknown, ping [71]
                                        70000 1.50 us  250 ns 1.00 us 1.40 us 2.00 us 3.00 us 99.0 ms
     Node::on_image(Image const&)
     5 of them intra-process
+  client of /add                           1 1.00 us       - 1.00 us 1.00 us 1.00 us 1.00 us 1.00 us
 
 Topics                  published received  untaken    mean     min     p50     p90     p99     max
   /camera/front/image_raw/compressed
@@ -160,6 +196,22 @@ Topics                  published received  untaken    mean     min     p50     
     1 of those received were published outside the trace
   (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)
   (1 topic without messages)
+
+Services                               count    mean  stddev     min     p50     p90     p99     max
+/add, /ns/node asks unknown
+  round trip                               1 3.00 us       - 3.00 us 3.00 us 3.00 us 3.00 us 3.00 us
+    way to the service                     0
+    in the service                         0
+    way back                               0
+    1 request without a response
+  (from rmw_send_request to rmw_take_response; in the service: from rmw_take_request on)
+
+Served by executors                    count    mean  stddev     min     p50     p90     p99     max
+/ns/node, ping [71]
+  client of /add                           2 2.00 us       - 2.00 us 2.00 us 2.00 us 2.00 us 2.00 us
+node unknown, ping [71]
+  waitable 0xabc                           7
+  (until the response is sent, or the client's callback has ended)
 
 Notes
   The session had no context vpid or vtid: processes and threads can't be told apart.
@@ -196,6 +248,21 @@ TEST(JsonReport, HoldsEverything) {
       "topic":"/camera/front/image_raw/compressed","address":203,"symbol":"Node::on_image(Image const&)",
       "duration":{"count":70000,"mean_ns":1500.0,"stddev_ns":250.0,"min_ns":1000,"p50_ns":1400,"p90_ns":2000,
       "p99_ns":3000,"max_ns":99000000,"percentiles_are_exact":false},"intra_process":5,"unfinished":0})json"));
+  EXPECT_EQ(json["starts"][0], nlohmann::json::parse(R"json({"vpid":71,"process":"ping-1","file":"a.launch.xml",
+      "line":3,"exec_ns":1767225600000000000,"node_after_ns":12000000,"ready_after_ns":20000000})json"));
+  EXPECT_EQ(json["starts"][1]["ready_after_ns"], nullptr);
+  EXPECT_EQ(json["callbacks"][2]["owner"], "client");
+  EXPECT_EQ(json["callbacks"][2]["service"], "/add");
+  EXPECT_EQ(json["calls"][0], nlohmann::json::parse(R"json({"service":"/add","client_vpid":71,"client":"/ns/node",
+      "server_vpid":null,"server":"","requests":2,"responses":1,"round_trip":{"count":1,"mean_ns":3000.0,
+      "stddev_ns":0.0,"min_ns":3000,"p50_ns":3000,"p90_ns":3000,"p99_ns":3000,"max_ns":3000,
+      "percentiles_are_exact":true},"request":{"count":0},"in_service":{"count":0},"response":{"count":0}})json"));
+  EXPECT_EQ(json["executions"][0], nlohmann::json::parse(R"json({"vpid":71,"node":"/ns/node","kind":"client",
+      "service":"/add","count":2,"duration":{"count":1,"mean_ns":2000.0,"stddev_ns":0.0,"min_ns":2000,"p50_ns":2000,
+      "p90_ns":2000,"p99_ns":2000,"max_ns":2000,"percentiles_are_exact":true}})json"));
+  EXPECT_EQ(json["executions"][1],
+            nlohmann::json::parse(
+                R"json({"vpid":71,"node":"","kind":"waitable","address":2748,"count":7,"duration":{"count":0}})json"));
   EXPECT_EQ(json["topics"][0]["published_only"], 10);
   EXPECT_EQ(json["topics"][0]["latency"]["p50_ns"], 140'000);
   EXPECT_EQ(json["topics"][1]["latency"], nlohmann::json::parse(R"json({"count":0})json"));

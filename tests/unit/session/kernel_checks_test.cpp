@@ -3,23 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tracing/session/tracer.hpp"
+#include "tests/unit/session/trace_error_text.hpp"
 
 namespace {
 
 using tracing::ChannelPlan;
-using tracing::TraceError;
-
-// "what\nremedy" of the TraceError that `function` throws.
-template <typename Function>
-std::string error_of(Function function) {
-  try {
-    function();
-  } catch (const TraceError& error) {
-    return std::string(error.what()) + "\n" + error.remedy();
-  }
-  return "no error";
-}
+using tracing::testing::error_of;
 
 std::string error_of_names(const std::vector<std::string>& patterns, const std::vector<std::string>& syscalls) {
   ChannelPlan plan{.domain = LTTNG_DOMAIN_KERNEL};

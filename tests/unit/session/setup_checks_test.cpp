@@ -10,27 +10,16 @@
 #include <filesystem>
 
 #include "tests/support/command.hpp"
+#include "tests/unit/session/trace_error_text.hpp"
 #include "tracing/session/channels.hpp"
 #include "tracing/session/context_fields.hpp"
 #include "tracing/session/perf_counters.hpp"
 #include "tracing/session/session_daemon.hpp"
-#include "tracing/session/tracer.hpp"
 
 namespace {
 
 using tracing::TraceConfig;
-using tracing::TraceError;
-
-// "what\nremedy" of the TraceError that `function` throws.
-template <typename Function>
-std::string error_of(Function function) {
-  try {
-    function();
-  } catch (const TraceError& error) {
-    return std::string(error.what()) + "\n" + error.remedy();
-  }
-  return "no error";
-}
+using tracing::testing::error_of;
 
 struct SetupChecks : testing::Test {
   SetupChecks() {

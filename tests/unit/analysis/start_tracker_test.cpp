@@ -1,0 +1,114 @@
+// When processes that the launcher has started had a node and were ready.
+#include "tracing/analysis/start_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/trace_writer/temporary_directory.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/reader/trace_reader.hpp"
+
+namespace tracing {
+namespace {
+
+using testing::TemporaryDirectory;
+using testing::Thread;
+using testing::TraceWriter;
+
+constexpr std::int64_t kEpoch = 1'767'225'600'000'000'000;  // what CLOCK_MONOTONIC's zero is
+constexpr Thread kLauncher{70, 70, "launch"};
+constexpr Thread kTalker{71, 71, "talker"};
+
+class Sink : public TraceSink {
+ public:
+  void on_event(const Event& event) override { tracker.on_event(event); }
+  void on_loss(const Loss&) override {}
+  StartTracker tracker;
+};
+
+class StartOfProcesses : public ::testing::Test {
+ protected:
+  // As liblaunch_trace records it, at `recorded` of what happened at `time`.
+  void exec(std::int64_t recorded, std::int64_t time, const std::string& process, std::int32_t pid) {
+    if (!exec_) {
+      exec_ = writer_.declare("launch:exec",
+                              "\t\tinteger { size = 64; align = 8; signed = 1; } _time;\n\t\tstring _process;\n"
+                              "\t\tinteger { size = 32; align = 8; signed = 1; } _pid;\n\t\tstring _file;\n"
+                              "\t\tinteger { size = 32; align = 8; signed = 0; } _line;\n");
+    }
+    std::string payload;
+    testing::detail::append(payload, time);
+    payload.append(process).push_back('\0');
+    testing::detail::append(payload, pid);
+    payload.append("a.launch.xml").push_back('\0');
+    testing::detail::append(payload, std::uint32_t{3});
+    writer_.write_raw(0, kEpoch + recorded, kLauncher, *exec_, payload);
+  }
+  template <class Struct>
+  void write(std::int64_t time, const Thread& thread, const Struct& event) {
+    writer_.write(0, kEpoch + time, thread, event);
+  }
+  std::vector<StartResult> results() {
+    writer_.finish();
+    Sink sink;
+    TraceReader(directory_.path()).read(sink);
+    return sink.tracker.finish();
+  }
+
+ private:
+  TemporaryDirectory directory_;
+  TraceWriter writer_{directory_.path()};
+  std::optional<std::uint16_t> exec_;
+};
+
+TEST_F(StartOfProcesses, IsMeasuredFromExecToTheFirstNodeAndTheFirstLookForWork) {
+  exec(1'050, 1'000, "talker-1", 71);  // recorded 50 ns after it happened
+  exec(2'000, 2'000, "other-2", 72);   // at once: tells how the clocks stand to each other
+  write(5'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
+  write(6'000, kTalker, ros2::RclNodeInit{3, 4, "second", "/"});
+  write(9'000, kTalker, ros2::RclcppExecutorGetNextReady{});
+  write(9'500, kTalker, ros2::RclcppExecutorWaitForWork{0});
+  const std::vector<StartResult> starts = results();
+  ASSERT_EQ(starts.size(), 2u);
+  EXPECT_EQ(starts[0].process, "talker-1");
+  EXPECT_EQ(starts[0].vpid, 71);
+  EXPECT_EQ(starts[0].file, "a.launch.xml");
+  EXPECT_EQ(starts[0].line, 3);
+  EXPECT_EQ(starts[0].exec_ns, kEpoch + 1'000);
+  EXPECT_EQ(starts[0].node_after_ns, 4'000);
+  EXPECT_EQ(starts[0].ready_after_ns, 8'000);
+  EXPECT_EQ(starts[1].node_after_ns, std::nullopt) << "it has no node";
+  EXPECT_EQ(starts[1].ready_after_ns, std::nullopt);
+}
+
+TEST_F(StartOfProcesses, IsUnknownWhenTheTraceBeganLater) {
+  constexpr Thread kDump{71, 79, "talker-ust"};
+  exec(8'000, 1'000, "talker-1", 71);
+  write(8'100, kTalker, ros2::RclcppExecutorWaitForWork{0});
+  write(8'200, kDump, ros2::RclNodeInit{1, 2, "talker", "/"});
+  write(8'300, kTalker, ros2::RclNodeInit{3, 4, "another", "/"});
+  write(8'400, kTalker, ros2::RclcppExecutorWaitForWork{0});
+  const std::vector<StartResult> starts = results();
+  ASSERT_EQ(starts.size(), 1u);
+  EXPECT_EQ(starts[0].node_after_ns, std::nullopt);
+  EXPECT_EQ(starts[0].ready_after_ns, std::nullopt);
+}
+
+TEST_F(StartOfProcesses, StaysAsItWasWhenAnotherSessionBegins) {
+  constexpr Thread kDump{71, 79, "talker-ust"};
+  exec(1'000, 1'000, "talker-1", 71);
+  write(3'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
+  write(4'000, kTalker, ros2::RclcppExecutorWaitForWork{0});
+  write(5'000, kDump, ros2::RclNodeInit{1, 2, "talker", "/"});
+  const std::vector<StartResult> starts = results();
+  ASSERT_EQ(starts.size(), 1u);
+  EXPECT_EQ(starts[0].node_after_ns, 2'000);
+  EXPECT_EQ(starts[0].ready_after_ns, 3'000);
+}
+
+TEST_F(StartOfProcesses, IsEmptyWithoutTheLauncher) {
+  write(5'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
+  EXPECT_TRUE(results().empty());
+}
+
+}  // namespace
+}  // namespace tracing
