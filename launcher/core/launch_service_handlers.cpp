@@ -18,10 +18,10 @@ void LaunchService::invoke(std::vector<Invocation> invocations) {
 // All handlers of one event: one of them may unregister another, which still hears of this event but of no later one.
 void LaunchService::run_invocations() {
   const std::vector<Invocation> invocations = std::move(events_.front());
-  events_.pop_front();
   for (const Invocation& invocation : invocations) {
     visit(invocation.scope(), invocation.handler->actions);
   }
+  events_.pop_front();  // not before: the system is not idle between two of them
   check_finished();
 }
 

@@ -40,11 +40,15 @@ Transition transition_of(const std::string& label) {
   return transition;
 }
 
+std::string topic_of_events(const std::string& node) {
+  return node + "/transition_event";
+}
+
 // The transition_event topic of a node.
 class TransitionEvents {
  public:
   TransitionEvents(rclcpp::Node& node, const std::string& of)
-      : subscription_(node.create_subscription<TransitionEvent>(of + "/transition_event", rclcpp::QoS(10),
+      : subscription_(node.create_subscription<TransitionEvent>(topic_of_events(of), rclcpp::QoS(10),
                                                                 [](const TransitionEvent&) {})) {}
 
   std::optional<TransitionEvent> next() {
@@ -141,18 +145,57 @@ class TransitionWatch final : public Operation {
   TransitionEvents events_;
 };
 
+// Asks a node for a transition whose events shall reach the watches of this program that are there already. The node is
+// first asked for its state: discovery tells of our endpoints in the order of their creation, so a node that can answer
+// a client knows of every reader before it.
+class TransitionCall final : public CallOperation<srv::ChangeState> {
+ public:
+  TransitionCall(const ChangeState& request, rclcpp::Node& node, Answer answer)
+      : CallOperation(std::move(answer),
+                      ServiceCall<srv::ChangeState>(node, request.node + "/change_state", message_for(request)),
+                      [](const srv::ChangeState::Response& response) {
+                        RosAnswer result;
+                        result.ok = response.success;
+                        return result;
+                      }) {
+    if (node.count_subscribers(topic_of_events(request.node)) != 0) {
+      greeting_.emplace(node, request.node + "/get_state", std::make_shared<srv::GetState::Request>());
+    }
+  }
+
+  void look() override {
+    if (greeting_ && greeting_->look()) {
+      greeting_.reset();
+    }
+    if (!greeting_) {
+      CallOperation::look();
+    } else if (greeting_->is_orphaned()) {
+      fail("the '" + greeting_->service() + "' service has gone before it answered");
+    }
+  }
+
+  void add_to(WakeUps& wake_ups) const override {
+    if (greeting_) {
+      greeting_->add_to(wake_ups);
+    } else {
+      CallOperation::add_to(wake_ups);
+    }
+  }
+
+ private:
+  static std::shared_ptr<srv::ChangeState::Request> message_for(const ChangeState& request) {
+    auto message = std::make_shared<srv::ChangeState::Request>();
+    message->transition = transition_of(request.transition);
+    return message;
+  }
+
+  std::optional<ServiceCall<srv::GetState>> greeting_;
+};
+
 }  // namespace
 
 std::unique_ptr<Operation> call(const ChangeState& request, rclcpp::Node& node, Operation::Answer answer) {
-  auto message = std::make_shared<srv::ChangeState::Request>();
-  message->transition = transition_of(request.transition);
-  return std::make_unique<CallOperation<srv::ChangeState>>(
-      std::move(answer), ServiceCall<srv::ChangeState>(node, request.node + "/change_state", message),
-      [](const srv::ChangeState::Response& response) {
-        RosAnswer result;
-        result.ok = response.success;
-        return result;
-      });
+  return std::make_unique<TransitionCall>(request, node, std::move(answer));
 }
 
 std::unique_ptr<Operation> call(const GetState& request, rclcpp::Node& node, Operation::Answer answer) {

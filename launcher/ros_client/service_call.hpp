@@ -99,7 +99,7 @@ class ServiceCall {
 
 // An operation that is nothing but a call.
 template <typename ServiceT>
-class CallOperation final : public Operation {
+class CallOperation : public Operation {
  public:
   using Read = std::function<RosAnswer(const typename ServiceT::Response&)>;
 

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(
         testing::Values(
             Example{"02_names",
-                    {},
+                    {"seconds:=10"},
                     {"[listener-2] ", "[listener-3] ",
                      "[left.ear]: I heard: [Hello World: ", "[right.ear]: I heard: [Hello World: "}},
             Example{"03_conditions",
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                     {},
                     {"Loaded node '/talker' in container '/container'",
                      "Loaded node '/ear/listener' in container '/container'",
-                     "[ear.listener]: I heard: [Hello World: 1]", "trace is complete"}},
+                     "[ear.listener]: I heard: [Hello World: ", "trace is complete"}},
             Example{"09_events",
                     {},
                     {"[calibrate-1] calibrated", "[server-2] listening", "[client-3] asking",

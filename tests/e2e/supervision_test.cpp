@@ -52,13 +52,14 @@ TEST_F(Supervision, ANodeThatIgnoresSigintIsTerminatedThenKilled) {
 TEST_F(Supervision, TwoCtrlCsEndAtOnceAndStillDestroyTheSession) {
   const std::string file = write(R"xml(
     <trace session-name="hurry"/>
-    <executable name="stubborn" shell="true" output="screen" cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
+    <executable name="stubborn" shell="true" output="screen" sigterm_timeout="1000"
+                cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
   run.send_signal(SIGINT);
   ASSERT_TRUE(run.wait_for_output("sending signal 'SIGINT'"));
   run.send_signal(SIGINT);
-  const CommandResult result = run.wait(std::chrono::seconds(4));  // less than the five seconds until SIGTERM
+  const CommandResult result = run.wait();
   EXPECT_FALSE(result.timed_out);
   EXPECT_THAT(result.out, HasSubstr("again, killing what is left"));
   const CommandResult sessions = run_command({"lttng", "list"});

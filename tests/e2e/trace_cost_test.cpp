@@ -153,11 +153,10 @@ TEST_F(TraceCost, ClassesOfEventsAreDroppedWhileTheBudgetIsExceeded) {
     EXPECT_GT(event.number("rate"), 1000u);
   }
   EXPECT_THAT(dropped, ElementsAre("layers", "callbacks", "executor"));
-  // A process may fire while it is told.
-  constexpr std::int64_t kTelling = 100'000'000;
-  EXPECT_LT(last["ros2:rcl_publish"], cut["layers"] + kTelling);
+  // A process may fire while it is told, which does not take until a later cut.
+  EXPECT_LT(last["ros2:rcl_publish"], cut["executor"]);
   EXPECT_GT(last["ros2:callback_end"], cut["layers"]);
-  EXPECT_LT(last["ros2:callback_end"], cut["callbacks"] + kTelling);
+  EXPECT_LT(last["ros2:callback_end"], cut["executor"]);
   EXPECT_GT(last["ros2:rclcpp_executor_execute"], cut["callbacks"]);
   EXPECT_GT(last["ros2:rmw_publish"], cut["executor"]) << "not in drop-order";
   EXPECT_EQ(counts["ros2:rcl_init"], 1);

@@ -22,10 +22,10 @@ class UnansweredParticipants {
   using TimePoint = std::chrono::steady_clock::time_point;
   using Duration = std::chrono::steady_clock::duration;
 
-  // Patience with a new participant; doubled for each announcement, of which there are at most kAnnouncements. Who then
-  // is still silent has no endpoints.
+  // Patience with a new participant; doubled for each announcement, of which there are at most kAnnouncements, up to
+  // the next periodic one. Who then is still silent has no endpoints.
   static constexpr Duration kPatience = std::chrono::milliseconds(100);
-  static constexpr int kAnnouncements = 3;
+  static constexpr int kAnnouncements = 5;
 
   void discovered(const Gid& participant, TimePoint now);
   // It has told an endpoint, or has gone. `gid` is the participant's or that of any of its endpoints.

@@ -48,6 +48,19 @@ TEST_F(EventHandlersTest, AreVisitedInTheOrderOfTheFileForEachEventUnlessOnce) {
                                      "[launch.user] 2"));
 }
 
+TEST_F(EventHandlersTest, AreAllVisitedBeforeTheSystemIsIdle) {
+  runner_.default_script({.exits_after = 1s});
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/>
+                   <on_process_exit process="a"><log message="first"/></on_process_exit>
+                   <on_process_exit process="a"><executable cmd="b"/></on_process_exit>
+                   <on_process_exit process="b"><log message="third"/></on_process_exit>
+                   <on_process_exit process="b"><shutdown reason="done"/></on_process_exit>
+                   <on_shutdown><log message="$(var event.reason)"/></on_shutdown>)xml"),
+            0);
+  EXPECT_THAT(journal_, ElementsAre("start a-1", "exit a-1", "start b-2", "exit b-2"));
+  EXPECT_THAT(messages_, ElementsAre("[launch.user] first", "[launch.user] third", "[launch.user] done"));
+}
+
 TEST_F(EventHandlersTest, HearLinesOfTheirStreamThatMatch) {
   runner_.script("a", {{.exits_after = 3s,
                         .output = {{.at = 1s, .text = "no\nrea"},

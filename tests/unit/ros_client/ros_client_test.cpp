@@ -260,6 +260,7 @@ TEST_F(RosClientTest, StatesAreChangedAndWaitedFor) {
         const std::lock_guard lock(mutex);
         response->success = request->transition.label == "configure" && request->transition.id == 1;
         if (response->success) {
+          EXPECT_EQ(events->get_subscription_count(), 2U);  // who watches is known before the change
           lifecycle_msgs::msg::TransitionEvent event;
           event.start_state.label = state;
           event.goal_state.label = state = "inactive";
@@ -280,9 +281,6 @@ TEST_F(RosClientTest, StatesAreChangedAndWaitedFor) {
     reached = answer;
     loop_->quit();
   });
-  while (events->get_subscription_count() < 2) {
-    std::this_thread::yield();
-  }
   EXPECT_TRUE(ask(launch::ChangeState{"/n", "configure"}).ok);
   while (!reached || told.empty()) {
     loop_->run();
