@@ -85,8 +85,9 @@ int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
   {
     Nodes few("few", kFew);
-    Nodes many("many", kMany);
+    // Fast DDS looks for a reader of the process among those that were made before it.
     Nodes timers("timers", kFew, kMany);
+    Nodes many("many", kMany);
     std::vector<double> with_few;
     std::vector<double> with_many;
     std::vector<double> with_timers;
