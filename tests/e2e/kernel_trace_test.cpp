@@ -127,6 +127,18 @@ TEST_F(KernelTrace, UnknownEventsAreAnErrorAtTheTraceAndLeaveNothing) {
             "");
 }
 
+TEST_F(KernelTrace, UnknownEventsBesideKnownOnesAreAWarning) {
+  const CommandResult result =
+      launch("<trace session-name=\"" + session_ +
+             "\" events-kernel=\"lttng_statedump_start sched_process_exec sched_swich\" syscalls=\"opennat\"/>" +
+             "<executable cmd=\"true\"/>");
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("not recorded, for the kernel has no event 'lttng_statedump_start', no event "
+                                    "'sched_swich', no system call 'opennat'\n"));
+  std::size_t found = 0;
+  EXPECT_GT(number_in(lines_of(sandbox_.trace_directory() / session_), {"sched_process_exec: "}, "vpid", found), 0);
+}
+
 TEST_F(KernelTrace, ContextFieldsThatTracefsDoesNotTellAreAnErrorAtTheTrace) {
   const CommandResult result = launch("<trace session-name=\"" + session_ +
                                       "\" events-kernel=\"sched_switch\" context-fields-kernel=\"tid nice\"/>");
@@ -267,6 +279,28 @@ TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
     EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
   }
 }
+
+#ifdef WITH_PYTHON
+// With LTTng's own events and others that this kernel hasn't in its list.
+TEST_F(KernelTrace, ThePublishedLaunchFileOfTheReferenceSystemRuns) {
+  const fs::path file = sandbox_.directory() / "system.launch.py";
+  fs::copy_file(EXAMPLES_DIRECTORY "/30_reference_system.launch.py", file);
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file, "length:=2.0"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("not recorded, for the kernel has no event 'lttng_statedump_process_state'"));
+  EXPECT_THAT(result.out, HasSubstr("sched_migrate'"));
+  fs::path directory;
+  for (const auto& entry : fs::directory_iterator(sandbox_.directory())) {
+    if (entry.path().filename().string().starts_with("system-")) directory = entry.path();
+  }
+  const std::vector<std::string> lines = lines_of(directory);
+  std::size_t found = 0;
+  const long process = number_in(lines, {"ros2:callback_start: "}, "vpid", found);
+  EXPECT_GT(process, 0);
+  EXPECT_EQ(number_in(lines, {"timer_hrtimer_start: ", "vpid = " + std::to_string(process) + ","}, "vpid", found),
+            process);
+}
+#endif
 
 TEST_F(KernelTrace, RecordsFromACommandUntilAnotherStopsIt) {
   ASSERT_EQ(run_command({LAUNCH_PROGRAM, "trace", "start", session_, "-k", "sched_process_exec"}).exit_code, 0);

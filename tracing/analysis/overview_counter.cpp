@@ -117,6 +117,7 @@ TraceOverview OverviewCounter::overview() const {
 
   std::map<std::string, EventCount> counts;  // several traces may have classes of one name
   for (const CountedClass& counted : classes_) {
+    if (counted.by_process.empty()) continue;  // of the launcher
     EventCount& count = counts[counted.name];
     count.name = counted.name;
     count.by_process.resize(processes_.size());

@@ -72,11 +72,28 @@ std::optional<EventField> parse_field(const std::string& declaration, const std:
   return field;
 }
 
+// Beginnings of names, where LTTng's modules (2.13) have others than the kernel.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kNamesOfLttng{{
+    {"sys_enter_", "syscall_entry_"},
+    {"sys_exit_", "syscall_exit_"},
+    {"softirq_", "irq_softirq_"},
+    {"hrtimer_", "timer_hrtimer_"},
+    {"itimer_", "timer_itimer_"},
+    {"netif_", "net_if_"},
+    {"napi_gro_", "net_napi_gro_"},
+    {"consume_skb", "skb_consume"},
+    {"kfree_skb", "skb_kfree"},
+    {"kmalloc", "kmem_kmalloc"},
+    {"kfree", "kmem_kfree"},
+    {"mm_page_", "kmem_mm_page_"},
+    {"cpu_idle", "power_cpu_idle"},
+    {"cpu_frequency", "power_cpu_frequency"},
+    {"machine_suspend", "power_machine_suspend"},
+    {"wakeup_source_", "power_wakeup_source_"},
+}};
+
 void name_as_lttng(EventFormat& format) {
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"sys_enter_", "syscall_entry_"},
-                                 std::pair<std::string, std::string>{"sys_exit_", "syscall_exit_"}}) {
-    if (format.name.starts_with(from)) format.name = to + format.name.substr(from.size());
-  }
+  format.name = lttng_name(format.name);
   if (!format.name.starts_with("sched_")) return;
   for (EventField& field : format.fields) {
     if (field.name.ends_with("pid")) field.name.replace(field.name.size() - 3, 3, "tid");
@@ -84,6 +101,13 @@ void name_as_lttng(EventFormat& format) {
 }
 
 }  // namespace
+
+std::string lttng_name(const std::string& kernel_name) {
+  for (const auto& [from, to] : kNamesOfLttng) {
+    if (kernel_name.starts_with(from)) return std::string(to) + kernel_name.substr(from.size());
+  }
+  return kernel_name;
+}
 
 EventFormat parse_event_format(const std::string& text) {
   EventFormat format;

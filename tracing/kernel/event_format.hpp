@@ -30,6 +30,9 @@ struct EventFormat {
   std::vector<EventField> fields;  // without the common ones
 };
 
+// What LTTng's modules call an event of the kernel: "irq_softirq_entry" for "softirq_entry".
+std::string lttng_name(const std::string& kernel_name);
+
 // Fields whose type is none of the kinds are left out. Threads are called tid in events of the scheduler, as LTTng
 // calls them. Throws std::runtime_error for a text without name and ID.
 EventFormat parse_event_format(const std::string& text);

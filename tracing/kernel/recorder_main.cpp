@@ -4,7 +4,8 @@
 // everything written, SIGUSR2 lets it go on. Says "ready" once it records, or "error: …" and "hint: …", and closes its
 // output. While it runs DIRECTORY/../kernel-recorder.pid holds its number and what it does, "recording" or "paused": a
 // new file takes its place when that has changed. At the end kernel-recorder.json there says what it has recorded and
-// lost. (Readers of CTF take every file of DIRECTORY for a stream.)
+// lost. A name that the kernel hasn't is passed over, with a "warning: …" after "ready", unless it has none of them.
+// (Readers of CTF take every file of DIRECTORY for a stream.)
 //
 // With `snapshots` it writes nothing into DIRECTORY: the kernel's buffers keep the newest events. When it gets SIGRTMIN
 // it reads DIRECTORY/../kernel-recorder.request, a directory and on the next line "keep" or "clear", and writes what
@@ -23,6 +24,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -106,17 +108,29 @@ void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTabl
 struct Options {
   std::vector<std::string> context_fields;
   bool snapshots = false;
+  std::string warning;  // names that the kernel hasn't
 };
 
 Options enable(TracefsInstance& instance, int argc, char** argv) {
   Options options;
+  std::optional<UnknownNameError> unknown;
+  // `name`: as the warning says it.
+  const auto pass_over_unknown = [&](const std::string& name, const auto& enable_it) {
+    try {
+      enable_it();
+    } catch (const UnknownNameError& error) {
+      if (!unknown) unknown = error;
+      options.warning += (options.warning.empty() ? "not recorded, for the kernel has no " : ", no ") + name;
+    }
+  };
   for (int i = 3; i < argc;) {
     const std::string kind = argv[i];
     if (kind == "event" && i + 2 < argc) {
-      instance.enable_event(argv[i + 1], argv[i + 2]);
+      pass_over_unknown(fmt::format("event '{}'", argv[i + 1]),
+                        [&] { instance.enable_event(argv[i + 1], argv[i + 2]); });
       i += 3;
     } else if (kind == "syscall" && i + 1 < argc) {
-      instance.enable_syscall(argv[i + 1]);
+      pass_over_unknown(fmt::format("system call '{}'", argv[i + 1]), [&] { instance.enable_syscall(argv[i + 1]); });
       i += 2;
     } else if (kind == "context" && i + 1 < argc) {
       options.context_fields.emplace_back(argv[i + 1]);
@@ -128,6 +142,7 @@ Options enable(TracefsInstance& instance, int argc, char** argv) {
       throw KernelTraceError("launch-kernel-recorder: bad arguments");
     }
   }
+  if (unknown && instance.formats().empty()) throw UnknownNameError(*unknown);
   return options;
 }
 
@@ -137,6 +152,10 @@ void say(const std::string& text) {
   // Whoever reads us is waiting for the end.
   const Descriptor null(open("/dev/null", O_WRONLY | O_CLOEXEC));
   dup2(null.get(), STDOUT_FILENO);
+}
+
+std::string ready(const Options& options) {
+  return options.warning.empty() ? "ready\n" : fmt::format("ready\nwarning: {}\n", options.warning);
 }
 
 // Whoever waits for a change watches the directory.
@@ -157,18 +176,17 @@ int next_signal(int signals) {
   return read(signals, &signal, sizeof signal) == sizeof signal ? static_cast<int>(signal.ssi_signo) : SIGTERM;
 }
 
-void record(TracefsInstance& instance, const fs::path& directory, const std::vector<std::string>& context_fields,
-            int signals) {
+void record(TracefsInstance& instance, const fs::path& directory, const Options& options, int signals) {
   fs::create_directories(directory);
   const fs::path beside = directory.parent_path();
   ThreadTable threads(instance.watch_event("task/task_newtask"), instance.watch_event("task/task_rename"));
-  CtfWriter writer(directory, instance.formats(), context_fields, threads);
+  CtfWriter writer(directory, instance.formats(), options.context_fields, threads);
   const std::vector<RingBuffer> buffers = open_buffers(instance);
   std::vector<pollfd> watched = {{signals, POLLIN, 0}};
   for (const RingBuffer& buffer : buffers) watched.push_back({buffer.file.get(), POLLIN, 0});
   instance.start();
   tell_state(beside, "recording");
-  say("ready\n");
+  say(ready(options));
 
   const auto stop_and_write = [&] {
     instance.stop();
@@ -228,8 +246,7 @@ void write_snapshot(const fs::path& directory, const PageHistory& history, const
   writer.write_metadata(clock_beside(directory / "ust"));
 }
 
-void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside,
-                        const std::vector<std::string>& context_fields, int signals) {
+void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside, const Options& options, int signals) {
   fs::create_directories(beside);
   instance.keep_newest();
   const ThreadTable no_threads(instance.watch_event("task/task_newtask"), instance.watch_event("task/task_rename"));
@@ -238,7 +255,7 @@ void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside,
   PageHistory history(TracefsInstance::kBufferBytes);
   instance.start();
   tell_state(beside, "recording");
-  say("ready\n");
+  say(ready(options));
 
   for (bool ended = false; !ended;) {
     const int signal = next_signal(signals);
@@ -246,7 +263,7 @@ void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside,
       const auto [snapshot, clear] = requested(beside);
       try {
         read_buffers(buffers, [&](unsigned cpu, PageHistory::Page page) { history.add(cpu, std::move(page)); });
-        write_snapshot(snapshot, history, formats, context_fields, no_threads);
+        write_snapshot(snapshot, history, formats, options.context_fields, no_threads);
         if (clear) history.clear();
         tell_state(beside, snapshot.filename());
       } catch (const std::exception& error) {
@@ -276,9 +293,9 @@ int main(int argc, char** argv) {
     const Options options = enable(instance, argc, argv);
     const fs::path directory = argv[2];
     if (options.snapshots) {
-      keep_for_snapshots(instance, directory.parent_path(), options.context_fields, signals);
+      keep_for_snapshots(instance, directory.parent_path(), options, signals);
     } else {
-      record(instance, directory, options.context_fields, signals);
+      record(instance, directory, options, signals);
     }
     return 0;
   } catch (const KernelTraceError& error) {

@@ -87,16 +87,16 @@ void TracefsInstance::enable_event(const std::string& pattern, const std::string
       if (!event.is_directory()) continue;
       const std::string name = event.path().filename();
       // LTTng puts the group before some names.
-      if (fnmatch(pattern.c_str(), name.c_str(), 0) != 0 &&
-          fnmatch(pattern.c_str(), (group_name + "_" + name).c_str(), 0) != 0) {
-        continue;
-      }
+      const auto is_meant = [&pattern](const std::string& called) {
+        return fnmatch(pattern.c_str(), called.c_str(), 0) == 0;
+      };
+      if (!is_meant(name) && !is_meant(lttng_name(name)) && !is_meant(group_name + "_" + name)) continue;
       enable(event.path(), filter);
       ++found;
     }
   }
   if (found == 0) {
-    throw KernelTraceError(fmt::format("the kernel has no event '{}'", pattern),
+    throw UnknownNameError(fmt::format("the kernel has no event '{}'", pattern),
                            fmt::format("{}/available_events lists them", kMountPoint));
   }
 }
@@ -114,7 +114,7 @@ void TracefsInstance::enable_syscall(const std::string& name) {
     }
   }
   if (found == 0) {
-    throw KernelTraceError(
+    throw UnknownNameError(
         fmt::format("the kernel has no system call '{}' to trace", name),
         fs::exists(folder) ? "name it without 'sys_', as in openat" : "it was built without CONFIG_FTRACE_SYSCALLS");
   }

@@ -22,6 +22,11 @@ class KernelTraceError : public std::runtime_error {
   std::string remedy_;
 };
 
+// The kernel has no event or system call of this name.
+class UnknownNameError : public KernelTraceError {
+  using KernelTraceError::KernelTraceError;
+};
+
 class TracefsInstance {
  public:
   static constexpr std::size_t kBufferBytes = std::size_t{4} << 20;  // for each processor
@@ -33,7 +38,7 @@ class TracefsInstance {
   TracefsInstance& operator=(const TracefsInstance&) = delete;
 
   // Events by name as LTTng names them (sched_switch, kmem_mm_page_alloc); * matches any text. A filter is the
-  // kernel's.
+  // kernel's. This and the next throw UnknownNameError when there is none.
   void enable_event(const std::string& pattern, const std::string& filter);
   // A system call: its entry and its exit.
   void enable_syscall(const std::string& name);

@@ -49,22 +49,48 @@ std::string loss_section(const Report& report) {
   return text + fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful);
 }
 
-// Processes are columns: as many as fit, then the table goes on below with the next ones.
+// A column of the table of events: a process, or all that only the kernel tells of.
+struct EventColumn {
+  std::string title;
+  std::vector<std::size_t> processes;
+};
+
+// A trace with events of the kernel holds every process of the machine.
+std::vector<EventColumn> event_columns(const TraceOverview& overview) {
+  std::vector<EventColumn> columns;
+  EventColumn others;
+  for (std::size_t process = 0; process < overview.processes.size(); ++process) {
+    const bool has_events_of_its_own =
+        std::any_of(overview.event_counts.begin(), overview.event_counts.end(), [process](const EventCount& count) {
+          return count.name.find(':') != std::string::npos && count.by_process[process] > 0;
+        });
+    if (has_events_of_its_own || overview.event_counts.empty()) {
+      columns.push_back({process_label(overview.processes[process]), {process}});
+    } else {
+      others.processes.push_back(process);
+    }
+  }
+  others.title = fmt::format("{} of the kernel alone", others.processes.size());
+  if (!others.processes.empty()) columns.push_back(std::move(others));
+  return columns;
+}
+
+// As many columns as fit, then the table goes on below with the next ones.
 std::string event_section(const TraceOverview& overview) {
   constexpr std::size_t kLabel = 42;
   constexpr std::size_t kTotal = 10;
+  const std::vector<EventColumn> columns = event_columns(overview);
   std::string text;
   std::size_t first = 0;
-  while (first < overview.processes.size()) {
+  while (first < columns.size()) {
     std::vector<std::size_t> widths{kTotal};
     std::vector<std::string> titles{"total"};
     std::size_t used = kLabel + kTotal;
     std::size_t end = first;
-    for (; end < overview.processes.size(); ++end) {
-      const std::string title = process_label(overview.processes[end]);
-      const std::size_t width = std::max<std::size_t>(title.size() + 2, 10);
+    for (; end < columns.size(); ++end) {
+      const std::size_t width = std::max<std::size_t>(columns[end].title.size() + 2, 10);
       if (end > first && used + width > kReportWidth) break;
-      titles.push_back(title);
+      titles.push_back(columns[end].title);
       widths.push_back(width);
       used += width;
     }
@@ -72,8 +98,10 @@ std::string event_section(const TraceOverview& overview) {
     text += "\n" + table.row("Events by process", titles);
     for (const EventCount& count : overview.event_counts) {
       std::vector<std::string> cells{fmt::format("{}", count.total)};
-      for (std::size_t process = first; process < end; ++process) {
-        cells.push_back(fmt::format("{}", count.by_process[process]));
+      for (std::size_t column = first; column < end; ++column) {
+        std::uint64_t events = 0;
+        for (const std::size_t process : columns[column].processes) events += count.by_process[process];
+        cells.push_back(fmt::format("{}", events));
       }
       text += table.row("  " + count.name, cells);
     }

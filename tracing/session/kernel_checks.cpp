@@ -30,15 +30,20 @@ std::vector<std::string> names_of(const Events& events, int count) {
   return names;
 }
 
-void check_name(const std::string& pattern, const std::vector<std::string>& names, const std::string& what,
-                const std::string& remedy) {
-  if (std::any_of(names.begin(), names.end(),
-                  [&](const std::string& name) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; })) {
-    return;
-  }
+bool is_known(const std::string& pattern, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; });
+}
+
+struct UnknownName {
+  std::string what;  // "event 'sched_swich'"
+  std::string remedy;
+};
+
+UnknownName unknown(const std::string& what, const std::string& pattern, const std::vector<std::string>& names,
+                    const std::string& remedy) {
   const std::string nearest = nearest_name(pattern, names);
-  throw TraceError(fmt::format("the kernel has no {} '{}'", what, pattern),
-                   nearest.empty() ? remedy : fmt::format("did you mean `{}`?", nearest));
+  return {fmt::format("{} '{}'", what, pattern), nearest.empty() ? remedy : fmt::format("did you mean `{}`?", nearest)};
 }
 
 }  // namespace
@@ -79,19 +84,36 @@ std::vector<std::string> syscall_names() {
   return names_of(Events(listed), count);
 }
 
-void check_kernel_names(const std::vector<ChannelPlan>& channels, const std::vector<std::string>& events,
-                        const std::vector<std::string>& syscalls) {
-  for (const ChannelPlan& channel : channels) {
+std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const std::vector<std::string>& events,
+                                      const std::vector<std::string>& syscalls) {
+  std::vector<UnknownName> dropped;
+  bool some_left = false;
+  for (ChannelPlan& channel : channels) {
     if (channel.domain != LTTNG_DOMAIN_KERNEL) continue;
-    for (const EventRule& rule : channel.events) {
+    std::erase_if(channel.events, [&](const EventRule& rule) {
       // LTTng's own events, such as lttng_statedump_process_state, are not listed.
-      if (rule.pattern.starts_with("lttng_")) continue;
-      check_name(rule.pattern, events, "event", "`launch trace events` lists them");
-    }
-    for (const std::string& name : channel.syscalls) {
-      check_name(name, syscalls, "system call", "name it without 'sys_', as in openat");
-    }
+      if (rule.pattern.starts_with("lttng_") || is_known(rule.pattern, events)) return false;
+      dropped.push_back(unknown("event", rule.pattern, events, "`launch trace events` lists them"));
+      return true;
+    });
+    std::erase_if(channel.syscalls, [&](const std::string& name) {
+      if (is_known(name, syscalls)) return false;
+      dropped.push_back(unknown("system call", name, syscalls, "name it without 'sys_', as in openat"));
+      return true;
+    });
+    some_left = some_left || !channel.events.empty() || !channel.syscalls.empty();
   }
+  if (dropped.empty()) return "";
+  if (!some_left) throw TraceError("the kernel has no " + dropped.front().what, dropped.front().remedy);
+  std::erase_if(channels, [](const ChannelPlan& channel) {
+    return channel.domain == LTTNG_DOMAIN_KERNEL && channel.events.empty() && channel.syscalls.empty();
+  });
+  std::string warning;
+  for (const auto& [what, remedy] : dropped) {
+    warning +=
+        fmt::format("{}{} ({})", warning.empty() ? "not recorded, for the kernel has no " : ", no ", what, remedy);
+  }
+  return warning;
 }
 
 void check_kernel_context_fields(const std::vector<ChannelPlan>& channels, const std::string& modules_version) {

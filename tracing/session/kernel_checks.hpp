@@ -18,10 +18,11 @@ std::string kernel_modules_version();
 std::vector<std::string> kernel_event_names();
 std::vector<std::string> syscall_names();
 
-// There is something for each rule of the kernel channels: LTTng takes any name, and records nothing for one that
-// isn't.
-void check_kernel_names(const std::vector<ChannelPlan>& channels, const std::vector<std::string>& events,
-                        const std::vector<std::string>& syscalls);
+// Takes the names that mean nothing out of the kernel channels, and channels that have none left out of `channels`:
+// LTTng takes any name, and records nothing for one that isn't. Returns a warning that names them, "" when there are
+// none. Throws when nothing is left.
+std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const std::vector<std::string>& events,
+                                      const std::vector<std::string>& syscalls);
 
 // No context field of a kernel channel is one with which this version of the modules crashes the kernel.
 void check_kernel_context_fields(const std::vector<ChannelPlan>& channels, const std::string& modules_version);

@@ -158,10 +158,10 @@ void take_kernel_snapshot(const fs::path& recording, const fs::path& snapshot, b
   bring_to(snapshot.filename(), SIGRTMIN, recording);
 }
 
-void start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
-                           const std::vector<ChannelPlan>& plans, KernelRecording what) {
+std::string start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
+                                  const std::vector<ChannelPlan>& plans, KernelRecording what) {
   const std::string said = start_and_listen(arguments_of(program, session, recording, plans, what));
-  if (said.starts_with("ready")) return;
+  if (said.starts_with("ready")) return line_after(said, "warning: ");
   const std::string reason = line_after(said, "error: ");
   throw TraceError(
       fmt::format("kernel events cannot be recorded: {}", reason.empty() ? "their recorder ended at once" : reason),

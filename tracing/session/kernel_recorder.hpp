@@ -18,10 +18,11 @@ enum class KernelRecording {
   kSnapshots,   // the newest events are kept for take_kernel_snapshot()
 };
 
-// Starts it for the kernel channels of `plans`. Returns when it records. Throws TraceError.
-void start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
-                           const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans,
-                           KernelRecording what);
+// Starts it for the kernel channels of `plans`. Returns when it records: a warning that names the events that the
+// kernel hasn't, "" when there are none. Throws TraceError, also when there is nothing to record.
+std::string start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
+                                  const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans,
+                                  KernelRecording what);
 
 // Writes what the recorder of `recording` has kept beside what the snapshot has of userspace; with `clear` the next
 // snapshot begins after this one. Nothing happens when none runs there. Throws TraceError.

@@ -255,7 +255,8 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
     why = error.what();
   }
   if (why.empty()) {
-    check_kernel_names(channels, kernel_event_names(), syscall_names());
+    std::string unknown = drop_unknown_kernel_names(channels, kernel_event_names(), syscall_names());
+    if (!unknown.empty()) warnings.push_back(std::move(unknown));
     check_kernel_context_fields(channels, kernel_modules_version());
     return {};
   }
@@ -311,9 +312,10 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
   check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
   timer.finished("start");
   if (!through_tracefs.empty()) {
-    start_kernel_recorder(*installed_program(kKernelRecorder), session_name, recorder_directory(session_name),
-                          through_tracefs,
-                          config.records_snapshots() ? KernelRecording::kSnapshots : KernelRecording::kEverything);
+    std::string unknown = start_kernel_recorder(
+        *installed_program(kKernelRecorder), session_name, recorder_directory(session_name), through_tracefs,
+        config.records_snapshots() ? KernelRecording::kSnapshots : KernelRecording::kEverything);
+    if (!unknown.empty()) report.warnings.push_back(std::move(unknown));
     timer.finished("kernel recorder");
   }
   report.notes = prefer_consumers(session_daemon_pid());

@@ -48,6 +48,18 @@ TEST(OverviewCounter, CountsByNameAndProcess) {
   EXPECT_EQ(overview.event_counts[1].total, 3u);
 }
 
+TEST(OverviewCounter, PassesOverWhatTheLauncherDid) {
+  const EventClass exec{"launch:exec", 0, 0, {"time"}};
+  OverviewCounter counter;
+  counter.on_event(event_of(exec, 500, 70, 70, "launch"));
+  counter.on_event(event_of(kStart, 1000, 71, 71, "ping"));
+  const TraceOverview overview = counter.overview();
+  EXPECT_EQ(overview.events, 1u);
+  EXPECT_EQ(overview.processes.size(), 1u);
+  ASSERT_EQ(overview.event_counts.size(), 1u);
+  EXPECT_EQ(overview.event_counts[0].name, "ros2:callback_start");
+}
+
 TEST(OverviewCounter, NamesAProcessAfterItsMainThread) {
   OverviewCounter counter;
   counter.on_event(event_of(kTake, 1, 71, 75, "dds.listener"));

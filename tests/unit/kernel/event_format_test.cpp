@@ -56,6 +56,17 @@ TEST(EventFormat, SystemCallsHaveTheNamesOfLttng) {
   EXPECT_EQ(parse_event_format("name: sys_exit_openat\nID: 2\n").name, "syscall_exit_openat");
 }
 
+TEST(EventFormat, EventsHaveTheNamesOfLttngWhereItHasOthers) {
+  EXPECT_EQ(tracing::kernel::lttng_name("softirq_entry"), "irq_softirq_entry");
+  EXPECT_EQ(tracing::kernel::lttng_name("hrtimer_expire_exit"), "timer_hrtimer_expire_exit");
+  EXPECT_EQ(tracing::kernel::lttng_name("netif_receive_skb"), "net_if_receive_skb");
+  EXPECT_EQ(tracing::kernel::lttng_name("mm_page_alloc"), "kmem_mm_page_alloc");
+  EXPECT_EQ(tracing::kernel::lttng_name("kfree_skb"), "skb_kfree");
+  EXPECT_EQ(tracing::kernel::lttng_name("cpu_frequency"), "power_cpu_frequency");
+  EXPECT_EQ(tracing::kernel::lttng_name("net_dev_queue"), "net_dev_queue");
+  EXPECT_EQ(tracing::kernel::lttng_name("irq_handler_entry"), "irq_handler_entry");
+}
+
 TEST(EventFormat, AnotherTextIsAnError) {
   EXPECT_THROW(parse_event_format("nothing of the kind"), std::runtime_error);
 }

@@ -103,6 +103,22 @@ Events by process                              total  third_component [100003]
 )");
 }
 
+TEST(TextReport, PutsProcessesThatOnlyTheKernelTellsOfTogether) {
+  Report report{"/traces/run", {}, ""};
+  report.results.overview.processes = {{0, "swapper/0", 3, false}, {71, "ping", 3, false}, {80, "bash", 4, false}};
+  report.results.overview.events = 10;
+  report.results.overview.event_counts = {{"ros2:rcl_take", 1, {0, 1, 0}}, {"sched_switch", 9, {3, 2, 4}}};
+  EXPECT_EQ(text_report(report),
+            R"(Trace      /traces/run
+Events     10 of 3 processes
+Losses     no events lost
+
+Events by process                              total  ping [71]  2 of the kernel alone
+  ros2:rcl_take                                    1          1                      0
+  sched_switch                                     9          2                      7
+)");
+}
+
 Report report_with_results() {
   Report report{"/traces/run", {}, ""};
   report.results.overview = overview_of(10, {{71, "ping", 10, false}});

@@ -4,6 +4,8 @@
 //
 // Without a NODE all of them. Ends when it is interrupted, or when each node at the end of the graph has got N messages
 // that have come through all nodes before it. These nodes then tell how long messages took from each node before.
+//
+// The executables of autoware_reference_system are this program, too, each with the executor of its name.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,6 +14,10 @@
 #include <vector>
 
 #include "nodes.hpp"
+
+#ifndef REFERENCE_SYSTEM_EXECUTOR
+#define REFERENCE_SYSTEM_EXECUTOR SingleThreadedExecutor
+#endif
 
 namespace {
 
@@ -83,7 +89,7 @@ int main(int argc, char** argv) {
       return EXIT_SUCCESS;
     }
     std::vector<std::shared_ptr<rclcpp::Node>> nodes;
-    rclcpp::executors::SingleThreadedExecutor executor;
+    rclcpp::executors::REFERENCE_SYSTEM_EXECUTOR executor;
     for (const NodeDescription& description : arguments.nodes) {
       nodes.push_back(create_node(description, arguments.settings));
       executor.add_node(nodes.back());
