@@ -12,12 +12,14 @@ using rcl::rmw_entity_of;
 
 namespace {
 
-constexpr int64_t kForever = std::numeric_limits<int64_t>::max();
+constexpr int64_t kForever = rcl::TimerQueue::kNever;
 
 // Nanoseconds until the first timer is due, `kForever` without one; 0 or less if one is due already.
-rcl_ret_t time_until_first_timer(const rcl_wait_set_impl_t& impl, int64_t& time) {
-  time = kForever;
-  for (size_t i = 0; i < impl.timer_count; ++i) {
+rcl_ret_t time_until_first_timer(rcl_wait_set_impl_t& impl, int64_t& time) {
+  if (const rcl_ret_t result = impl.timer_queue.time_until_first(time); result != RCL_RET_OK) {
+    return result;
+  }
+  for (size_t i = impl.kept_timers.entities.size(); i < impl.timer_count; ++i) {
     int64_t until_next = 0;
     const rcl_ret_t result = rcl_timer_get_time_until_next_call(impl.timers[i], &until_next);
     if (result == RCL_RET_TIMER_CANCELED) {
@@ -121,6 +123,8 @@ class Ready {
     first_ += count;
   }
 
+  bool is_any_left() const { return next_ != end_; }
+
  private:
   const size_t* next_;
   const size_t* end_;
@@ -134,13 +138,27 @@ void fill_in_ready(rcl_wait_set_impl_t& impl, Ready ready) {
   ready.fill_in(impl.clients, impl.client_count, impl.kept_clients);
   ready.fill_in(impl.events, impl.event_count, impl.kept_events);
   ready.fill_in(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
-  // Those of timers follow, which tell for themselves whether they are ready.
+  // Those of timers follow.
+  if (ready.is_any_left()) {
+    impl.timer_queue.forget_times();
+  }
 }
 
-// Nulls the entries of timers that are not ready. False if none is.
-rcl_ret_t keep_ready_timers(rcl_wait_set_impl_t& impl, bool& any_timer) {
-  any_timer = false;
-  for (size_t i = 0; i < impl.timer_count; ++i) {
+// Nulls the entries of timers that are not ready, which those of the kept ones may be already. False if none is.
+rcl_ret_t keep_ready_timers(rcl_wait_set_impl_t& impl, bool are_entries_null, bool& any_timer) {
+  auto& [kept, rmw_entities, left] = impl.kept_timers;
+  left.clear();
+  if (const rcl_ret_t result = impl.timer_queue.append_due(left); result != RCL_RET_OK) {
+    return result;
+  }
+  if (!are_entries_null) {
+    std::fill_n(impl.timers.begin(), kept.size(), nullptr);
+  }
+  for (const size_t i : left) {
+    impl.timers[i] = kept[i];
+  }
+  any_timer = !left.empty();
+  for (size_t i = kept.size(); i < impl.timer_count; ++i) {
     bool is_ready = false;
     if (const rcl_ret_t result = rcl_timer_is_ready(impl.timers[i], &is_ready); result != RCL_RET_OK) {
       return result;
@@ -157,6 +175,7 @@ rmw_ret_t wait_for_all(rcl_wait_set_impl_t& impl, const rmw_time_t* timeout) {
   if (impl.are_entries_null) {
     fill_in(impl.subscriptions, impl.kept_subscriptions);
     fill_in(impl.guard_conditions, impl.kept_guard_conditions);
+    fill_in(impl.timers, impl.kept_timers);
     fill_in(impl.clients, impl.kept_clients);
     fill_in(impl.services, impl.kept_services);
     fill_in(impl.events, impl.kept_events);
@@ -171,6 +190,7 @@ rmw_ret_t wait_for_all(rcl_wait_set_impl_t& impl, const rmw_time_t* timeout) {
       rmw_wait(&subscriptions, &guard_conditions, &services, &clients, &events, impl.rmw_wait_set, timeout);
   if (result == RMW_RET_OK || result == RMW_RET_TIMEOUT) {
     keep_ready(impl);
+    impl.timer_queue.forget_times();
   }
   return result;
 }
@@ -222,7 +242,7 @@ rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   impl.rmw_knows_kept = has_kept;
   impl.last_further.swap(impl.further);
   bool any_timer = false;
-  if (const rcl_ret_t timer_result = keep_ready_timers(impl, any_timer); timer_result != RCL_RET_OK) {
+  if (const rcl_ret_t timer_result = keep_ready_timers(impl, again, any_timer); timer_result != RCL_RET_OK) {
     return timer_result;
   }
   // The end of the time that a timer asked for is no timeout of the caller's.

@@ -136,6 +136,7 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   forget(impl.kept_subscriptions);
   forget(impl.kept_guard_conditions);
   forget(impl.kept_timers);
+  impl.timer_queue.clear();
   forget(impl.kept_clients);
   forget(impl.kept_services);
   forget(impl.kept_events);
@@ -150,6 +151,7 @@ rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set) {
   keep(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
   keep(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
   keep(impl.timers, impl.timer_count, impl.kept_timers);
+  impl.timer_queue.assign(impl.kept_timers.entities);
   keep(impl.clients, impl.client_count, impl.kept_clients);
   keep(impl.services, impl.service_count, impl.kept_services);
   keep(impl.events, impl.event_count, impl.kept_events);
@@ -167,13 +169,13 @@ rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set) {
     RCL_SET_ERROR_MSG("the wait set has kept nothing");
     return RCL_RET_WAIT_SET_EMPTY;
   }
-  restore(impl.timers, impl.timer_count, impl.kept_timers);
   impl.are_entries_null = impl.rmw_knows_kept;
   const auto restore_kind = [&](auto& entities, size_t& count, auto& kept) {
     impl.rmw_knows_kept ? restore_as_null(entities, count, kept) : restore(entities, count, kept);
   };
   restore_kind(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
   restore_kind(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
+  restore_kind(impl.timers, impl.timer_count, impl.kept_timers);
   restore_kind(impl.clients, impl.client_count, impl.kept_clients);
   restore_kind(impl.services, impl.service_count, impl.kept_services);
   restore_kind(impl.events, impl.event_count, impl.kept_events);

@@ -7,6 +7,7 @@
 #include "rcl/error_handling.h"
 #include "rcl/wait.h"
 #include "rmw/rmw.h"
+#include "timer_queue.hpp"
 
 namespace rcl {
 
@@ -53,6 +54,7 @@ struct rcl_wait_set_impl_s {
   rcl::Kept<rcl_subscription_t> kept_subscriptions;
   rcl::Kept<rcl_guard_condition_t> kept_guard_conditions;
   rcl::Kept<rcl_timer_t> kept_timers;  // rmw does not know them
+  rcl::TimerQueue timer_queue;         // of the same
   rcl::Kept<rcl_client_t> kept_clients;
   rcl::Kept<rcl_service_t> kept_services;
   rcl::Kept<rcl_event_t> kept_events;

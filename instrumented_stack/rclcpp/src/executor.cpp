@@ -35,7 +35,11 @@ class Membership {
 
 // Puts an entity that a wait has found into `any_executable`. False if it has gone, or is no longer ready.
 bool choose(TimerBase::SharedPtr timer, AnyExecutable& any_executable) {
-  if (!timer || !timer->call()) {
+  if (!timer) {
+    return false;
+  }
+  any_executable.data = timer->call();
+  if (!any_executable.data) {
     return false;
   }
   any_executable.timer = std::move(timer);
@@ -302,7 +306,7 @@ void Executor::execute_any_executable(AnyExecutable& any_executable) {
   if (any_executable.timer) {
     TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
                           static_cast<const void*>(any_executable.timer->get_timer_handle().get()));
-    any_executable.timer->execute_callback();
+    any_executable.timer->execute_callback(any_executable.data);
   }
   if (any_executable.subscription) {
     TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,

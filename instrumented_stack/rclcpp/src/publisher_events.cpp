@@ -28,11 +28,14 @@ void PublisherBase::bind_event_callbacks(const PublisherEventCallbacks& callback
     add_event_handler(warn, RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS);
   }
   if (callbacks.incompatible_type_callback) {
-    try {
-      add_event_handler(callbacks.incompatible_type_callback, RCL_PUBLISHER_INCOMPATIBLE_TYPE);
-    } catch (const UnsupportedEventTypeException&) {
-      RCLCPP_WARN(get_logger(logger_name), "Failed to add event handler for incompatible type; not supported");
-    }
+    add_event_handler(callbacks.incompatible_type_callback, RCL_PUBLISHER_INCOMPATIBLE_TYPE);
+  } else if (use_default_callbacks) {
+    const IncompatibleTypeCallbackType warn = [topic = std::string(get_topic_name()),
+                                               logger_name](IncompatibleTypeInfo&) {
+      RCLCPP_WARN(get_logger(logger_name), "Incompatible type on topic '%s', no messages will be sent to it.",
+                  topic.c_str());
+    };
+    add_event_handler(warn, RCL_PUBLISHER_INCOMPATIBLE_TYPE);
   }
   if (callbacks.matched_callback) {
     add_event_handler(callbacks.matched_callback, RCL_PUBLISHER_MATCHED);

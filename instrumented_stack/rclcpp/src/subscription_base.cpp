@@ -242,6 +242,13 @@ void SubscriptionBase::dispatch(const std::shared_ptr<void>& message, const Mess
   statistics_->handle_message(message_info.get_rmw_message_info(), Time(now.count(), RCL_SYSTEM_TIME));
 }
 
+void SubscriptionBase::set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics) {
+  if (intra_process_) {
+    intra_process_->set_topic_statistics(statistics);
+  }
+  statistics_ = std::move(statistics);
+}
+
 std::shared_ptr<void> SubscriptionBase::borrow_message() {
   if (callback().takes_reference()) {
     const std::lock_guard lock(spare_mutex_);

@@ -32,11 +32,14 @@ void SubscriptionBase::bind_event_callbacks(const SubscriptionEventCallbacks& ca
     add_event_handler(callbacks.message_lost_callback, RCL_SUBSCRIPTION_MESSAGE_LOST);
   }
   if (callbacks.incompatible_type_callback) {
-    try {
-      add_event_handler(callbacks.incompatible_type_callback, RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE);
-    } catch (const UnsupportedEventTypeException&) {
-      RCLCPP_WARN(get_logger(logger_name), "Failed to add event handler for incompatible type; not supported");
-    }
+    add_event_handler(callbacks.incompatible_type_callback, RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE);
+  } else if (use_default_callbacks) {
+    const IncompatibleTypeCallbackType warn = [topic = std::string(get_topic_name()),
+                                               logger_name](IncompatibleTypeInfo&) {
+      RCLCPP_WARN(get_logger(logger_name), "Incompatible type on topic '%s', no messages will be received from it.",
+                  topic.c_str());
+    };
+    add_event_handler(warn, RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE);
   }
   if (callbacks.matched_callback) {
     add_event_handler(callbacks.matched_callback, RCL_SUBSCRIPTION_MATCHED);

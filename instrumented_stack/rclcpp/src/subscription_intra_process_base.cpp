@@ -1,10 +1,12 @@
 #include "rclcpp/experimental/subscription_intra_process_base.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <utility>
 
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/topic_statistics/subscription_topic_statistics.hpp"
 
 namespace rclcpp::experimental {
 
@@ -32,6 +34,23 @@ bool SubscriptionIntraProcessBase::is_ready(const rcl_wait_set_t& /*wait_set*/) 
 
 std::shared_ptr<void> SubscriptionIntraProcessBase::take_data_by_entity_id(size_t /*id*/) {
   return take_data();
+}
+
+void SubscriptionIntraProcessBase::execute(const std::shared_ptr<void>& data) {
+  if (!data) {
+    return;
+  }
+  MessageInfo message_info;
+  message_info.get_rmw_message_info().from_intra_process = true;
+  if (!statistics_) {
+    dispatch(data, message_info);
+    return;
+  }
+  // The callback's own time is not the message's.
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  dispatch(data, message_info);
+  statistics_->handle_message(message_info.get_rmw_message_info(),
+                              Time(std::chrono::nanoseconds(now).count(), RCL_SYSTEM_TIME));
 }
 
 void SubscriptionIntraProcessBase::set_on_ready_callback(std::function<void(size_t, int)> callback) {

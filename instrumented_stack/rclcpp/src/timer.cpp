@@ -82,19 +82,31 @@ bool TimerBase::is_ready() {
   return ready;
 }
 
-bool TimerBase::call() {
-  const rcl_ret_t ret = rcl_timer_call(timer_handle_.get());
+std::shared_ptr<void> TimerBase::call() {
+  auto info = std::make_shared<rcl_timer_call_info_t>();
+  const rcl_ret_t ret = rcl_timer_call_with_info(timer_handle_.get(), info.get());
   if (ret == RCL_RET_TIMER_CANCELED) {
     rcl_reset_error();
-    return false;
+    return nullptr;
   }
   require_ok(ret, "failed to notify timer that callback occurred");
-  return true;
+  return info;
+}
+
+void TimerBase::execute_callback(const std::shared_ptr<void>& data) {
+  const auto& info = *static_cast<const rcl_timer_call_info_t*>(data.get());
+  const rcl_clock_type_t clock_type = clock_->get_clock_type();
+  execute({Time(info.expected_call_time, clock_type), Time(info.actual_call_time, clock_type)});
 }
 
 void TimerBase::execute_callback() {
+  const Time now = clock_->now();
+  execute({now, now});
+}
+
+void TimerBase::execute(const TimerInfo& info) {
   TRACETOOLS_TRACEPOINT(callback_start, callback_, false);
-  run();
+  run(info);
   TRACETOOLS_TRACEPOINT(callback_end, callback_);
 }
 

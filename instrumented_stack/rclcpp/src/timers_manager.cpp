@@ -83,10 +83,14 @@ bool TimersManager::execute_head_timer() {
       head = std::move(timer);
     }
   }
-  if (!head || head_time > nanoseconds::zero() || !head->call()) {
+  if (!head || head_time > nanoseconds::zero()) {
     return false;
   }
-  head->execute_callback();
+  const std::shared_ptr<void> data = head->call();
+  if (!data) {
+    return false;
+  }
+  head->execute_callback(data);
   return true;
 }
 

@@ -22,9 +22,7 @@ rmw_event_t rmw_get_zero_initialized_event(void) {
 }
 
 bool rmw_event_type_is_supported(rmw_event_type_t rmw_event_type) {
-  return rmw_event_type >= RMW_EVENT_LIVELINESS_CHANGED && rmw_event_type < RMW_EVENT_INVALID &&
-         rmw_event_type != RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE &&
-         rmw_event_type != RMW_EVENT_PUBLISHER_INCOMPATIBLE_TYPE;
+  return rmw_event_type >= RMW_EVENT_LIVELINESS_CHANGED && rmw_event_type < RMW_EVENT_INVALID;
 }
 
 rmw_ret_t rmw_event_fini(rmw_event_t* event) {

@@ -1,6 +1,7 @@
 #include "graph_cache.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace rmw_fastrtps {
@@ -26,6 +27,15 @@ auto& endpoints_of(NodeInfo& node, GraphCache::Kind kind) {
   return kind == GraphCache::Kind::kWriter ? node.writer_gid_seq : node.reader_gid_seq;
 }
 
+void tell_incompatible(const GraphCache::Endpoint& endpoint, std::size_t count) {
+  if (endpoint.incompatible_type && count != 0) {
+    endpoint.incompatible_type->update([count](rmw_incompatible_type_status_t& status) {
+      status.total_count += static_cast<std::int32_t>(count);
+      status.total_count_change += static_cast<std::int32_t>(count);
+    });
+  }
+}
+
 }  // namespace
 
 void GraphCache::add_participant(const Gid& gid, std::string enclave) {
@@ -45,7 +55,13 @@ void GraphCache::remove_participant(const Gid& gid) {
     if (gone_.size() > kRemembered) {
       gone_.pop_front();
     }
-    std::erase_if(endpoints_, [&](const auto& entry) { return same_participant(entry.first, gid); });
+    std::erase_if(endpoints_, [&](const auto& entry) {
+      const bool of_participant = same_participant(entry.first, gid);
+      if (of_participant) {
+        leave_topic(entry.second);
+      }
+      return of_participant;
+    });
   }
   on_change_();
 }
@@ -53,7 +69,18 @@ void GraphCache::remove_participant(const Gid& gid) {
 void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
   {
     std::lock_guard lock(mutex_);
-    endpoints_.insert_or_assign(gid, std::move(endpoint));
+    const auto found = endpoints_.find(gid);
+    if (found == endpoints_.end()) {
+      enter_topic(endpoints_.emplace(gid, std::move(endpoint)).first->second);
+    } else {
+      // Discovery finds the own ones, too, and tells again when something changes, which topic and type don't.
+      Endpoint& known = found->second;
+      known.qos = endpoint.qos;
+      if (endpoint.incompatible_type) {
+        known.incompatible_type = std::move(endpoint.incompatible_type);
+        tell_incompatible(known, incompatible_with(known).size());
+      }
+    }
   }
   on_change_();
 }
@@ -61,9 +88,36 @@ void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
 void GraphCache::remove_endpoint(const Gid& gid) {
   {
     std::lock_guard lock(mutex_);
-    endpoints_.erase(gid);
+    if (const auto found = endpoints_.find(gid); found != endpoints_.end()) {
+      leave_topic(found->second);
+      endpoints_.erase(found);
+    }
   }
   on_change_();
+}
+
+std::vector<const GraphCache::Endpoint*> GraphCache::incompatible_with(const Endpoint& endpoint) const {
+  std::vector<const Endpoint*> incompatible;
+  const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
+  for (auto entry = begin; entry != end; ++entry) {
+    if (entry->second->kind != endpoint.kind && entry->second->type != endpoint.type) {
+      incompatible.push_back(entry->second);
+    }
+  }
+  return incompatible;
+}
+
+void GraphCache::enter_topic(const Endpoint& endpoint) {
+  for (const Endpoint* other : incompatible_with(endpoint)) {
+    tell_incompatible(*other, 1);
+    tell_incompatible(endpoint, 1);
+  }
+  endpoints_by_topic_.emplace(endpoint.topic, &endpoint);
+}
+
+void GraphCache::leave_topic(const Endpoint& endpoint) {
+  const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
+  endpoints_by_topic_.erase(std::find_if(begin, end, [&](const auto& entry) { return entry.second == &endpoint; }));
 }
 
 void GraphCache::update_nodes(const EntitiesInfo& info) {
@@ -141,9 +195,9 @@ GraphCache::EntitiesInfo GraphCache::remove_node_endpoint(const Gid& participant
 
 std::size_t GraphCache::count(Kind kind, std::string_view topic) const {
   std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(std::count_if(endpoints_.begin(), endpoints_.end(), [&](const auto& entry) {
-    return entry.second.kind == kind && entry.second.topic == topic;
-  }));
+  const auto [begin, end] = endpoints_by_topic_.equal_range(topic);
+  return static_cast<std::size_t>(
+      std::count_if(begin, end, [&](const auto& entry) { return entry.second->kind == kind; }));
 }
 
 std::vector<GraphCache::Node> GraphCache::nodes() const {

@@ -7,16 +7,19 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "gid.hpp"
 #include "rmw/types.h"
 #include "rmw_dds_common/msg/participant_entities_info.hpp"
+#include "status_event.hpp"
 
 namespace rmw_fastrtps {
 
@@ -32,6 +35,9 @@ class GraphCache {
     std::string topic;
     std::string type;
     rmw_qos_profile_t qos;
+    // Of an own endpoint, else null: is told of those at the other side of the topic that have another type. Fast DDS
+    // 2.9 says nothing of them.
+    std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>> incompatible_type = nullptr;
   };
 
   // One with its node. Empty names if no node is known to have it.
@@ -93,11 +99,17 @@ class GraphCache {
   template <typename Change>
   EntitiesInfo change_nodes(const Gid& gid, Change change);
 
+  // Under the lock:
+  std::vector<const Endpoint*> incompatible_with(const Endpoint& endpoint) const;
+  void enter_topic(const Endpoint& endpoint);
+  void leave_topic(const Endpoint& endpoint);
+
   std::function<void()> on_change_;
   mutable std::mutex mutex_;
   std::map<Gid, Participant> participants_;
   std::deque<Gid> gone_;  // the last participants that were removed
   std::map<Gid, Endpoint> endpoints_;
+  std::unordered_multimap<std::string_view, const Endpoint*> endpoints_by_topic_;  // those of endpoints_
 };
 
 }  // namespace rmw_fastrtps

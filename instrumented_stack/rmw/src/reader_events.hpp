@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <fastdds/dds/core/status/StatusMask.hpp>
+#include <memory>
 
 #include "data_reader_waitable.hpp"
 #include "dds_status.hpp"
@@ -63,6 +64,8 @@ class ReaderEvents : public DataReaderWaitable {
         return &message_lost_;
       case RMW_EVENT_SUBSCRIPTION_MATCHED:
         return &matched_event_;
+      case RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE:
+        return incompatible_type_.get();
       default:
         return nullptr;
     }
@@ -70,8 +73,15 @@ class ReaderEvents : public DataReaderWaitable {
 
   std::size_t matched() const { return matched_; }
 
+  // For the graph, which knows the types of the others.
+  const std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>>& incompatible_type() const {
+    return incompatible_type_;
+  }
+
  private:
   std::atomic<std::size_t> matched_{0};
+  std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>> incompatible_type_ =
+      std::make_shared<StatusEventOf<rmw_incompatible_type_status_t>>();
   StatusEventOf<rmw_matched_status_t> matched_event_;
   StatusEventOf<rmw_liveliness_changed_status_t> liveliness_changed_;
   StatusEventOf<rmw_requested_deadline_missed_status_t> deadline_missed_;

@@ -96,7 +96,7 @@ void create_reader(Subscription& subscription) {
   }
   subscription.identity = {to_gid(subscription.reader->guid()),
                            {GraphCache::Kind::kReader, dds_topic, dds_type_name(*subscription.type),
-                            profile_of(subscription.reader->get_qos())}};
+                            profile_of(subscription.reader->get_qos()), subscription.incompatible_type()}};
 }
 
 rmw_subscription_t* create_subscription(Participant& participant, const rosidl_message_type_support_t& type_support,

@@ -6,6 +6,7 @@
 #include <fastdds/dds/core/status/StatusMask.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <memory>
 
 #include "dds_status.hpp"
 #include "rmw/event.h"
@@ -52,6 +53,8 @@ class WriterEvents : public eprosima::fastdds::dds::DataWriterListener {
         return &incompatible_qos_;
       case RMW_EVENT_PUBLICATION_MATCHED:
         return &matched_event_;
+      case RMW_EVENT_PUBLISHER_INCOMPATIBLE_TYPE:
+        return incompatible_type_.get();
       default:
         return nullptr;
     }
@@ -59,8 +62,15 @@ class WriterEvents : public eprosima::fastdds::dds::DataWriterListener {
 
   std::size_t matched() const { return matched_; }
 
+  // For the graph, which knows the types of the others.
+  const std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>>& incompatible_type() const {
+    return incompatible_type_;
+  }
+
  private:
   std::atomic<std::size_t> matched_{0};
+  std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>> incompatible_type_ =
+      std::make_shared<StatusEventOf<rmw_incompatible_type_status_t>>();
   StatusEventOf<rmw_matched_status_t> matched_event_;
   StatusEventOf<rmw_liveliness_lost_status_t> liveliness_lost_;
   StatusEventOf<rmw_offered_deadline_missed_status_t> deadline_missed_;

@@ -51,7 +51,7 @@ Guardian::Guardian(const std::string& program, Duration grace) {
   posix_spawn_file_actions_addchdir_np(&actions, "/");
   posix_spawnattr_init(&attributes);
   sigset_t signals;
-  sigemptyset(&signals);
+  sigfillset(&signals);  // until it ignores those that it shall survive
   posix_spawnattr_setsigmask(&attributes, &signals);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
   const int error = ::posix_spawn(&pid_, program.c_str(), &actions, &attributes, argv.data(), environ);

@@ -167,6 +167,9 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) {
     ::signal(signal, SIG_IGN);
   }
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);  // it was started with all of them blocked
   const Remains remains = follow_launcher(STDIN_FILENO);
   if (const std::size_t count = remains.groups.size(); count != 0) {
     fmt::print(stderr, "launch-guardian: the launcher has gone and left {} process group{}: ending {}\n", count,

@@ -111,4 +111,115 @@ TEST_F(WaitSetKeeps, ClearingForgets) {
   EXPECT_THAT(left({&b_}, RCL_RET_OK), ElementsAre(&d_.handle, kNull, &b_.handle, kNull));
 }
 
+// Timers on simulated time, and one on steady time that is never due.
+class WaitSetKeepsTimers : public testing::Test {
+ protected:
+  WaitSetKeepsTimers() {
+    rcl_allocator_t allocator = rcl_get_default_allocator();
+    EXPECT_EQ(rcl_clock_init(RCL_ROS_TIME, &simulated_, &allocator), RCL_RET_OK);
+    EXPECT_EQ(rcl_clock_init(RCL_STEADY_TIME, &steady_, &allocator), RCL_RET_OK);
+    EXPECT_EQ(rcl_enable_ros_time_override(&simulated_), RCL_RET_OK);
+    set_time(100);
+    EXPECT_EQ(rcl_wait_set_init(&set_, 0, 1, 5, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
+    EXPECT_EQ(rcl_guard_condition_init(&end_, &context_.handle, rcl_guard_condition_get_default_options()), RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_add_guard_condition(&set_, &end_, nullptr), RCL_RET_OK);
+    add(timers_[0], &simulated_, 30);
+    add(timers_[1], &simulated_, 10);
+    add(timers_[2], &steady_, int64_t{1} << 60);
+    add(timers_[3], &simulated_, 20);
+    EXPECT_EQ(rcl_wait_set_keep(&set_), RCL_RET_OK);
+  }
+  ~WaitSetKeepsTimers() override {
+    EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK);
+    for (rcl_timer_t& timer : timers_) {
+      EXPECT_EQ(rcl_timer_fini(&timer), RCL_RET_OK);
+    }
+    EXPECT_EQ(rcl_guard_condition_fini(&end_), RCL_RET_OK);
+    EXPECT_EQ(rcl_clock_fini(&simulated_), RCL_RET_OK);
+    EXPECT_EQ(rcl_clock_fini(&steady_), RCL_RET_OK);
+  }
+
+  void add(rcl_timer_t& timer, rcl_clock_t* clock, int64_t period) {
+    EXPECT_EQ(rcl_timer_init2(&timer, clock, &context_.handle, period, nullptr, rcl_get_default_allocator(), true),
+              RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_add_timer(&set_, &timer, nullptr), RCL_RET_OK);
+  }
+  void set_time(int64_t time) { EXPECT_EQ(rcl_set_ros_time_override(&simulated_, time), RCL_RET_OK); }
+  // The numbers of those that a wait leaves; they are called.
+  std::vector<std::ptrdiff_t> call_ready() {
+    EXPECT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
+    const rcl_ret_t result = rcl_wait(&set_, kNoTime);
+    std::vector<std::ptrdiff_t> ready;
+    for (size_t i = 0; i < set_.size_of_timers; ++i) {
+      if (set_.timers[i] != nullptr) {
+        ready.push_back(set_.timers[i] - timers_);
+        EXPECT_EQ(rcl_timer_call(&timers_[ready.back()]), RCL_RET_OK);
+      }
+    }
+    EXPECT_EQ(result == RCL_RET_OK || !ready.empty(), result == RCL_RET_OK);
+    rcl_reset_error();
+    return ready;
+  }
+
+  rcl_test::Context context_;
+  rcl_clock_t simulated_{};
+  rcl_clock_t steady_{};
+  rcl_guard_condition_t end_ = rcl_get_zero_initialized_guard_condition();
+  rcl_timer_t timers_[5]{};
+  rcl_wait_set_t set_ = rcl_get_zero_initialized_wait_set();
+};
+
+TEST_F(WaitSetKeepsTimers, EachIsLeftWhenItIsDue) {
+  const std::vector<std::vector<std::ptrdiff_t>> expected = {{}, {1}, {1, 3}, {0, 1}, {1, 3}, {1}};
+  for (size_t i = 0; i < expected.size(); ++i) {
+    set_time(100 + static_cast<int64_t>(i) * 10);
+    EXPECT_EQ(call_ready(), expected[i]) << i;
+    EXPECT_EQ(call_ready(), std::vector<std::ptrdiff_t>()) << i;
+  }
+}
+
+TEST_F(WaitSetKeepsTimers, TheEntriesOfOneThatIsCancelledComeBackWithItsReset) {
+  EXPECT_THAT(call_ready(), ElementsAre());
+  ASSERT_EQ(rcl_timer_cancel(&timers_[1]), RCL_RET_OK);
+  set_time(120);
+  EXPECT_THAT(call_ready(), ElementsAre(3));
+  ASSERT_EQ(rcl_timer_reset(&timers_[1]), RCL_RET_OK);
+  EXPECT_THAT(call_ready(), ElementsAre());
+  set_time(130);
+  EXPECT_THAT(call_ready(), ElementsAre(0, 1));
+}
+
+TEST_F(WaitSetKeepsTimers, AShorterPeriodCountsFromAReset) {
+  EXPECT_THAT(call_ready(), ElementsAre());
+  int64_t old_period = 0;
+  ASSERT_EQ(rcl_timer_exchange_period(&timers_[0], 1, &old_period), RCL_RET_OK);
+  ASSERT_EQ(rcl_timer_reset(&timers_[0]), RCL_RET_OK);
+  EXPECT_THAT(call_ready(), ElementsAre());
+  set_time(101);
+  EXPECT_THAT(call_ready(), ElementsAre(0));
+  set_time(102);
+  EXPECT_THAT(call_ready(), ElementsAre(0));
+}
+
+TEST_F(WaitSetKeepsTimers, TimeThatJumpsBackMakesThemDueAgain) {
+  set_time(200);
+  EXPECT_THAT(call_ready(), ElementsAre(0, 1, 3));
+  set_time(50);
+  EXPECT_THAT(call_ready(), ElementsAre());
+  set_time(60);
+  EXPECT_THAT(call_ready(), ElementsAre(1));
+}
+
+TEST_F(WaitSetKeepsTimers, OneThatIsAddedForAWaitIsLeftInThatWait) {
+  EXPECT_THAT(call_ready(), ElementsAre());
+  ASSERT_EQ(rcl_timer_init2(&timers_[4], &simulated_, &context_.handle, 5, nullptr, rcl_get_default_allocator(), true),
+            RCL_RET_OK);
+  set_time(110);
+  ASSERT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
+  ASSERT_EQ(rcl_wait_set_add_timer(&set_, &timers_[4], nullptr), RCL_RET_OK);
+  ASSERT_EQ(rcl_wait(&set_, kNoTime), RCL_RET_OK);
+  EXPECT_THAT(std::vector<const rcl_timer_t*>(set_.timers, set_.timers + 5),
+              ElementsAre(kNull, &timers_[1], kNull, kNull, &timers_[4]));
+}
+
 }  // namespace

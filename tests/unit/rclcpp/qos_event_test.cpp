@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <rclcpp/experimental/executors/events_executor/events_executor.hpp>
+#include <std_msgs/msg/int32.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <string>
 #include <vector>
@@ -72,7 +73,7 @@ TEST_F(QosEventTest, TheDefaultWarningsCanBeReplacedAndSwitchedOff) {
   auto publisher = node_->create_publisher<String>("topic", rclcpp::QoS(1).durability_volatile(), publisher_options);
   auto subscription =
       node_->create_subscription<String>("topic", rclcpp::QoS(1).transient_local(), ignore, subscription_options);
-  EXPECT_EQ(publisher->get_event_handlers().size(), 1u);
+  EXPECT_EQ(publisher->get_event_handlers().size(), 2u);  // that of incompatible types is there by default
   EXPECT_EQ(subscription->get_event_handlers().size(), 0u);
   ASSERT_TRUE(spin_until(executor_, [&] { return incompatible == 1; }));
   EXPECT_EQ(policy, RMW_QOS_POLICY_DURABILITY);
@@ -158,12 +159,65 @@ TEST_F(QosEventTest, AnEventsExecutorHearsOfThemToo) {
   EXPECT_TRUE(spin_until(executor, [&] { return matches == 0; }));
 }
 
-TEST_F(QosEventTest, WhatTheMiddlewareDoesNotTellIsWarnedOf) {
-  rclcpp::PublisherOptions options;
-  options.event_callbacks.incompatible_type_callback = [](rclcpp::IncompatibleTypeInfo&) {};
-  auto publisher = node_->create_publisher<String>("topic", 1, options);
+// A node of another participant: in one, a topic has one type.
+class OtherParticipant {
+ public:
+  explicit OtherParticipant(rclcpp::Executor& executor) {
+    context_->init(0, nullptr);
+    node = std::make_shared<rclcpp::Node>("other", "ns", rclcpp::NodeOptions().context(context_));
+    rclcpp::ExecutorOptions options;
+    options.context = context_;
+    executor_ = std::make_unique<rclcpp::executors::SingleThreadedExecutor>(options);
+    executor_->add_node(node);
+    first_ = &executor;
+  }
+  ~OtherParticipant() { context_->shutdown("the test is over"); }
+
+  template <typename ConditionT>
+  bool spin_both_until(ConditionT condition) {
+    return spin_until(*first_, [&] {
+      executor_->spin_some();
+      return condition();
+    });
+  }
+
+  rclcpp::Node::SharedPtr node;
+
+ private:
+  std::shared_ptr<rclcpp::Context> context_ = std::make_shared<rclcpp::Context>();
+  std::unique_ptr<rclcpp::executors::SingleThreadedExecutor> executor_;
+  rclcpp::Executor* first_;
+};
+
+TEST_F(QosEventTest, EndpointsOfAnotherTypeAreTold) {
+  OtherParticipant other(executor_);
+  int of_publisher = 0;
+  int of_subscription = 0;
+  rclcpp::PublisherOptions publisher_options;
+  publisher_options.event_callbacks.incompatible_type_callback = [&](rclcpp::IncompatibleTypeInfo& info) {
+    of_publisher = info.total_count;
+  };
+  rclcpp::SubscriptionOptions subscription_options;
+  subscription_options.event_callbacks.incompatible_type_callback = [&](rclcpp::IncompatibleTypeInfo& info) {
+    of_subscription = info.total_count;
+  };
+  auto publisher = node_->create_publisher<String>("topic", 1, publisher_options);
+  auto subscription = other.node->create_subscription<std_msgs::msg::Int32>(
+      "topic", 1, [](const std_msgs::msg::Int32&) {}, subscription_options);
+  EXPECT_TRUE(other.spin_both_until([&] { return of_publisher == 1 && of_subscription == 1; }));
+  EXPECT_EQ(count_lines(), 0u);
+}
+
+TEST_F(QosEventTest, EndpointsOfAnotherTypeAreWarnedOfByDefault) {
+  OtherParticipant other(executor_);
+  auto publisher = node_->create_publisher<String>("topic", 1);
+  auto subscription =
+      other.node->create_subscription<std_msgs::msg::Int32>("topic", 1, [](const std_msgs::msg::Int32&) {});
+  ASSERT_TRUE(other.spin_both_until([] { return count_lines() == 2; }));
   EXPECT_THAT(lines,
-              testing::ElementsAre("WARN ns.node: Failed to add event handler for incompatible type; not supported"));
+              testing::UnorderedElementsAre(
+                  "WARN ns.node: Incompatible type on topic '/ns/topic', no messages will be sent to it.",
+                  "WARN ns.other: Incompatible type on topic '/ns/topic', no messages will be received from it."));
 }
 
 TEST_F(QosEventTest, APublisherIsGoneAtOnceThoughAnExecutorKnowsItsEvents) {

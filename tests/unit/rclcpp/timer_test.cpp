@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 #include <rosgraph_msgs/msg/clock.hpp>
 #include <vector>
 
@@ -40,6 +42,58 @@ TEST_F(TimerTest, TakesCallbacksWithTheTimerItself) {
   ASSERT_TRUE(spin_until(executor_, [&] { return timer->is_canceled(); }));
   executor_.spin_once(milliseconds(20));
   EXPECT_EQ(calls, 1);
+}
+
+TEST_F(TimerTest, TellsCallbacksWhenTheyWereDue) {
+  std::vector<rclcpp::TimerInfo> calls;
+  auto timer =
+      node_->create_wall_timer(milliseconds(2), [&calls](const rclcpp::TimerInfo& info) { calls.push_back(info); });
+  ASSERT_TRUE(spin_until(executor_, [&] { return calls.size() == 2; }));
+  for (const rclcpp::TimerInfo& call : calls) {
+    EXPECT_GE(call.actual_call_time, call.expected_call_time);
+    EXPECT_EQ(call.expected_call_time.get_clock_type(), RCL_STEADY_TIME);
+  }
+  const auto between = calls[1].expected_call_time - calls[0].expected_call_time;
+  EXPECT_EQ(between.nanoseconds() % 2'000'000, 0);
+  EXPECT_GT(between.nanoseconds(), 0);
+}
+
+TEST_F(TimerTest, IsExecutedByHandWithOrWithoutWhatACallTold) {
+  std::vector<rclcpp::TimerInfo> calls;
+  auto timer = node_->create_wall_timer(std::chrono::hours(1),
+                                        [&calls](const rclcpp::TimerInfo& info) { calls.push_back(info); });
+  const std::shared_ptr<void> data = timer->call();
+  ASSERT_NE(data, nullptr);
+  timer->execute_callback(data);
+  timer->execute_callback();
+  ASSERT_EQ(calls.size(), 2u);
+  EXPECT_GT(calls[0].expected_call_time, calls[0].actual_call_time);
+  EXPECT_EQ(calls[1].expected_call_time, calls[1].actual_call_time);
+  timer->cancel();
+  EXPECT_EQ(timer->call(), nullptr);
+}
+
+TEST_F(TimerTest, OfManyEachFiresInItsTurn) {
+  std::vector<int> calls;
+  std::vector<rclcpp::TimerBase::SharedPtr> timers;
+  for (int i = 50; i > 0; --i) {
+    timers.push_back(node_->create_wall_timer(milliseconds(i) * 2, [&calls, &timers, i] {
+      calls.push_back(i);
+      timers[static_cast<size_t>(50 - i)]->cancel();
+    }));
+  }
+  auto idle = node_->create_wall_timer(std::chrono::hours(1), [] {});
+  ASSERT_TRUE(spin_until(executor_, [&] { return calls.size() == 50; }));
+  EXPECT_TRUE(std::is_permutation(calls.begin(), calls.end(),
+                                  [] {
+                                    std::vector<int> all(50);
+                                    std::iota(all.begin(), all.end(), 1);
+                                    return all;
+                                  }()
+                                      .begin()));
+  calls.clear();
+  timers.front()->reset();
+  EXPECT_TRUE(spin_until(executor_, [&] { return calls == std::vector<int>{50}; }));
 }
 
 TEST_F(TimerTest, ACanceledTimerWaitsForItsReset) {

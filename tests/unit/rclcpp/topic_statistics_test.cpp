@@ -126,6 +126,36 @@ TEST_F(TopicStatistics, SubscriptionPublishesThemOncePerPeriod) {
   EXPECT_EQ(node_->count_publishers("measurements"), 0u);
 }
 
+TEST_F(TopicStatistics, MessagesWithinTheProcessCountButHaveNoAge) {
+  const auto node = std::make_shared<rclcpp::Node>("within", "ns", rclcpp::NodeOptions().use_intra_process_comms(true));
+  executor_.add_node(node);
+  rclcpp::SubscriptionOptions options;
+  options.topic_stats_options.state = rclcpp::TopicStatisticsState::Enable;
+  options.topic_stats_options.publish_period = std::chrono::milliseconds(10);
+  bool within = true;
+  const auto subscription = node->create_subscription<UInt64>(
+      "topic", 10,
+      [&](const UInt64&, const rclcpp::MessageInfo& info) {
+        within = within && info.get_rmw_message_info().from_intra_process;
+      },
+      options);
+  const auto publisher = node->create_publisher<UInt64>("topic", 10);
+  listen();
+  const auto timer = node->create_wall_timer(std::chrono::milliseconds(1), [&] { publisher->publish(UInt64()); });
+  const auto samples = [&](const char* metric) {
+    double count = 0;
+    for (const MetricsMessage& message : messages_) {
+      if (message.metrics_source == metric) {
+        count += value_of(message, StatisticDataType::STATISTICS_DATA_TYPE_SAMPLE_COUNT);
+      }
+    }
+    return count;
+  };
+  EXPECT_TRUE(spin_until(executor_, [&] { return samples("message_period") > 3; }));
+  EXPECT_EQ(samples("message_age"), 0);
+  EXPECT_TRUE(within);
+}
+
 TEST_F(TopicStatistics, NodeDecidesUnlessTheSubscriptionDoes) {
   const auto node =
       std::make_shared<rclcpp::Node>("default", "other", rclcpp::NodeOptions().enable_topic_statistics(true));

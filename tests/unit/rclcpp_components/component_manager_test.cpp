@@ -1,6 +1,7 @@
 // Loading, unloading and listing components, in the process of the test.
 #include <gmock/gmock.h>
 
+#include <class_loader/class_loader.hpp>
 #include <cstdlib>
 #include <rclcpp_components/component_manager.hpp>
 #include <rclcpp_components/component_manager_isolated.hpp>
@@ -50,6 +51,16 @@ class ComponentManagerTest : public RosTest {
       std::make_shared<rclcpp_components::ComponentManager>(executor_);
   ContainerClient client_{*executor_, node_, "/ComponentManager"};
 };
+
+TEST_F(ComponentManagerTest, ProgramsFindComponentsWithALoaderOfTheirOwn) {
+  using rclcpp_components::NodeFactory;
+  class_loader::ClassLoader loader(TEST_COMPONENTS);
+  const std::string plain = "rclcpp_components::NodeFactoryTemplate<test_components::Plain>";
+  EXPECT_THAT(loader.getAvailableClasses<NodeFactory>(), testing::Contains(plain));
+  const auto factory = loader.createInstance<NodeFactory>(plain);
+  auto component = factory->create_node_instance(rclcpp::NodeOptions());
+  EXPECT_STREQ(component.get_node_base_interface()->get_name(), "plain");
+}
 
 TEST_F(ComponentManagerTest, LoadsListsAndUnloads) {
   const LoadNode::Response talker = client_.load("composition", "composition::Talker");

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rmw_test.hpp"
+#include "std_msgs/msg/int32.hpp"
 #include "std_msgs/msg/string.hpp"
 #include "tests/support/sandbox.hpp"
 
@@ -139,13 +140,34 @@ TEST_F(EventTest, UnknownTypesAreRefused) {
   Publisher<String> publisher(node_, "/chatter");
   Subscription<String> subscription(node_, "/chatter");
   rmw_event_t event = rmw_get_zero_initialized_event();
-  EXPECT_EQ(rmw_publisher_event_init(&event, publisher.handle, RMW_EVENT_PUBLISHER_INCOMPATIBLE_TYPE),
+  EXPECT_EQ(rmw_publisher_event_init(&event, publisher.handle, RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE),
             RMW_RET_UNSUPPORTED);
   EXPECT_EQ(take_error(), "provided event_type is not supported for a publisher");
   EXPECT_EQ(rmw_subscription_event_init(&event, subscription.handle, RMW_EVENT_LIVELINESS_LOST), RMW_RET_UNSUPPORTED);
   EXPECT_EQ(take_error(), "provided event_type is not supported for a subscription");
-  EXPECT_FALSE(rmw_event_type_is_supported(RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE));
+  EXPECT_FALSE(rmw_event_type_is_supported(RMW_EVENT_INVALID));
   EXPECT_TRUE(rmw_event_type_is_supported(RMW_EVENT_MESSAGE_LOST));
+}
+
+TEST_F(EventTest, BothSidesHearOfAnotherTypeOnTheirTopic) {
+  Context other_context;
+  Node other_node(other_context, "other");
+  Publisher<String> publisher(node_, "/chatter");
+  Subscription<std_msgs::msg::Int32> other(other_node, "/chatter");
+  const rmw_event_t of_publisher = event_of(publisher, RMW_EVENT_PUBLISHER_INCOMPATIBLE_TYPE);
+  const rmw_event_t of_subscription = event_of(other, RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE);
+  ASSERT_EQ(wait(of_publisher), RMW_RET_OK);
+  EXPECT_EQ(take<rmw_incompatible_type_status_t>(of_publisher).total_count, 1);
+  ASSERT_EQ(wait(of_subscription), RMW_RET_OK);
+  EXPECT_EQ(take<rmw_incompatible_type_status_t>(of_subscription).total_count_change, 1);
+  EXPECT_EQ(wait(of_subscription, kNoWait), RMW_RET_TIMEOUT);
+
+  // Who comes later hears of who was there.
+  Subscription<std_msgs::msg::Int32> later(other_node, "/chatter");
+  const rmw_event_t of_later = event_of(later, RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE);
+  EXPECT_EQ(wait(of_later, kNoWait), RMW_RET_OK);
+  ASSERT_EQ(wait(of_publisher), RMW_RET_OK);
+  EXPECT_EQ(take<rmw_incompatible_type_status_t>(of_publisher).total_count, 2);
 }
 
 void count(const void* user_data, size_t number_of_events) {

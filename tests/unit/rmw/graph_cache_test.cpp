@@ -75,4 +75,45 @@ TEST_F(Graph, ForgetsTheEndpointsOfAParticipantWithIt) {
   EXPECT_EQ(graph_.count(GraphCache::Kind::kWriter, "rt/chatter"), 0u);
 }
 
+using IncompatibleType = rmw_fastrtps::StatusEventOf<rmw_incompatible_type_status_t>;
+
+int32_t taken_from(IncompatibleType& event) {
+  rmw_incompatible_type_status_t status{};
+  event.take(&status);
+  return status.total_count_change;
+}
+
+TEST_F(Graph, TellsEndpointsOfOthersOnTheirTopicWithAnotherType) {
+  const auto publisher = std::make_shared<IncompatibleType>();
+  const auto subscription = std::make_shared<IncompatibleType>();
+  graph_.add_endpoint(gid_of(1), {GraphCache::Kind::kWriter, "rt/chatter", "String", {}, publisher});
+  graph_.add_endpoint(gid_of(2), {GraphCache::Kind::kReader, "rt/other", "Int32", {}});
+  graph_.add_endpoint(gid_of(3), {GraphCache::Kind::kWriter, "rt/chatter", "Int32", {}});
+  graph_.add_endpoint(gid_of(4), {GraphCache::Kind::kReader, "rt/chatter", "String", {}});
+  EXPECT_FALSE(publisher->is_ready());
+
+  graph_.add_endpoint(gid_of(5), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
+  graph_.add_endpoint(gid_of(5), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
+  EXPECT_TRUE(publisher->is_ready());
+  EXPECT_EQ(taken_from(*publisher), 1);
+  EXPECT_FALSE(publisher->is_ready());
+
+  graph_.add_endpoint(gid_of(6), {GraphCache::Kind::kReader, "rt/chatter", "UInt8", {}, subscription});
+  EXPECT_EQ(taken_from(*subscription), 2);
+  EXPECT_EQ(taken_from(*publisher), 1);
+
+  // Discovery may find an own endpoint before its creation is told, and again.
+  const auto late = std::make_shared<IncompatibleType>();
+  graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
+  EXPECT_EQ(taken_from(*publisher), 1);
+  graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}, late});
+  graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
+  EXPECT_EQ(taken_from(*late), 1);
+  EXPECT_FALSE(publisher->is_ready());
+
+  graph_.remove_endpoint(gid_of(6));
+  graph_.add_endpoint(gid_of(7), {GraphCache::Kind::kWriter, "rt/chatter", "Float32", {}});
+  EXPECT_FALSE(subscription->is_ready());
+}
+
 }  // namespace

@@ -31,7 +31,7 @@ struct AnyExecutable {
   ServiceBase::SharedPtr service;
   ClientBase::SharedPtr client;
   Waitable::SharedPtr waitable;
-  std::shared_ptr<void> data;  // of the waitable
+  std::shared_ptr<void> data;  // of the timer or the waitable
   CallbackGroup::SharedPtr callback_group;
 };
 

@@ -44,7 +44,7 @@ struct PublisherEventCallbacks {
   QOSDeadlineOfferedCallbackType deadline_callback;
   QOSLivelinessLostCallbackType liveliness_callback;
   QOSOfferedIncompatibleQoSCallbackType incompatible_qos_callback;
-  IncompatibleTypeCallbackType incompatible_type_callback;  // never called: Fast DDS 2.9 does not tell
+  IncompatibleTypeCallbackType incompatible_type_callback;
   PublisherMatchedCallbackType matched_callback;
 };
 
@@ -53,7 +53,7 @@ struct SubscriptionEventCallbacks {
   QOSLivelinessChangedCallbackType liveliness_callback;
   QOSRequestedIncompatibleQoSCallbackType incompatible_qos_callback;
   QOSMessageLostCallbackType message_lost_callback;
-  IncompatibleTypeCallbackType incompatible_type_callback;  // never called: Fast DDS 2.9 does not tell
+  IncompatibleTypeCallbackType incompatible_type_callback;
   SubscriptionMatchedCallbackType matched_callback;
 };
 

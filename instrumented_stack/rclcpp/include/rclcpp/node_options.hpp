@@ -42,7 +42,7 @@ class NodeOptions {
   bool use_intra_process_comms() const { return use_intra_process_comms_; }
   NodeOptions& use_intra_process_comms(bool use_intra_process_comms);
 
-  // Whether subscriptions publish statistics. Accepted; nothing is published. Default false.
+  // Whether subscriptions that do not say otherwise publish statistics. Default false.
   bool enable_topic_statistics() const { return enable_topic_statistics_; }
   NodeOptions& enable_topic_statistics(bool enable_topic_statistics);
 

@@ -98,9 +98,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
   // What measures this subscription's messages; null: nothing. To be called before it is executed.
-  void set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics) {
-    statistics_ = std::move(statistics);
-  }
+  void set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics);
 
   // The group that serves this subscription, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }

@@ -43,7 +43,7 @@ struct SubscriptionOptionsBase {
   IntraProcessBufferType intra_process_buffer_type = IntraProcessBufferType::CallbackDefault;
 
   // Statistics of the received messages, as statistics_msgs/msg/MetricsMessage on a topic of their own: their age and
-  // their distance in time. Messages of intra-process communication are not counted.
+  // their distance in time. Messages of intra-process communication have no age.
   struct TopicStatisticsOptions {
     TopicStatisticsState state = TopicStatisticsState::NodeDefault;
     std::string publish_topic = "/statistics";

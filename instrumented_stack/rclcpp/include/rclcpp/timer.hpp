@@ -17,8 +17,15 @@
 #include "rclcpp/detail/callback_symbol.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/time.hpp"
 
 namespace rclcpp {
+
+// When a call of a timer was due, and when it was made, by the timer's clock.
+struct TimerInfo {
+  Time expected_call_time;
+  Time actual_call_time;
+};
 
 class TimerBase {
  public:
@@ -41,9 +48,11 @@ class TimerBase {
   bool is_steady() const { return clock_->get_clock_type() == RCL_STEADY_TIME; }
   Clock::SharedPtr get_clock() const { return clock_; }
 
-  // Called by executors, in this order: call() counts the call and sets the next one, and is false if the timer was
-  // cancelled meanwhile; then execute_callback() runs the function.
-  bool call();
+  // Called by executors, in this order: call() counts the call and sets the next one, and is null if the timer was
+  // cancelled meanwhile; then execute_callback() runs the function with what call() returned. Without it, a function
+  // that takes a TimerInfo is told of a call that was due now.
+  std::shared_ptr<void> call();
+  void execute_callback(const std::shared_ptr<void>& data);
   void execute_callback();
 
   std::shared_ptr<const rcl_timer_t> get_timer_handle() const { return timer_handle_; }
@@ -60,12 +69,14 @@ class TimerBase {
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
  protected:
-  virtual void run() = 0;
+  virtual void run(const TimerInfo& info) = 0;
 
   // To be called by the most derived constructor: `callback` is where the function will stay.
   void trace_callback(const void* callback, const detail::CallbackSymbol& symbol);
 
  private:
+  void execute(const TimerInfo& info);
+
   Clock::SharedPtr clock_;
   std::shared_ptr<rcl_timer_t> timer_handle_;
   const void* callback_ = nullptr;
@@ -74,7 +85,7 @@ class TimerBase {
   std::atomic_bool in_use_by_wait_set_{false};
 };
 
-// `FunctorT` is callable with nothing or with a TimerBase &.
+// `FunctorT` is callable with nothing, with a TimerBase &, or with a const TimerInfo &.
 template <typename FunctorT>
 class GenericTimer : public TimerBase {
  public:
@@ -87,12 +98,15 @@ class GenericTimer : public TimerBase {
   }
 
  protected:
-  void run() override {
+  void run([[maybe_unused]] const TimerInfo& info) override {
     if constexpr (std::is_invocable_v<FunctorT&>) {
       callback_();
-    } else {
-      static_assert(std::is_invocable_v<FunctorT&, TimerBase&>, "a timer callback takes nothing or a TimerBase &");
+    } else if constexpr (std::is_invocable_v<FunctorT&, TimerBase&>) {
       callback_(*this);
+    } else {
+      static_assert(std::is_invocable_v<FunctorT&, const TimerInfo&>,
+                    "a timer callback takes nothing, a TimerBase & or a const TimerInfo &");
+      callback_(info);
     }
   }
 

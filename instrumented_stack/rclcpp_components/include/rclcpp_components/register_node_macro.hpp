@@ -4,11 +4,16 @@
 //
 // in one source file, outside every namespace. The class is constructed from rclcpp::NodeOptions and has
 // get_node_base_interface(). In CMake, rclcpp_components_register_nodes() tells containers where the library is.
+//
+// Programs that load components themselves, with a class_loader::ClassLoader, find
+// rclcpp_components::NodeFactoryTemplate<composition::Talker> with base class rclcpp_components::NodeFactory.
 #pragma once
 
+#include <class_loader/register_macro.hpp>
 #include <memory>
 
 #include "rclcpp_components/component_library.hpp"
+#include "rclcpp_components/node_factory.hpp"
 #include "rclcpp_components/node_factory_template.hpp"
 
 #define RCLCPP_COMPONENTS_REGISTER_NODE(NodeClass) RCLCPP_COMPONENTS_REGISTER_NODE_COUNTED(NodeClass, __COUNTER__)
@@ -21,4 +26,5 @@
       #NodeClass, []() -> std::shared_ptr<::rclcpp_components::NodeFactory> {               \
         return std::make_shared<::rclcpp_components::NodeFactoryTemplate<NodeClass>>();     \
       });                                                                                   \
-  }
+  }                                                                                         \
+  CLASS_LOADER_REGISTER_CLASS(rclcpp_components::NodeFactoryTemplate<NodeClass>, rclcpp_components::NodeFactory)

@@ -17,13 +17,13 @@ typedef enum rmw_event_type_e {
   RMW_EVENT_REQUESTED_DEADLINE_MISSED,       // rmw_requested_deadline_missed_status_t
   RMW_EVENT_REQUESTED_QOS_INCOMPATIBLE,      // rmw_requested_qos_incompatible_event_status_t
   RMW_EVENT_MESSAGE_LOST,                    // rmw_message_lost_status_t
-  RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE,  // unsupported: Fast DDS 2.9 does not tell
+  RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE,  // rmw_incompatible_type_status_t
   RMW_EVENT_SUBSCRIPTION_MATCHED,            // rmw_matched_status_t
   // of publishers
   RMW_EVENT_LIVELINESS_LOST,              // rmw_liveliness_lost_status_t
   RMW_EVENT_OFFERED_DEADLINE_MISSED,      // rmw_offered_deadline_missed_status_t
   RMW_EVENT_OFFERED_QOS_INCOMPATIBLE,     // rmw_offered_qos_incompatible_event_status_t
-  RMW_EVENT_PUBLISHER_INCOMPATIBLE_TYPE,  // unsupported: Fast DDS 2.9 does not tell
+  RMW_EVENT_PUBLISHER_INCOMPATIBLE_TYPE,  // rmw_incompatible_type_status_t
   RMW_EVENT_PUBLICATION_MATCHED,          // rmw_matched_status_t
   RMW_EVENT_INVALID
 } rmw_event_type_t;

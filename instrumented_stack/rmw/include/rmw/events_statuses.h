@@ -47,6 +47,7 @@ typedef struct rmw_message_lost_status_s {
   size_t total_count_change;
 } rmw_message_lost_status_t;
 
+// Endpoints of the topic at the other side that have another type.
 typedef struct rmw_incompatible_type_status_s {
   int32_t total_count;
   int32_t total_count_change;

@@ -123,12 +123,8 @@ class SubscriptionIntraProcess
     return taken;
   }
 
-  void execute(const std::shared_ptr<void>& data) override {
-    if (!data) {
-      return;
-    }
-    MessageInfo message_info;
-    message_info.get_rmw_message_info().from_intra_process = true;
+ protected:
+  void dispatch(const std::shared_ptr<void>& data, const MessageInfo& message_info) override {
     Taken& taken = *static_cast<Taken*>(data.get());
     if (taken.shared) {
       any_callback_.dispatch_intra_process(std::move(taken.shared), message_info);

@@ -7,12 +7,18 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "rclcpp/context.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/message_info.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/waitable.hpp"
+
+namespace rclcpp::topic_statistics {
+class SubscriptionTopicStatistics;
+}  // namespace rclcpp::topic_statistics
 
 namespace rclcpp::experimental {
 
@@ -39,12 +45,21 @@ class SubscriptionIntraProcessBase : public Waitable {
   bool is_ready(const rcl_wait_set_t& wait_set) override;
   std::shared_ptr<void> take_data_by_entity_id(size_t id) override;
 
+  // Runs the callback with what take_data() returned; nothing for null.
+  void execute(const std::shared_ptr<void>& data) override;
+
+  // What measures these messages too, whose age is not known; null: nothing. To be called before the first execute().
+  void set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics) {
+    statistics_ = std::move(statistics);
+  }
+
   // Messages that came before are reported at once, at most as many as the queue holds.
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
 
  protected:
   virtual bool has_data() const = 0;
+  virtual void dispatch(const std::shared_ptr<void>& data, const MessageInfo& message_info) = 0;
 
   // After a message was put into the buffer.
   void notify();
@@ -57,6 +72,7 @@ class SubscriptionIntraProcessBase : public Waitable {
   std::recursive_mutex callback_mutex_;  // recursive: the callback may replace itself
   std::function<void(size_t, int)> on_ready_;
   size_t unread_count_ = 0;
+  std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics_;
 };
 
 }  // namespace rclcpp::experimental

@@ -1,0 +1,94 @@
+// Creates objects of the classes in any number of shared libraries.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "class_loader/class_loader.hpp"
+
+namespace class_loader {
+
+// Not thread safe, unlike its parts.
+class MultiLibraryClassLoader {
+ public:
+  explicit MultiLibraryClassLoader(bool enable_ondemand_loadunload) : on_demand_(enable_ondemand_loadunload) {}
+
+  // Throws LibraryLoadException. Nothing happens for one that is there already.
+  void loadLibrary(const std::string& library_path);
+  // How often it must still be called: 0. Throws LibraryUnloadException for a library that is not there.
+  int unloadLibrary(const std::string& library_path);
+  bool isLibraryAvailable(const std::string& library_path) const { return loaders_.count(library_path) != 0; }
+  std::vector<std::string> getRegisteredLibraries() const;
+
+  template <typename Base>
+  std::vector<std::string> getAvailableClasses() const {
+    std::vector<std::string> classes;
+    for (const auto& [path, loader] : loaders_) {
+      const std::vector<std::string> of_library = loader->template getAvailableClasses<Base>();
+      classes.insert(classes.end(), of_library.begin(), of_library.end());
+    }
+    return classes;
+  }
+  template <typename Base>
+  std::vector<std::string> getAvailableClassesForLibrary(const std::string& library_path) const {
+    return loader_for(library_path).getAvailableClasses<Base>();
+  }
+  template <typename Base>
+  bool isClassAvailable(const std::string& class_name) const {
+    for (const auto& [path, loader] : loaders_) {
+      if (loader->template isClassAvailable<Base>(class_name)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Without a path: of the first library, by its path, that has the class. Throw CreateClassException, and
+  // NoClassLoaderExistsException for a library that is not there.
+  template <typename Base>
+  std::shared_ptr<Base> createInstance(const std::string& class_name) {
+    return loader_of<Base>(class_name).template createInstance<Base>(class_name);
+  }
+  template <typename Base>
+  std::shared_ptr<Base> createInstance(const std::string& class_name, const std::string& library_path) {
+    return loader_for(library_path).createInstance<Base>(class_name);
+  }
+  template <typename Base>
+  ClassLoader::UniquePtr<Base> createUniqueInstance(const std::string& class_name) {
+    return loader_of<Base>(class_name).template createUniqueInstance<Base>(class_name);
+  }
+  template <typename Base>
+  ClassLoader::UniquePtr<Base> createUniqueInstance(const std::string& class_name, const std::string& library_path) {
+    return loader_for(library_path).createUniqueInstance<Base>(class_name);
+  }
+  template <typename Base>
+  Base* createUnmanagedInstance(const std::string& class_name) {
+    return loader_of<Base>(class_name).template createUnmanagedInstance<Base>(class_name);
+  }
+  template <typename Base>
+  Base* createUnmanagedInstance(const std::string& class_name, const std::string& library_path) {
+    return loader_for(library_path).createUnmanagedInstance<Base>(class_name);
+  }
+
+ private:
+  ClassLoader& loader_for(const std::string& library_path) const;
+  template <typename Base>
+  ClassLoader& loader_of(const std::string& class_name) const {
+    for (const auto& [path, loader] : loaders_) {
+      if (on_demand_ && !loader->isLibraryLoaded()) {
+        loader->loadLibrary();
+      }
+      if (loader->template isClassAvailable<Base>(class_name)) {
+        return *loader;
+      }
+    }
+    throw CreateClassException("no library that is loaded has the class '" + class_name + "'");
+  }
+
+  const bool on_demand_;
+  std::map<std::string, std::unique_ptr<ClassLoader>> loaders_;
+};
+
+}  // namespace class_loader

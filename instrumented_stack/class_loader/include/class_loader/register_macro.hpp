@@ -1,0 +1,23 @@
+// Makes a class of this library one that loaders can create:
+//
+//   CLASS_LOADER_REGISTER_CLASS(shapes::Square, shapes::Shape)
+//
+// in one source file, outside every namespace. The class has a constructor without arguments.
+#pragma once
+
+#include "class_loader/detail/class_registry.hpp"
+
+#define CLASS_LOADER_REGISTER_CLASS(Derived, Base) CLASS_LOADER_REGISTER_CLASS_COUNTED(Derived, Base, __COUNTER__)
+// In ROS 2 the message is logged when the library is loaded; here nothing is.
+#define CLASS_LOADER_REGISTER_CLASS_WITH_MESSAGE(Derived, Base, Message) \
+  CLASS_LOADER_REGISTER_CLASS_COUNTED(Derived, Base, __COUNTER__)
+// A level of its own: __COUNTER__ must be a number before it becomes part of a name.
+#define CLASS_LOADER_REGISTER_CLASS_COUNTED(Derived, Base, number) \
+  CLASS_LOADER_REGISTER_CLASS_NUMBERED(Derived, Base, number)
+#define CLASS_LOADER_REGISTER_CLASS_NUMBERED(Derived, Base, number)                                              \
+  namespace {                                                                                                    \
+  const ::class_loader::detail::Registration class_registration_##number(#Derived, typeid(Base), []() -> void* { \
+    Base* object = new Derived;                                                                                  \
+    return object;                                                                                               \
+  });                                                                                                            \
+  }
