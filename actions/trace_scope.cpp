@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 #include <string.h>
-#include <sys/sysinfo.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,11 +10,9 @@
 
 #include "actions/trace_overhead.hpp"
 #include "launcher/base/diagnostic.hpp"
-#include "tracing/session/buffer_estimate.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/loss_account.hpp"
 #include "tracing/session/preload.hpp"
-#include "tracing/session/session_daemon.hpp"
 
 namespace launch {
 
@@ -24,38 +20,12 @@ namespace {
 
 // After the start of a launch; no more than a guess, on which only the duration of the end depends.
 constexpr std::chrono::milliseconds kNodesHaveRegistered{500};
-
-// By the process's label, or by the name of its node.
-bool matches(const std::string& pattern, const ProcessSpec& spec) {
-  const auto is_meant = [&pattern](const std::string& name) {
-    return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-  };
-  return is_meant(spec.name) || std::any_of(spec.other_names.begin(), spec.other_names.end(), is_meant);
-}
-
-std::vector<std::string> channel_names(const tracing::TraceConfig& config) {
-  std::vector<std::string> names;
-  for (const tracing::ChannelConfig& channel : config.channels) {
-    names.push_back(channel.name);
-  }
-  return names;
-}
-
-bool may_block(const tracing::TraceConfig& config) {
-  return config.blocking_timeout_ust != 0 ||
-         std::any_of(config.channels.begin(), config.channels.end(),
-                     [](const tracing::ChannelConfig& channel) { return channel.blocking_timeout != 0; });
-}
+// Bytes of a complete trace that are read to describe it in a line: a tenth of a second.
+constexpr std::uint64_t kLargestSummarized = 8'000'000;
 
 // Of the stack (docs/tracetools.md): it looks at the times itself and fires nothing else.
 constexpr const char* kLateCallback = "ros2_deadline:callback";
 constexpr const char* kLateMessage = "ros2_deadline:message";
-constexpr double kNanosecondsPerMillisecond = 1e6;
-
-std::string nanoseconds_of(double milliseconds) {
-  return fmt::format("{:.0f}", milliseconds * kNanosecondsPerMillisecond);
-}
-
 // Why a snapshot was taken, for people.
 std::string reason(const TraceChoices& choices, const std::string& rule) {
   if (rule == kLateCallback && choices.callback_deadline != 0) {
@@ -121,25 +91,6 @@ void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
   });
 }
 
-void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
-  const auto traced = static_cast<std::size_t>(
-      std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
-  const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
-  if (choices_.auto_buffers) {
-    config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
-  }
-  if (std::string warning = tracing::buffer_warning(config_, traced, processors); !warning.empty()) {
-    setup_.warnings.push_back(std::move(warning));
-  }
-  for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
-    if (std::none_of(processes.begin(), processes.end(),
-                     [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
-      setup_.warnings.push_back(
-          fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
-    }
-  }
-}
-
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   if (choices_.snapshot_on_signal != 0) {
     // Before any thread is started: the signal must be blocked in all of them.
@@ -178,7 +129,7 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
             tell(false, setup_.notes);
           }
           tell(false, fmt::format("writing tracing session to: {}", setup_.trace_directory));
-          flush_metadata_later(loop);
+          look_around_later(loop, tell);
         }
         done(error);
       });
@@ -197,14 +148,21 @@ void TraceScope::guard_overhead(EventLoop& loop, const Tell& tell) {
   }
 }
 
-// Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c).
-void TraceScope::flush_metadata_later(EventLoop& loop) {
+// Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c). And
+// tells of programs that can't be recorded, for which all of /proc is looked through.
+void TraceScope::look_around_later(EventLoop& loop, const Tell& tell) {
   if (config_.events_ust.empty()) {
     return;
   }
-  metadata_flush_ = loop.after(kNodesHaveRegistered, [this, &loop] {
+  look_around_ = loop.after(kNodesHaveRegistered, [this, &loop, tell] {
     in_background(
-        loop, [this] { tracing::program_output(prefix_ + "/lib/launch/launch-trace-probe", {}); },
+        loop,
+        [this, &loop, tell] {
+          tracing::program_output(prefix_ + "/lib/launch/launch-trace-probe", {});
+          for (const std::string& warning : tracer_->unreachable_processes()) {
+            loop.post([tell, warning] { tell(true, warning); });
+          }
+        },
         [](std::exception_ptr) {});
   });
 }
@@ -241,7 +199,7 @@ void TraceScope::record(const LaunchRecord& record) {
 
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
   signals_.reset();
-  metadata_flush_.reset();
+  look_around_.reset();
   in_background(
       loop,
       [this] {
@@ -256,8 +214,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
               origin_, error.remedy());
         }
         if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
-          summary_ =
-              tracing::program_output(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
+          summarize();
         }
       },
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
@@ -271,6 +228,20 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
         }
         done(error);
       });
+}
+
+void TraceScope::summarize() {
+  std::uint64_t bytes = 0;
+  for (const tracing::ChannelLoss& channel : losses_.channels) {
+    bytes += channel.bytes;
+  }
+  if (losses_.complete() && bytes > kLargestSummarized) {
+    summary_ = fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+    return;
+  }
+  const auto before = std::chrono::steady_clock::now();
+  summary_ = tracing::program_output(prefix_ + "/lib/launch/launch-report", {"--summary", config_.trace_directory()});
+  losses_.steps.push_back({"summary", std::chrono::steady_clock::now() - before});
 }
 
 void TraceScope::tell_result(const Tell& tell) const {
@@ -301,85 +272,11 @@ std::vector<std::string> TraceScope::clean_up_command() {
   return command;
 }
 
-bool TraceScope::traces(const ProcessSpec& spec) const {
-  return spec.traced &&
-         (!choices_.nodes || std::any_of(choices_.nodes->begin(), choices_.nodes->end(),
-                                         [&](const std::string& pattern) { return matches(pattern, spec); }));
-}
-
-void TraceScope::prepare(ProcessSpec& spec) const {
-  if (!traces(spec)) {
-    std::string& variable = spec.environment["LD_PRELOAD"];
-    const std::string library = prefix_ + "/lib/launch/liblaunch_untraced.so";
-    if (variable.find(library) == std::string::npos) {
-      variable = tracing::append_preload(variable, {library});
-    }
-    // There is nothing to wait for.
-    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
-    return;
-  }
-  if (!tracing::session_daemon_can_answer()) {
-    // It would wait for three seconds, three times, before its main().
-    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
-  }
-  if (!preload_.empty()) {
-    std::string& variable = spec.environment["LD_PRELOAD"];
-    variable = tracing::append_preload(variable, preload_);
-  }
-  if (counters_) {
-    spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());
-  }
-  if (choices_.callback_deadline != 0) {
-    spec.environment.emplace("TRACETOOLS_CALLBACK_DEADLINE", nanoseconds_of(choices_.callback_deadline));
-  }
-  if (choices_.message_deadline != 0) {
-    spec.environment.emplace("TRACETOOLS_MESSAGE_DEADLINE", nanoseconds_of(choices_.message_deadline));
-  }
-  if (may_block(config_)) {
-    spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");
-  }
-}
-
-std::vector<ScopeSetting> TraceScope::describe() const {
-  return {{"session-name", config_.session_name},
-          {"trace-directory", config_.trace_directory()},
-          {"append-trace", config_.append_trace},
-          {"fail-on-loss", config_.fail_on_loss},
-          {"events-ust", config_.events_ust},
-          {"events-kernel", config_.events_kernel},
-          {"syscalls", config_.syscalls},
-          {"channels", channel_names(config_)},
-          {"context-fields", config_.context_fields_ust},
-          {"context-fields-kernel", config_.context_fields_kernel},
-          {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
-          {"init-channel", config_.init_channel},
-          {"subbuffer-count-ust", static_cast<std::int64_t>(config_.subbuffer_count_ust)},
-          {"read-timer-ust", static_cast<std::int64_t>(config_.read_timer_ust)},
-          {"switch-timer-ust", static_cast<std::int64_t>(config_.switch_timer_ust)},
-          {"overwrite-ust", config_.overwrite_ust.value_or(config_.records_snapshots())},
-          {"blocking-timeout-ust", config_.blocking_timeout_ust},
-          {"buffers-ust", std::string(config_.buffers_ust == tracing::BufferOwner::kProcess ? "pid" : "uid")},
-          {"tracefile-size", static_cast<std::int64_t>(config_.tracefile_size)},
-          {"tracefile-count", static_cast<std::int64_t>(config_.tracefile_count)},
-          {"url", config_.over_network() ? config_.destination() : std::string()},
-          {"live-timer", static_cast<std::int64_t>(config_.live_timer)},
-          {"launch-events", config_.launch_events},
-          {"subbuffer-size-kernel", static_cast<std::int64_t>(config_.subbuffer_size_kernel)},
-          {"snapshot-mode", config_.snapshot_mode},
-          {"snapshot-on-crash", choices_.snapshot_on_crash},
-          {"snapshot-on-events", choices_.snapshot_on_events},
-          {"snapshot-on-late-callback", fmt::format("{}", choices_.callback_deadline)},
-          {"snapshot-on-late-message", fmt::format("{}", choices_.message_deadline)},
-          {"snapshot-limit", static_cast<std::int64_t>(config_.snapshot_limit)},
-          {"max-overhead", config_.max_overhead == 0 ? "" : fmt::format("{:g}%", 100 * config_.max_overhead)},
-          {"drop-order", config_.drop_order},
-          {"dual-session", config_.dual_session}};
-}
-
 std::vector<TimedStep> TraceScope::timing() const {
+  const bool ended = !losses_.steps.empty();
   std::vector<TimedStep> steps;
-  for (const tracing::SetupStep& step : setup_.steps) {
-    steps.push_back({"trace: " + step.name, step.took});
+  for (const tracing::SessionStep& step : ended ? losses_.steps : setup_.steps) {
+    steps.push_back({(ended ? "trace end: " : "trace: ") + step.name, step.took});
   }
   return steps;
 }

@@ -61,7 +61,8 @@ class TraceScope : public RunScope {
   void in_background(EventLoop& loop, std::function<void()> work, std::function<void(std::exception_ptr)> finished);
   void tell_result(const Tell& tell) const;
   bool traces(const ProcessSpec& spec) const;
-  void flush_metadata_later(EventLoop& loop);
+  void look_around_later(EventLoop& loop, const Tell& tell);
+  void summarize();
   void guard_overhead(EventLoop& loop, const Tell& tell);
   void start_flight_recorder(EventLoop& loop, const Tell& tell);
 
@@ -78,7 +79,7 @@ class TraceScope : public RunScope {
   std::string summary_;
   std::atomic<bool> hurry_ = false;
   EventLoop::SourcePtr signals_;
-  EventLoop::SourcePtr metadata_flush_;
+  EventLoop::SourcePtr look_around_;
   std::unique_ptr<tracing::FlightRecorder> flight_recorder_;
   std::unique_ptr<tracing::EventWatch> event_watch_;
   std::unique_ptr<tracing::OverheadGuard> overhead_guard_;

@@ -212,9 +212,7 @@ void LaunchService::on_begun(std::exception_ptr error) {
     }
     return;
   }
-  for (TimedStep& step : scope->timing()) {
-    timing_.push_back(std::move(step));
-  }
+  append_timing(*scope);
   active_scopes_.push_back(std::move(scope));
   if (shutting_down_) {
     waiting_.clear();

@@ -58,7 +58,7 @@ class LaunchService {
   // SIGINT, SIGTERM, SIGHUP and SIGQUIT shut down; a second one kills what is left and ends at once.
   int run(const LaunchDescription& description);
 
-  // How long the steps up to the last start took, in order.
+  // How long the steps up to the last start and those after the last exit took, in order.
   const std::vector<TimedStep>& timing() const { return timing_; }
 
  private:
@@ -106,6 +106,7 @@ class LaunchService {
   void check_finished();
   void post_check();
   void end_next_scope();
+  void append_timing(const RunScope& scope);
   void guard(RunScope& scope);
   void unguard(const RunScope& scope);
   RunScope::Tell teller();
@@ -147,6 +148,7 @@ class LaunchService {
   int signals_ = 0;
   int exit_code_ = 0;
   std::vector<TimedStep> timing_;
+  Duration last_exit_{0};  // by the loop's clock; everything has ended
 };
 
 }  // namespace launch

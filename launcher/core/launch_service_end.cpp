@@ -119,6 +119,7 @@ void LaunchService::check_finished() {
   }
   ending_ = true;
   shutting_down_ = true;
+  last_exit_ = loop_.now();
   if (ros_tasks_) {
     ros_tasks_->shutdown();
   }
@@ -130,6 +131,7 @@ void LaunchService::end_next_scope() {
     recorder_->end();
   }
   if (active_scopes_.empty()) {
+    timing_.push_back({"end, from the last exit", loop_.now() - last_exit_});
     loop_.quit();
     return;
   }
@@ -145,10 +147,17 @@ void LaunchService::end_next_scope() {
         errors_(LaunchError(failure.what(), active_scopes_.back()->origin()));
       }
     }
+    append_timing(*active_scopes_.back());
     unguard(*active_scopes_.back());
     active_scopes_.pop_back();
     end_next_scope();
   });
+}
+
+void LaunchService::append_timing(const RunScope& scope) {
+  for (TimedStep& step : scope.timing()) {
+    timing_.push_back(std::move(step));
+  }
 }
 
 // From before begin(), so that there is no moment at which a killed launcher leaves the scope's work behind.

@@ -64,7 +64,7 @@ class RunScope {
   // "trace", and what it was evaluated to.
   virtual std::string kind() const = 0;
   virtual std::vector<ScopeSetting> describe() const = 0;
-  virtual std::vector<TimedStep> timing() const = 0;
+  virtual std::vector<TimedStep> timing() const = 0;  // of begin(); once that is done, of end()
   virtual const SourceRange& origin() const = 0;
 };
 

@@ -274,6 +274,25 @@ TEST_F(TraceControl, TheNetworkExampleSendsItsTraceToTheRelayDaemon) {
   }
 }
 
+// As in a container that runs before the launch.
+TEST_F(TraceControl, AProgramWithSharedMemoryOfItsOwnIsToldOf) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root there is no second /dev/shm";
+  const std::string apart = "mount -t tmpfs none /dev/shm && exec " TRACED_APP " 5 10";
+  RunningCommand before({.argv = {"unshare", "-m", "sh", "-c", apart}});
+  ASSERT_TRUE(before.wait_for_output("fired"));
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run"/>
+<executable cmd="sleep 1000"/>)xml");
+  RunningCommand launcher({.argv = {LAUNCH_PROGRAM, file}});
+  EXPECT_TRUE(launcher.wait_for_output(
+      "process " + std::to_string(before.pid()) +
+      " (traced_app) is not recorded: it has a /dev/shm of its own and started before the session daemon; share "
+      "/dev/shm (docker run --ipc=host), or start it again"));
+  launcher.send_signal(SIGINT);
+  launcher.wait();
+  before.close_input();
+  EXPECT_EQ(before.wait().exit_code, 0);
+}
+
 TEST_F(TraceControl, WhatSnapshotsAreTakenOnIsChecked) {
   const std::string file =
       write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-signal="SIGKILL"/>)xml");

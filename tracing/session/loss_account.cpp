@@ -41,6 +41,16 @@ void read_domain(const std::string& session, const lttng_domain& domain, LossAcc
   }
 }
 
+std::vector<std::string> exclusions_of(lttng_event& rule) {
+  std::vector<std::string> names;
+  const int count = lttng_event_get_exclusion_name_count(&rule);
+  for (int i = 0; i < count; ++i) {
+    const char* name = nullptr;
+    if (lttng_event_get_exclusion_name(&rule, static_cast<std::size_t>(i), &name) == 0) names.emplace_back(name);
+  }
+  return names;
+}
+
 constexpr std::size_t kMostNamed = 5;  // processes
 
 // "; lost by talker [12] 300 of 4000 (node /talker), …", those that lost most first.
@@ -101,9 +111,11 @@ RecordedEvents read_recorded_events(const std::string& lttng_session_name) {
     const int rule_count = check_lttng(lttng_list_events(handle.get(), listed[i].name, &rules), doing);
     const std::unique_ptr<lttng_event, Free> owned(rules);
     for (int rule = 0; rule < rule_count; ++rule) {
-      const bool conditional = rules[rule].filter != 0 || rules[rule].exclusion != 0 ||
-                               rules[rule].loglevel_type != LTTNG_EVENT_LOGLEVEL_ALL;
-      (conditional ? recorded.conditional : recorded.patterns).emplace_back(rules[rule].name);
+      recorded.rules.push_back(
+          {.channel = listed[i].name,
+           .pattern = rules[rule].name,
+           .exclusions = exclusions_of(rules[rule]),
+           .conditional = rules[rule].filter != 0 || rules[rule].loglevel_type != LTTNG_EVENT_LOGLEVEL_ALL});
     }
   }
   return recorded;

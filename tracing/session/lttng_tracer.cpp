@@ -4,204 +4,43 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
+#include <chrono>
+#include <cstdint>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "tracing/session/channels.hpp"
 #include "tracing/session/consumer_priority.hpp"
 #include "tracing/session/context_check.hpp"
-#include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/kernel_checks.hpp"
 #include "tracing/session/kernel_recorder.hpp"
-#include "tracing/session/loss_account.hpp"
+#include "tracing/session/losses_by_process.hpp"
 #include "tracing/session/lttng_error.hpp"
-#include "tracing/session/overhead_guard.hpp"
+#include "tracing/session/new_session.hpp"
 #include "tracing/session/packet_index.hpp"
-#include "tracing/session/process_account.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/session_end.hpp"
 #include "tracing/session/session_listing.hpp"
 #include "tracing/session/session_store.hpp"
 #include "tracing/session/setup_checks.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/tracer.hpp"
 #include "tracing/session/unreachable_processes.hpp"
+#include "tracing/session/unwritten_data.hpp"
 #include "tracing/session/verdict.hpp"
 
 namespace tracing {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::steady_clock;
-
-// LTTng has no event for "all data is written" or "the session is gone", and its own waiting calls look only every 200
-// and 500 ms. The state is asked for instead, soon at first and then less often.
-class Polling {
- public:
-  void pause() {
-    std::this_thread::sleep_for(interval_);
-    interval_ = std::min(interval_ * 2, kLongest);
-  }
-
- private:
-  static constexpr milliseconds kShortest{1};
-  static constexpr milliseconds kLongest{10};
-  milliseconds interval_ = kShortest;
-};
-
-class StepTimer {
- public:
-  explicit StepTimer(std::vector<SetupStep>& steps) : steps_(steps) {}
-  void finished(std::string name) {
-    const auto now = steady_clock::now();
-    steps_.push_back({std::move(name), now - std::exchange(begin_, now)});
-  }
-
- private:
-  std::vector<SetupStep>& steps_;
-  steady_clock::time_point begin_ = steady_clock::now();
-};
-
-std::optional<SessionSummary> find_session(const std::string& name) {
-  for (SessionSummary& session : list_sessions()) {
-    if (session.name == name) return std::move(session);
-  }
-  return std::nullopt;
-}
-
-// Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the
-// first one, so each further one gets a directory of its own inside: whoever reads the trace directory reads all of
-// them.
-std::string recording_directory(const TraceConfig& config) {
-  const std::filesystem::path directory = config.trace_directory();
-  if (!std::filesystem::exists(directory / "ust") && !std::filesystem::exists(directory / "kernel")) {
-    return directory.string();
-  }
-  for (int number = 1;; ++number) {
-    const std::filesystem::path appended = directory / fmt::format("appended-{}", number);
-    if (!std::filesystem::exists(appended)) return appended.string();
-  }
-}
-
-// A session that is destroyed again unless its set-up succeeds.
-class NewSession {
- public:
-  explicit NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
-    const int result = create(config);
-    if (result == -LTTNG_ERR_EXIST_SESS) {
-      throw TraceError(fmt::format("trace session '{}' exists already", name_),
-                       fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
-    }
-    check_lttng(result, fmt::format("create trace session '{}'", name_));
-  }
-  ~NewSession() {
-    if (!kept_) lttng_destroy_session_no_wait(name_.c_str());
-  }
-  NewSession(const NewSession&) = delete;
-  NewSession& operator=(const NewSession&) = delete;
-
-  void keep() { kept_ = true; }
-
- private:
-  int create(const TraceConfig& config) const {
-    if (config.records_snapshots()) return lttng_create_session_snapshot(name_.c_str(), nullptr);
-    if (config.live_timer != 0) {
-      return lttng_create_session_live(name_.c_str(), config.destination().c_str(), config.live_timer);
-    }
-    const std::string destination = config.over_network() ? config.destination() : recording_directory(config);
-    return lttng_create_session(name_.c_str(), destination.c_str());
-  }
-
-  std::string name_;
-  bool kept_ = false;
-};
-
-void stop(const std::string& name) {
-  // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
-  // length for its own thread that writes the metadata.
-  const int result = lttng_stop_tracing_no_wait(name.c_str());
-  if (result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) check_lttng(result, fmt::format("stop trace session '{}'", name));
-}
-
-// Stops the session and reads its losses once they are final, or as they are when give_up says so. A session that fails
-// in this can't be used any more and is destroyed.
-LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up) {
-  try {
-    stop(name);
-    const std::string doing = fmt::format("write the data of trace session '{}'", name);
-    bool cut_short = false;
-    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0 && !cut_short; data.pause()) {
-      cut_short = give_up && give_up();
-    }
-    LossAccount losses = read_losses(name);
-    losses.cut_short = cut_short;
-    return losses;
-  } catch (const TraceError&) {
-    lttng_destroy_session_no_wait(name.c_str());
-    throw;
-  }
-}
-
-std::uint64_t monotonic_now() {
-  return static_cast<std::uint64_t>(steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
-}
-
-// Which process lost how much, for the losses of a session that has been stopped.
-// What cannot be found out leaves the attribution unknown: the session ends and its verdict is written all the same.
-class LossesByProcess {
- public:
-  LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
-    if (!config.event_counters.empty()) counts_ = EventCounters(config.event_counters).read();
-    losses.processes = account_processes(counts_, monotonic_now());
-    losses.cuts = read_cuts(config);
-    if (losses.complete()) losses.attribution = LossAttribution::kExact;
-    try {
-      if (needed()) events_ = read_recorded_events(config.lttng_session_name());
-    } catch (const TraceError&) {
-      unknown_ = true;
-    }
-  }
-
-  // Reads the trace, which takes a second for a million events; only when something was lost.
-  void look_into(const std::string& recording) {
-    const std::optional<std::filesystem::path> report = installed_program("launch-report");
-    if (!needed() || unknown_) return;
-    try {
-      RecordedProcesses recorded;
-      if (report) {
-        const std::string output = program_output(*report, {"--recorded", recording});
-        if (!output.empty()) recorded = parse_recorded_processes(output);
-      }
-      if (recorded.empty()) counts_.clear();  // then only buffers of its own tell what a process lost
-      attribute_losses(losses_, counts_, events_, recorded, read_packet_index(recording));
-    } catch (const TraceError&) {
-      losses_.attribution = LossAttribution::kUnknown;
-    }
-  }
-
- private:
-  // Userspace has lost something, and there is time to look.
-  bool needed() const {
-    return !losses_.cut_short &&
-           std::any_of(losses_.channels.begin(), losses_.channels.end(), [](const ChannelLoss& channel) {
-             return channel.domain == "ust" && channel.discarded_events + channel.lost_packets != 0;
-           });
-  }
-
-  LossAccount& losses_;
-  std::vector<EventCounts> counts_;
-  RecordedEvents events_;
-  bool unknown_ = false;
-};
-
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
-void judge(LossAccount& losses, const std::string& name, const std::string& directory) {
-  explain_losses(losses, directory);
-  losses.damage = find_damage(directory);
+void judge(LossAccount& losses, const std::string& name, const std::string& directory, std::uint64_t stopped) {
+  const std::vector<Stream> streams = read_packet_index(directory);
+  explain_losses(losses, streams);
+  const std::string no_room = why_no_room(directory);
+  find_unwritten(losses, streams, stopped, !no_room.empty());
+  losses.damage = describe_damage(losses, no_room, directory);
   try {
     write_verdict(losses, name, directory);
   } catch (const TraceError& error) {
@@ -214,6 +53,10 @@ std::string recorder_directory(const std::string& name) {
   if (const auto snapshots = snapshot_directory(name)) return *snapshots;
   const std::optional<SessionSummary> session = find_session(name);
   return session ? session->path : "";
+}
+
+std::uint64_t monotonic_now() {
+  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
 }
 
 class LttngTracer : public Tracer {
@@ -327,9 +170,14 @@ SetupReport LttngTracer::start(const TraceConfig& config) {
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
   check_daemon_not_stopped();
+  std::vector<SessionStep> steps;
+  StepTimer timer(steps);
   const std::optional<SessionSummary> session = find_session(name);
-  LossAccount losses = stop_and_account(name, give_up);
+  // One that was paused has written its last packets before.
+  const std::uint64_t stopped = session && session->active ? monotonic_now() : 0;
+  LossAccount losses = stop_and_account(name, give_up, timer);
   LossesByProcess by_process(config, losses);
+  timer.finished("losses");
   std::optional<ChannelLoss> kernel;
   std::string kernel_failure;
   if (session) {
@@ -339,18 +187,19 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
       kernel_failure = error.what();
     }
   }
-  check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
-  for (Polling gone; find_session(name).has_value(); gone.pause()) {
-    if (give_up && give_up()) break;
-  }
+  destroy_session(name, give_up);
+  timer.finished("destroy");
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   if (kernel && !session->snapshot) losses.channels.push_back(*kernel);
   const bool hurried = losses.cut_short || (give_up && give_up());
   // The first session on a machine takes some 30 ms longer to end: the measurement. It disturbs nobody then.
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
+  timer.finished("cost of events");
   if (local && !session->snapshot) by_process.look_into(session->path);
-  if (local && !session->snapshot) judge(losses, name, session->path);
+  if (local && !session->snapshot) judge(losses, name, session->path, stopped);
+  timer.finished("verdict");
+  losses.steps = std::move(steps);
   if (!kernel_failure.empty()) throw TraceError(kernel_failure);
   return losses;
 }

@@ -25,7 +25,8 @@ enum EntryWord { kOffset, kPacketBits, kContentBits, kBegin, kEnd, kDiscarded, k
 // Since version 1.1 of the format: after the stream's id and its instance id.
 constexpr std::size_t kSequenceNumberWord = 8;
 
-std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
+// The packets that the stream, of so many bytes, holds: on a full file system the last may be there in part.
+std::optional<std::vector<Packet>> read_index_file(const fs::path& path, std::uint64_t stream_size) {
   std::ifstream file(path, std::ios::binary);
   std::array<std::uint32_t, kHeaderWords> header{};
   if (!file.read(reinterpret_cast<char*>(header.data()), sizeof header) || be32toh(header[kMagicWord]) != kMagic) {
@@ -38,6 +39,9 @@ std::optional<std::vector<Packet>> read_index_file(const fs::path& path) {
   std::vector<Packet> packets;
   for (std::vector<char> entry(length); file.read(entry.data(), static_cast<std::streamsize>(length));) {
     std::memcpy(words.data(), entry.data(), sizeof words);
+    // LTTng gives a packet that it could write only in part an offset below zero.
+    const std::uint64_t offset = be64toh(words[kOffset]);
+    if (offset > stream_size || be64toh(words[kPacketBits]) / 8 > stream_size - offset) break;
     packets.push_back({.begin = be64toh(words[kBegin]),
                        .end = be64toh(words[kEnd]),
                        .bytes = be64toh(words[kContentBits]) / 8,
@@ -64,16 +68,22 @@ struct [[gnu::packed]] PacketStart {
   std::uint64_t discarded;
 };
 
-// From the stream itself, for snapshots have no index.
-std::vector<Packet> read_stream_file(const fs::path& path) {
+// From the stream itself, for snapshots have no index, and on a full file system there is no room for one. A packet
+// that is there in part is none. Nothing for another file.
+std::optional<std::vector<Packet>> read_stream_file(const fs::path& path) {
   constexpr std::uint32_t kPacketMagic = 0xC1FC1FC1;
+  std::error_code unknown;
+  const std::uint64_t size = fs::file_size(path, unknown);
   std::vector<Packet> packets;
+  if (unknown || size < sizeof(PacketStart)) return packets;
   std::ifstream file(path, std::ios::binary);
   PacketStart start{};
   for (std::uint64_t at = 0;
-       file.seekg(static_cast<std::streamoff>(at)) && file.read(reinterpret_cast<char*>(&start), sizeof start) &&
-       start.magic == kPacketMagic && start.packet_bits / 8 >= sizeof start;
+       file.seekg(static_cast<std::streamoff>(at)) && file.read(reinterpret_cast<char*>(&start), sizeof start);
        at += start.packet_bits / 8) {
+    const bool is_packet = start.magic == kPacketMagic && start.packet_bits / 8 >= sizeof start;
+    if (!is_packet && at == 0) return std::nullopt;
+    if (!is_packet || start.packet_bits / 8 > size - at) break;
     packets.push_back({.begin = start.begin,
                        .end = start.end,
                        .bytes = start.content_bits / 8,
@@ -88,11 +98,12 @@ std::optional<std::vector<Packet>> read_stream(const fs::path& path) {
   if (path.filename() == "metadata" || path.has_extension() || path.parent_path().filename() == "index") {
     return std::nullopt;
   }
-  if (auto packets = read_index_file(path.parent_path() / "index" / (path.filename().string() + ".idx"))) {
+  std::error_code unknown;
+  const std::uint64_t size = fs::file_size(path, unknown);
+  if (auto packets = read_index_file(path.parent_path() / "index" / (path.filename().string() + ".idx"), size)) {
     return packets;
   }
-  auto packets = read_stream_file(path);
-  return packets.empty() ? std::nullopt : std::optional(std::move(packets));
+  return read_stream_file(path);
 }
 
 // 123 of …/ust/pid/NAME-123-20261121-190000/64-bit/ros2_0.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace tracing {
 namespace {
@@ -18,11 +19,6 @@ std::uint64_t userspace_losses(const LossAccount& account) {
     if (channel.domain == "ust") sum += channel.discarded_events;
   }
   return sum;
-}
-
-bool any_matches(const std::vector<std::string>& patterns, const std::string& event) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const std::string& pattern) { return fnmatch(pattern.c_str(), event.c_str(), 0) == 0; });
 }
 
 // Of each process whose buffers are its own.
@@ -41,7 +37,7 @@ std::map<std::int64_t, std::uint64_t> losses_by_counters(const std::vector<Event
   std::map<std::int64_t, std::map<std::string, std::uint64_t>> fired;
   for (const EventCounts& process : counts) {
     for (const auto& [event, count] : process.events) {
-      if (events.countable(event)) fired[process.pid][event] += count;
+      if (events.countable(event)) fired[process.pid][event] += count * events.times(event);
     }
   }
   std::map<std::int64_t, std::uint64_t> losses;
@@ -87,24 +83,50 @@ RecordedProcesses parse_recorded_processes(const std::string& text) {
   }
 }
 
-std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, std::uint64_t now) {
+bool RecordedEvents::Rule::takes(const std::string& event) const {
+  const auto matches = [&event](const std::string& name) { return fnmatch(name.c_str(), event.c_str(), 0) == 0; };
+  // Exclusions are given without the provider, and LTTng takes them for those of the pattern's.
+  const std::string provider = event.substr(0, event.find(':') + 1);
+  return matches(pattern) && std::none_of(exclusions.begin(), exclusions.end(), [&](const std::string& name) {
+           return matches(name) || matches(provider + name);
+         });
+}
+
+std::size_t RecordedEvents::times(const std::string& event) const {
+  std::set<std::string> channels;
+  for (const Rule& rule : rules) {
+    if (rule.takes(event)) channels.insert(rule.channel);
+  }
+  return channels.size();
+}
+
+bool RecordedEvents::countable(const std::string& event) const {
+  bool taken = false;
+  for (const Rule& rule : rules) {
+    if (!rule.takes(event)) continue;
+    if (rule.conditional) return false;
+    taken = true;
+  }
+  return taken;
+}
+
+std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, const RecordedEvents& events,
+                                              std::uint64_t now) {
   std::vector<ProcessAccount> processes;
   for (const EventCounts& process : counts) {
     const std::uint64_t end = process.end != 0 ? process.end : std::max(now, process.begin);
     const auto callbacks = process.events.find(kCallbackEnd);
+    std::uint64_t recorded = 0;
+    for (const auto& [event, count] : process.events) recorded += count * events.times(event);
     processes.push_back({.name = process.process,
                          .pid = process.pid,
                          .seconds = static_cast<double>(end - process.begin) / kNanosecondsPerSecond,
                          .cpu_seconds = static_cast<double>(process.cpu) / kNanosecondsPerSecond,
-                         .events = process.total(),
+                         .events = recorded,
                          .callbacks = callbacks != process.events.end() ? callbacks->second : 0,
                          .lost = 0});
   }
   return processes;
-}
-
-bool RecordedEvents::countable(const std::string& event) const {
-  return any_matches(patterns, event) && !any_matches(conditional, event);
 }
 
 void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,

@@ -27,18 +27,28 @@ using RecordedProcesses = std::map<std::int64_t, RecordedProcess>;  // by proces
 // As `launch-report --recorded DIRECTORY` prints it. Throws TraceError for anything else.
 RecordedProcesses parse_recorded_processes(const std::string& json);
 
-// The processes of `counts`, none of which has lost anything. `now` (CLOCK_MONOTONIC, ns) is the end of those that
-// have not told theirs.
-std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, std::uint64_t now);
-
-// The events that a session records without a condition. A process counts an event whether a filter takes it or not:
-// nothing is known of those that only a conditional rule takes.
+// What the userspace channels of a session record.
 struct RecordedEvents {
-  std::vector<std::string> patterns;
-  std::vector<std::string> conditional;
+  struct Rule {
+    std::string channel;
+    std::string pattern;
+    std::vector<std::string> exclusions = {};
+    bool conditional = false;  // a filter or a log level decides
 
+    bool takes(const std::string& event) const;
+  };
+  std::vector<Rule> rules;
+
+  // In how many channels the event is recorded, each time that it is fired.
+  std::size_t times(const std::string& event) const;
+  // A process counts an event whether a filter takes it or not: nothing is known of losses among those that have one.
   bool countable(const std::string& event) const;
 };
+
+// The processes of `counts`, none of which has lost anything, with the events that the session records. `now`
+// (CLOCK_MONOTONIC, ns) is the end of those that have not told theirs.
+std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, const RecordedEvents& events,
+                                              std::uint64_t now);
 
 // Sets `lost` and `nodes` of `account.processes`, and its attribution.
 void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,

@@ -26,12 +26,25 @@ class TraceError : public std::runtime_error {
   std::string remedy_;
 };
 
+// How long a step of the set-up or of the end took, for --timing.
+struct SessionStep {
+  std::string name;  // "session daemon", "create session", "channel ros2", …
+  std::chrono::nanoseconds took;
+};
+
 // An unbroken run of losses of one processor. Times are nanoseconds after the trace's first packet began.
 struct LossRange {
   std::string cpu;
   std::uint64_t begin_ns = 0;
   std::uint64_t end_ns = 0;
   std::uint64_t events = 0;
+};
+
+// What a processor recorded from then on could not be written. Times as of a LossRange.
+struct UnwrittenRange {
+  std::string cpu;
+  std::uint64_t begin_ns = 0;
+  std::uint64_t end_ns = 0;  // when the session was stopped
 };
 
 // Events of a channel that the tracer could not keep, as its counters say just before the session is destroyed.
@@ -45,6 +58,7 @@ struct ChannelLoss {
   std::uint64_t subbuffer_count = 0;
   std::uint64_t bytes = 0;             // recorded
   std::vector<LossRange> ranges = {};  // where the discarded events are missing
+  std::vector<UnwrittenRange> unwritten = {};
   std::uint64_t advised_subbuffer_size =
       0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
 };
@@ -55,7 +69,7 @@ struct ProcessAccount {
   std::int64_t pid = 0;
   double seconds = 0;                      // it ran
   double cpu_seconds = 0;                  // processor time of all its threads; 0: unknown, for it was killed
-  std::uint64_t events = 0;                // it fired while a session recorded them
+  std::uint64_t events = 0;                // of it that the session recorded or lost, one for each channel
   std::uint64_t callbacks = 0;             // of its nodes that ended
   std::optional<std::uint64_t> lost = {};  // of its events; nothing: unknown
   std::vector<std::string> nodes = {};     // its nodes; looked up when events were lost
@@ -91,24 +105,19 @@ struct LossAccount {
   std::vector<ChannelLoss> channels;
   std::vector<ProcessAccount> processes = {};  // by the time of their beginning
   LossAttribution attribution = LossAttribution::kUnknown;
-  std::uint64_t unattributed = 0;      // lost userspace events that are of none of them
-  std::optional<EventCost> cost = {};  // of an event, on this machine
-  std::vector<EventCut> cuts = {};     // dropped on purpose: no losses
-  bool cut_short = false;              // the wait for the last data was given up
-  std::string damage = {};             // what keeps the trace from being complete and nobody has counted, a sentence
-  std::string unwritten_verdict = {};  // why verdict.json could not be written
-};
-
-// How long each step of the set-up took, for --timing.
-struct SetupStep {
-  std::string name;  // "session daemon", "create session", "channel ros2", …
-  std::chrono::nanoseconds took;
+  std::uint64_t unattributed = 0;       // lost userspace events that are of none of them
+  std::optional<EventCost> cost = {};   // of an event, on this machine
+  std::vector<EventCut> cuts = {};      // dropped on purpose: no losses
+  bool cut_short = false;               // the wait for the last data was given up
+  std::string damage = {};              // what keeps the trace from being complete and nobody has counted, a sentence
+  std::string unwritten_verdict = {};   // why verdict.json could not be written
+  std::vector<SessionStep> steps = {};  // of the end: "stop", "last data", "destroy", …
 };
 
 struct SetupReport {
   std::string trace_directory;  // or the address of the relay daemon
   bool started_daemon = false;
-  std::vector<SetupStep> steps;
+  std::vector<SessionStep> steps;
   std::vector<std::string> warnings;
   std::string notes = {};  // nothing that is wrong with the session
 };

@@ -5,12 +5,15 @@
 #include <sys/stat.h>
 
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "tracing/session/channels.hpp"
@@ -43,6 +46,19 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
   return std::pair{status.st_dev, status.st_ino};
 }
 
+// In ticks after the machine's start, field 22 of proc(5)'s stat; nothing when it can't be seen.
+std::optional<std::uint64_t> start_time(const fs::path& process) {
+  std::string line;
+  std::getline(std::ifstream(process / "stat"), line);
+  const std::size_t name_end = line.rfind(')');
+  if (name_end == std::string::npos) return std::nullopt;
+  std::istringstream fields(line.substr(name_end + 1));
+  std::string passed;
+  for (int field = 3; field < 22; ++field) fields >> passed;
+  std::uint64_t ticks = 0;
+  return fields >> ticks ? std::optional(ticks) : std::nullopt;
+}
+
 bool has_lttng_ust(const fs::path& process) {
   std::ifstream maps(process / "maps");
   for (std::string line; std::getline(maps, line);) {
@@ -65,6 +81,7 @@ std::vector<std::string> unreachable_process_warnings() {
   const fs::path daemon = session_daemon_directory();
   const auto memory = identity_of("/dev/shm");
   const auto directory = identity_of(daemon);
+  const auto daemon_started = start_time(fs::path("/proc") / std::to_string(session_daemon_pid()));
   std::optional<std::set<int>> registered;  // asked for when somebody is suspected
   std::error_code none;
   for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
@@ -73,6 +90,9 @@ std::vector<std::string> unreachable_process_warnings() {
     const fs::path root = process.path() / "root";
     const auto theirs = identity_of(root / "dev" / "shm");
     if (!theirs || theirs == memory || identity_of(root / daemon.relative_path()) != directory) continue;
+    // What starts later finds the daemon by itself.
+    const auto started = start_time(process.path());
+    if (!started || !daemon_started || *started > *daemon_started) continue;
     if (!has_lttng_ust(process.path())) continue;
     if (!registered) registered = registered_processes();
     if (registered->contains(pid)) continue;

@@ -1,7 +1,6 @@
 #include "tracing/session/verdict.hpp"
 
 #include <fmt/core.h>
-#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,12 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "tracing/session/packet_index.hpp"
-
 namespace tracing {
 namespace {
-
-constexpr std::uint64_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 
 std::uint64_t first_time(const std::vector<Stream>& streams) {
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
@@ -60,6 +55,9 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
     json["lost"].push_back(
         {{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}, {"events", range.events}});
   }
+  for (const UnwrittenRange& range : channel.unwritten) {
+    json["unwritten"].push_back({{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});
+  }
   if (channel.advised_subbuffer_size != 0) {
     json["would_have_held"] = {{"subbuffer_size", channel.advised_subbuffer_size},
                                {"subbuffer_count", kAdvisedSubbuffers}};
@@ -100,8 +98,7 @@ void write_file(const std::filesystem::path& directory, const std::string& text)
 
 }  // namespace
 
-void explain_losses(LossAccount& account, const std::filesystem::path& directory) {
-  const std::vector<Stream> streams = read_packet_index(directory);
+void explain_losses(LossAccount& account, const std::vector<Stream>& streams) {
   const std::uint64_t origin = first_time(streams);
   for (ChannelLoss& channel : account.channels) {
     std::uint64_t longest = 0;
@@ -116,13 +113,6 @@ void explain_losses(LossAccount& account, const std::filesystem::path& directory
     const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + missing);
     if (needed <= kLargestAdvice) channel.advised_subbuffer_size = std::bit_ceil(needed / kAdvisedSubbuffers);
   }
-}
-
-std::string find_damage(const std::filesystem::path& directory) {
-  struct statvfs usage {};
-  if (statvfs(directory.c_str(), &usage) != 0) return {};
-  if (std::uint64_t{usage.f_bavail} * usage.f_frsize >= kRoomLeftByAWorkingConsumer) return {};
-  return fmt::format("the file system of {} is full: events are missing, nobody knows how many", directory.string());
 }
 
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tracing/session/packet_index.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {
@@ -13,21 +14,17 @@ namespace tracing {
 inline constexpr const char* kVerdictFile = "verdict.json";
 
 // Adds to each channel of `account` where its events were lost and, if some were, the buffers that would have held
-// them, from the recording in `directory`.
+// them, from the streams of its recording.
 //
 // The rule: while events are lost the buffers of a processor are full. What they would have had to take more than they
 // have is the longest unbroken run of losses, in events, at kBytesPerLostEvent each. Twice the sum of both, in
 // kAdvisedSubbuffers sub-buffers of a power of two, is advised. Longer overload than that can't be buffered away:
 // beyond kLargestAdvice nothing is advised.
-void explain_losses(LossAccount& account, const std::filesystem::path& directory);
+void explain_losses(LossAccount& account, const std::vector<Stream>& streams);
 
 inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 with the three contexts has 60 to 110
 inline constexpr std::uint64_t kAdvisedSubbuffers = 4;
 inline constexpr std::uint64_t kLargestAdvice = std::uint64_t{256} << 20;  // bytes for each processor and channel
-
-// What LTTng does not count: a sentence when the file system of `directory` is full, for its consumer then drops what
-// it can't write without a word. "" otherwise.
-std::string find_damage(const std::filesystem::path& directory);
 
 // For programs: session, complete, cut_short, discarded_events, lost_packets, channels with their ranges and advice.
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name);

@@ -1,8 +1,7 @@
 // Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER]]]]
 //
 // Whether the default buffers hold: the events of NODES processes, first those of their creation all at once, then
-// EVENTS_PER_SECOND of all together, are recorded with the three context fields. And what a session adds to a launch:
-// how long it takes to set it up, with a session daemon and without one, and to end it after the last process has gone.
+// EVENTS_PER_SECOND of all together, are recorded with the three context fields.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
@@ -13,13 +12,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tracing/session/tracer.hpp"
@@ -30,8 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Milliseconds = std::chrono::duration<double, std::milli>;
-
-constexpr int kWarmRuns = 11;
 
 struct Load {
   int nodes = 100;
@@ -133,33 +128,6 @@ struct Bench {
     return milliseconds_of([&] { losses = tracer->finish(config, [] { return false; }); });
   }
 
-  void setup_and_teardown() {
-    tracing::LossAccount losses;
-    const double cold = begin("cold");
-    end(losses);
-    std::vector<double> warm;
-    std::vector<double> ended;
-    for (int run = 0; run < kWarmRuns; ++run) {
-      warm.push_back(begin(fmt::format("warm{}", run)));
-      // As the launcher does while nodes run.
-      std::thread flush([] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
-        if (std::system(TRACE_PROBE_PROGRAM) != 0) {
-          fail("failed: " TRACE_PROBE_PROGRAM);
-        }
-      });
-      run_nodes({.nodes = 2, .events_per_second = 2000, .seconds = 1}, 1);
-      flush.join();
-      ended.push_back(end(losses));
-    }
-    std::sort(warm.begin(), warm.end());
-    std::sort(ended.begin(), ended.end());
-    fmt::print("what a session adds to a launch\n");
-    fmt::print("  set-up, no session daemon yet      {:8.1f} ms\n", cold);
-    fmt::print("  set-up, median of {}               {:8.1f} ms\n", kWarmRuns, warm[kWarmRuns / 2]);
-    fmt::print("  end, after the last of two nodes   {:8.1f} ms\n", ended[kWarmRuns / 2]);
-  }
-
   void record(const std::string& name, const std::string& what, int seconds) {
     begin(name);
     const pid_t consumer = process_named("lttng-consumerd");
@@ -201,7 +169,6 @@ int main(int argc, char** argv) {
   isolate(directory);
   bench.config.base_path = directory;
   try {
-    bench.setup_and_teardown();
     bench.record("startup", "start-up", 0);
     bench.record("load", "load", bench.load.seconds);
   } catch (const tracing::TraceError& error) {

@@ -26,14 +26,14 @@ std::vector<EventCounts> talker_and_listener() {
           {.pid = 13, .process = "listener", .begin = 2 * kSecond, .events = {{"ros2:rmw_take", 800}}}};
 }
 
+const RecordedEvents kRosEvents = {{{.channel = "ros2", .pattern = "ros2:*"}}};
+
 LossAccount account(std::uint64_t discarded) {
   LossAccount losses;
   losses.channels = {{.domain = "ust", .channel = "ros2", .discarded_events = discarded}};
-  losses.processes = tracing::account_processes(talker_and_listener(), 5 * kSecond);
+  losses.processes = tracing::account_processes(talker_and_listener(), kRosEvents, 5 * kSecond);
   return losses;
 }
-
-const RecordedEvents kRosEvents = {.patterns = {"ros2:*"}, .conditional = {}};
 
 RecordedProcesses recorded() {
   return {{12, {.nodes = {"/talker"}, .events = {{"ros2:rcl_publish", 900}, {"ros2:callback_end", 500}}}},
@@ -42,14 +42,29 @@ RecordedProcesses recorded() {
 }
 
 TEST(ProcessAccount, SaysWhatProcessesFiredForHowLong) {
-  const std::vector<tracing::ProcessAccount> processes = tracing::account_processes(talker_and_listener(), 5 * kSecond);
+  const std::vector<tracing::ProcessAccount> processes =
+      tracing::account_processes(talker_and_listener(), kRosEvents, 5 * kSecond);
   ASSERT_EQ(processes.size(), 2u);
   EXPECT_EQ(processes[0].name, "talker");
-  EXPECT_EQ(processes[0].events, 1503u);
+  EXPECT_EQ(processes[0].events, 1500u) << "another session records the event of ros2_ext";
   EXPECT_EQ(processes[0].callbacks, 500u);
   EXPECT_DOUBLE_EQ(processes[0].seconds, 2);
   EXPECT_DOUBLE_EQ(processes[0].cpu_seconds, 0.5);
   EXPECT_DOUBLE_EQ(processes[1].seconds, 3) << "it has not told its end";
+}
+
+TEST(ProcessAccount, AnEventCountsOnceForEachChannelOfTheSessionThatRecordsIt) {
+  const RecordedEvents events = {
+      {{.channel = "ros2", .pattern = "ros2:*", .exclusions = {"rmw_*"}},
+       {.channel = "ros2", .pattern = "ros2:rcl_publish"},
+       {.channel = "again", .pattern = "ros2:rcl_publish"},
+       {.channel = "again", .pattern = "ros2:callback_end", .exclusions = {"ros2:callback_*"}}}};
+  EXPECT_EQ(events.times("ros2:rcl_publish"), 2u);
+  EXPECT_EQ(events.times("ros2:callback_end"), 1u);
+  EXPECT_EQ(events.times("ros2:rmw_take"), 0u);
+  const auto processes = tracing::account_processes(talker_and_listener(), events, 5 * kSecond);
+  EXPECT_EQ(processes[0].events, 2500u);
+  EXPECT_EQ(processes[1].events, 0u);
 }
 
 TEST(ProcessAccount, WhatWasFiredAndIsNotInTheTraceIsLost) {
@@ -62,7 +77,7 @@ TEST(ProcessAccount, WhatWasFiredAndIsNotInTheTraceIsLost) {
   EXPECT_EQ(losses.unattributed, 0u);
   EXPECT_EQ(tracing::describe_losses(losses),
             "250 events lost in ust channel ros2\n"
-            "lost by process: listener [13] 150 of 800 (nodes /a/ear, /a/other), talker [12] 100 of 1503 (node "
+            "lost by process: listener [13] 150 of 800 (nodes /a/ear, /a/other), talker [12] 100 of 1500 (node "
             "/talker)");
 }
 
@@ -83,7 +98,9 @@ TEST(ProcessAccount, IsAnEstimateWhenTheDaemonCountsLess) {
 
 TEST(ProcessAccount, NothingIsKnownOfEventsWithAConditionAndOfThoseThatWereNotAskedFor) {
   LossAccount losses = account(250);
-  const RecordedEvents events = {.patterns = {"ros2:rcl_publish", "ros2:rmw_take"}, .conditional = {"ros2:rmw_*"}};
+  const RecordedEvents events = {{{.channel = "ros2", .pattern = "ros2:rcl_publish"},
+                                  {.channel = "ros2", .pattern = "ros2:rmw_take"},
+                                  {.channel = "ros2", .pattern = "ros2:rmw_*", .conditional = true}}};
   tracing::attribute_losses(losses, talker_and_listener(), events, recorded(), {});
   EXPECT_EQ(losses.processes[0].lost, 100u);
   EXPECT_EQ(losses.processes[1].lost, std::nullopt);
@@ -110,7 +127,7 @@ TEST(ProcessAccount, CostIsWhatTheEventsTake) {
       tracing::describe_cost(losses),
       "estimated cost of tracing: 0.000 s of processor time, 0.01 % of a processor; most in talker [12], 0.0 % of "
       "its own processor time, 0.3 µs for each callback (100 ns for each event)");
-  EXPECT_DOUBLE_EQ(losses.processes[0].own_share(100), 1503 * 100e-9 / 0.5);
+  EXPECT_DOUBLE_EQ(losses.processes[0].own_share(100), 1500 * 100e-9 / 0.5);
   EXPECT_EQ(losses.processes[1].own_share(100), 0);
 }
 

@@ -28,7 +28,9 @@ struct Verdict : testing::Test {
   void write_index(const std::string& stream, const std::vector<IndexEntry>& entries) const {
     const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index" / (stream + ".idx");
     std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path.parent_path().parent_path() / stream);  // the stream itself, which is not looked into
+    const std::filesystem::path packets = path.parent_path().parent_path() / stream;  // which are not looked into
+    std::ofstream{packets};
+    std::filesystem::resize_file(packets, 32768);
     std::ofstream file(path, std::ios::binary);
     for (const std::uint32_t word : {0xC1F1DCC1U, 1U, 1U, 72U}) {
       const std::uint32_t big = htobe32(word);
@@ -63,7 +65,7 @@ TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
                          {5100, 6000, 32000, 1500}});
   write_index("ros2_1", {{900, 5900, 500, 0}});
   LossAccount losses = account(1500);
-  tracing::explain_losses(losses, sandbox.directory() / "run");
+  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
   const ChannelLoss& channel = losses.channels.at(0);
   EXPECT_EQ(channel.bytes, 4 * 32000u + 100u + 500u);
   ASSERT_EQ(channel.ranges.size(), 2u);
@@ -81,7 +83,7 @@ TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
 TEST_F(Verdict, AdvisesNothingWhereNoBufferHelps) {
   write_index("ros2_0", {{1000, 2000, 32000, 10'000'000}});
   LossAccount losses = account(10'000'000);
-  tracing::explain_losses(losses, sandbox.directory() / "run");
+  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
   EXPECT_EQ(losses.channels.at(0).advised_subbuffer_size, 0u);
 }
 
@@ -102,7 +104,7 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
                   .time = 77,
                   .rate = 300'000,
                   .share = 0.03}};
-  tracing::explain_losses(losses, directory);
+  tracing::explain_losses(losses, tracing::read_packet_index(directory));
   tracing::write_verdict(losses, "run", directory);
   EXPECT_EQ(test_support::read_file(directory / tracing::kVerdictFile), R"json({
   "session": "run",
@@ -182,7 +184,7 @@ TEST_F(Verdict, IgnoresWhatIsNoIndex) {
   std::filesystem::create_directories(path.parent_path());
   test_support::write_file(path, "not an index at all, and long enough to be read as one");
   LossAccount losses = account(3);
-  tracing::explain_losses(losses, sandbox.directory() / "run");
+  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
   EXPECT_EQ(losses.channels.at(0).bytes, 0u);
   EXPECT_TRUE(losses.channels.at(0).ranges.empty());
 }

@@ -1,0 +1,25 @@
+// A session that is being set up.
+#pragma once
+
+#include <string>
+
+#include "tracing/session/trace_config.hpp"
+
+namespace tracing {
+
+// A session that is destroyed again unless its set-up succeeds. Throws TraceError when it can't be created.
+class NewSession {
+ public:
+  explicit NewSession(const TraceConfig& config);
+  ~NewSession();
+  NewSession(const NewSession&) = delete;
+  NewSession& operator=(const NewSession&) = delete;
+
+  void keep() { kept_ = true; }
+
+ private:
+  std::string name_;
+  bool kept_ = false;
+};
+
+}  // namespace tracing

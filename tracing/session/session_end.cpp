@@ -1,0 +1,83 @@
+#include "tracing/session/session_end.hpp"
+
+#include <fmt/core.h>
+#include <lttng/lttng.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/lttng_error.hpp"
+#include "tracing/session/session_listing.hpp"
+
+namespace tracing {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// LTTng has no event for "all data is written" or "the session is gone", and its own waiting calls look only every 200
+// and 500 ms. The state is asked for instead, soon at first and then less often: an eighth of the time that has passed
+// is the most that is waited in vain.
+class Polling {
+ public:
+  void pause() {
+    const auto waited = std::chrono::duration_cast<milliseconds>(steady_clock::now() - begin_);
+    std::this_thread::sleep_for(std::clamp(waited / 8, kShortest, kLongest));
+  }
+
+ private:
+  static constexpr milliseconds kShortest{1};
+  static constexpr milliseconds kLongest{10};
+  steady_clock::time_point begin_ = steady_clock::now();
+};
+
+void stop(const std::string& name) {
+  // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
+  // length for its own thread that writes the metadata.
+  const int result = lttng_stop_tracing_no_wait(name.c_str());
+  if (result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) check_lttng(result, fmt::format("stop trace session '{}'", name));
+}
+
+}  // namespace
+
+void StepTimer::finished(std::string name) {
+  const auto now = steady_clock::now();
+  steps_.push_back({std::move(name), now - std::exchange(begin_, now)});
+}
+
+std::optional<SessionSummary> find_session(const std::string& name) {
+  for (SessionSummary& session : list_sessions()) {
+    if (session.name == name) return std::move(session);
+  }
+  return std::nullopt;
+}
+
+LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up, StepTimer& timer) {
+  try {
+    stop(name);
+    timer.finished("stop");
+    const std::string doing = fmt::format("write the data of trace session '{}'", name);
+    bool cut_short = false;
+    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0 && !cut_short; data.pause()) {
+      cut_short = give_up && give_up();
+    }
+    timer.finished("last data");
+    LossAccount losses = read_losses(name);
+    losses.cut_short = cut_short;
+    return losses;
+  } catch (const TraceError&) {
+    lttng_destroy_session_no_wait(name.c_str());
+    throw;
+  }
+}
+
+void destroy_session(const std::string& name, const std::function<bool()>& give_up) {
+  check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
+  for (Polling gone; find_session(name).has_value(); gone.pause()) {
+    if (give_up && give_up()) break;
+  }
+}
+
+}  // namespace tracing
