@@ -130,21 +130,18 @@ void ActionParser::collect(Step step) {
   }
 }
 
-std::vector<ActionPtr> ActionParser::parse(const std::vector<Entity>& entities) {
+std::vector<ActionPtr> ActionParser::parse(std::vector<Entity> entities) {
   errors_.clear();
-  std::vector<ActionPtr> actions = parse_actions(entities);
-  if (!errors_.empty()) {
-    throw LaunchError(std::move(errors_));
-  }
-  return actions;
-}
-
-std::vector<ActionPtr> ActionParser::parse_actions(const std::vector<Entity>& entities) {
   std::vector<ActionPtr> actions;
-  for (const Entity& entity : entities) {
+  actions.reserve(entities.size());
+  for (Entity& entity : entities) {
     if (ActionPtr action = parse_action(entity)) {
       actions.push_back(std::move(action));
     }
+    entity = Entity();
+  }
+  if (!errors_.empty()) {
+    throw LaunchError(std::move(errors_));
   }
   return actions;
 }

@@ -18,7 +18,8 @@ class ActionParser {
   explicit ActionParser(const Registry& registry) : registry_(registry) {}
 
   // Makes the actions among `entities`. Every error of the tree is found before LaunchError is thrown with them all.
-  std::vector<ActionPtr> parse(const std::vector<Entity>& entities);
+  // Frees each entity when its action is made.
+  std::vector<ActionPtr> parse(std::vector<Entity> entities);
 
  private:
   // The structured items that an entity may hold.
@@ -30,7 +31,6 @@ class ActionParser {
     std::vector<std::string> tags() const;
   };
 
-  std::vector<ActionPtr> parse_actions(const std::vector<Entity>& entities);
   ActionPtr parse_action(const Entity& entity);
   // `items` are those that may stand beside the attributes.
   void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,

@@ -42,13 +42,13 @@ std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_pt
   if (file->path().ends_with(".py")) {
     return load_python_launch_file(std::move(file), registry, scope);
   }
-  const Entity root = load_entity_tree(file);
+  Entity root = load_entity_tree(file);
   auto description = std::make_shared<LaunchDescription>();
   if (const Attribute* const deprecated = root.find("deprecated");
       deprecated != nullptr && deprecated->value.scalar() != nullptr) {
     description->deprecated = deprecated->value.scalar()->text.text();
   }
-  description->actions = ActionParser(registry).parse(root.children);
+  description->actions = ActionParser(registry).parse(std::move(root.children));
   description->file = std::move(file);
   return description;
 }

@@ -97,7 +97,7 @@ std::vector<ActionPtr> PythonFile::make_actions(const std::vector<python::Entity
   for (const python::Entity& entity : entities) {
     made.push_back(make_entity(entity));
   }
-  return ActionParser(registry_).parse(made);
+  return ActionParser(registry_).parse(std::move(made));
 }
 
 Entity PythonFile::make_entity(const python::Entity& entity) {

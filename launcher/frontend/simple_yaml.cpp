@@ -11,6 +11,7 @@ namespace launch {
 namespace {
 
 constexpr std::size_t kMaximumDepth = 50;
+constexpr std::size_t kDepthOfList = 1;   // whose items read_list() hands over
 constexpr std::size_t kUsualKeys = 2;     // of a mapping: what is reserved
 constexpr std::size_t kMaximumKey = 500;  // YAML ends the search for the ':' of a key somewhere behind
 
@@ -22,6 +23,44 @@ class SimpleYaml {
   explicit SimpleYaml(const LocatedText& source) : source_(source), text_(source.text()) {}
 
   YamlNode read() {
+    begin_document();
+    YamlNode root;
+    if (at_flow()) {
+      flow(root, 0);
+      end_line();
+      next_line();
+    } else {
+      block(root, column_, 0);
+    }
+    require_end();
+    return root;
+  }
+
+  YamlNode read_list(std::string_view name, const std::function<void(YamlNode& item)>& take) {
+    begin_document();
+    const std::size_t indentation = column_;
+    YamlNode root_key;
+    if (!is_key()) {
+      throw GiveUp();
+    }
+    key(root_key);
+    if (root_key.scalar.text.text() != name) {
+      throw GiveUp();
+    }
+    end_line();
+    next_line();
+    if (!at_dash() || column_ < indentation) {
+      throw GiveUp();
+    }
+    YamlNode list;
+    take_ = &take;
+    sequence(list, column_, kDepthOfList);
+    require_end();
+    return root_key;
+  }
+
+ private:
+  void begin_document() {
     next_line();
     if (column_ == 0 && text_.substr(position_, 3) == "---") {
       position_ += 3;
@@ -31,21 +70,14 @@ class SimpleYaml {
     if (position_ == text_.size()) {
       throw GiveUp();  // no node at all
     }
-    YamlNode root;
-    if (at_flow()) {
-      flow(root, 0);
-      end_line();
-      next_line();
-    } else {
-      block(root, column_, 0);
-    }
+  }
+
+  void require_end() const {
     if (position_ != text_.size()) {
       throw GiveUp();
     }
-    return root;
   }
 
- private:
   char peek(std::size_t ahead = 0) const { return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0'; }
   bool at_flow() const { return peek() == '[' || peek() == '{'; }
   bool at_dash() const { return peek() == '-' && (peek(1) == ' ' || peek(1) == '\n'); }
@@ -112,6 +144,10 @@ class SimpleYaml {
         block(node.items.emplace_back(), item_column, depth + 1);
       } else {
         value_of_line(node.items.emplace_back());
+      }
+      if (take_ != nullptr && depth == kDepthOfList) {
+        (*take_)(node.items.back());
+        node.items.pop_back();
       }
     }
     require_end_of_block(indentation);
@@ -357,6 +393,7 @@ class SimpleYaml {
   const std::string_view text_;
   std::size_t position_ = 0;
   std::size_t column_ = 0;  // of the line's first character, where next_line() has stopped
+  const std::function<void(YamlNode& item)>* take_ = nullptr;  // items of the list of read_list()
 };
 
 }  // namespace
@@ -364,6 +401,15 @@ class SimpleYaml {
 std::optional<YamlNode> read_simple_yaml(const LocatedText& source) {
   try {
     return SimpleYaml(source).read();
+  } catch (const GiveUp&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<YamlNode> read_simple_yaml_list(const LocatedText& source, std::string_view name,
+                                              const std::function<void(YamlNode& item)>& take) {
+  try {
+    return SimpleYaml(source).read_list(name, take);
   } catch (const GiveUp&) {
     return std::nullopt;
   }

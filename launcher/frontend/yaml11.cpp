@@ -295,9 +295,15 @@ Value to_value(const YamlNode& node) {
 bool may_be_number(std::string_view text) {
   return !text.empty() && (is_digit(text.front()) || text.front() == '+' || text.front() == '-' || text.front() == '.');
 }
-// Whether a text has the length of the words that stand for booleans and null.
+// Whether a text begins as the words do that stand for booleans and null, and is no longer than they are.
 bool may_be_word(std::string_view text) {
-  return text.size() <= std::string_view("false").size();
+  constexpr std::array<std::string_view, 7> kBeginnings = {"ye", "tr", "on", "no", "fa", "of", "nu"};
+  if (text.size() < 2) {
+    return text.empty() || text == "~";
+  }
+  const std::array<char, 2> beginning = {static_cast<char>(text[0] | 0x20), static_cast<char>(text[1] | 0x20)};
+  return text.size() <= std::string_view("false").size() &&
+         is_one_of(std::string_view(beginning.data(), beginning.size()), kBeginnings);
 }
 
 }  // namespace

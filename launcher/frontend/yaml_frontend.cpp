@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "launcher/frontend/frontend.hpp"
+#include "launcher/frontend/input_text.hpp"
+#include "launcher/frontend/simple_yaml.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 
 namespace launch {
@@ -55,6 +58,24 @@ class EntityBuilder {
     return entity;
   }
 
+  // One item of a list of actions.
+  void item_of_actions(YamlNode& item, std::vector<Entity>& result) {
+    if (item.kind != Kind::kMapping || item.entries.empty()) {
+      error(
+          fmt::format("expected an action, found {}", item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
+          item.where, not_an_action_help(item));
+      return;
+    }
+    if (item.entries.size() > 1) {
+      several_keys(item);
+      return;
+    }
+    auto& [key, value] = item.entries.front();
+    if (check_name(key)) {
+      action(key, value, result);
+    }
+  }
+
  private:
   void error(std::string message, const SourceRange& where, std::string help = {}) {
     errors_.push_back({Severity::kError, std::move(message), where, std::move(help)});
@@ -78,20 +99,7 @@ class EntityBuilder {
   void actions(YamlNode& list, std::vector<Entity>& result) {
     result.reserve(list.items.size());
     for (YamlNode& item : list.items) {
-      if (item.kind != Kind::kMapping || item.entries.empty()) {
-        error(fmt::format("expected an action, found {}",
-                          item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
-              item.where, not_an_action_help(item));
-        continue;
-      }
-      if (item.entries.size() > 1) {
-        several_keys(item);
-        continue;
-      }
-      auto& [key, value] = item.entries.front();
-      if (check_name(key)) {
-        action(key, value, result);
-      }
+      item_of_actions(item, result);
     }
   }
 
@@ -217,16 +225,37 @@ class EntityBuilder {
   std::vector<Diagnostic>& errors_;
 };
 
+// The usual launch file, each action made an entity as soon as it is read. Nothing for any other.
+std::optional<Entity> usual_root(const LocatedText& source, std::vector<Diagnostic>& errors) {
+  Entity root;
+  EntityBuilder builder(errors);
+  const std::optional<YamlNode> key =
+      read_simple_yaml_list(source, "launch", [&](YamlNode& item) { builder.item_of_actions(item, root.children); });
+  if (!key) {
+    errors.clear();
+    return std::nullopt;
+  }
+  root.type_name = "launch";
+  root.where = key->where;
+  return root;
+}
+
+Entity any_root(const LocatedText& source, std::vector<Diagnostic>& errors) {
+  YamlNode document = read_yaml(source, errors);
+  if (document.is_null()) {
+    throw LaunchError("the file is empty", source.range(0, 0), "a launch file begins with 'launch:'");
+  }
+  return EntityBuilder(errors).root(document);
+}
+
 }  // namespace
 
 Entity parse_yaml(const std::shared_ptr<const SourceFile>& file) {
   const auto size = static_cast<std::uint32_t>(file->text().size());
   std::vector<Diagnostic> errors;
-  YamlNode document = read_yaml(LocatedText(file->text(), {file, 0, size}), errors);
-  if (document.is_null()) {
-    throw LaunchError("the file is empty", {file, 0, 0}, "a launch file begins with 'launch:'");
-  }
-  Entity root = EntityBuilder(errors).root(document);
+  const LocatedText source(file->text(), {file, 0, size});
+  std::optional<Entity> usual = find_bad_character(source) ? std::nullopt : usual_root(source, errors);
+  Entity root = usual ? *std::move(usual) : any_root(source, errors);
   if (!errors.empty()) {
     std::stable_sort(errors.begin(), errors.end(), [](const Diagnostic& left, const Diagnostic& right) {
       return left.where.begin < right.where.begin;

@@ -28,6 +28,25 @@ std::string by_yaml_cpp(const LocatedText& text) {
   return tree;
 }
 
+// The text of the tree of a list that is handed over item by item; nothing when it isn't.
+std::optional<std::string> item_by_item(const LocatedText& source, const std::string& name) {
+  YamlNode root;
+  root.kind = YamlNode::Kind::kMapping;
+  YamlNode list;
+  list.kind = YamlNode::Kind::kSequence;
+  const std::optional<YamlNode> key =
+      read_simple_yaml_list(source, name, [&](YamlNode& item) { list.items.push_back(std::move(item)); });
+  if (!key) {
+    return std::nullopt;
+  }
+  const std::optional<YamlNode> whole = read_simple_yaml(source);
+  EXPECT_TRUE(whole);
+  list.where = whole->entries.front().value.where;
+  root.where = whole->where;
+  root.entries.push_back({*key, std::move(list)});
+  return tree_text(root);
+}
+
 TEST(SimpleYaml, ReadsWhatIsOrdinaryAsYamlCppDoes) {
   for (const char* const text : {
            "launch:\n- arg: {name: rate, default: \"10\"}\n- node:\n    pkg: demo\n    param:\n    - name: a\n      "
@@ -80,6 +99,19 @@ TEST(SimpleYaml, LeavesTheRestToYamlCpp) {
   }
 }
 
+TEST(SimpleYaml, HandsOverTheItemsOfAList) {
+  for (const char* const text : {"launch:\n- arg: {name: rate}\n- group:\n  - node:\n      param:\n      - a: 1\n- x\n",
+                                 "---\n'launch': # all\n  - - 1\n    - 2\n  - [a, b]\n\n"}) {
+    const LocatedText source = in_a_file(text);
+    EXPECT_EQ(item_by_item(source, "launch"), by_yaml_cpp(source)) << text;
+  }
+  for (const char* const text :
+       {"launch: []\n", "launch: {a: b}\n", "launch:\n  a: b\n", "start:\n- a\n", "launch:\n- a\nmore:\n- b\n",
+        "launch:\n- a: 1\n  a: 2\n", "- launch\n", "[launch]", "launch:\n", "", "launch\n"}) {
+    EXPECT_EQ(item_by_item(in_a_file(text), "launch"), std::nullopt) << text;
+  }
+}
+
 // Every YAML file of the repository, and the real ones where they are.
 TEST(SimpleYaml, AgreesOverWholeFiles) {
   int files = 0;
@@ -101,7 +133,9 @@ TEST(SimpleYaml, AgreesOverWholeFiles) {
       ++files;
       if (const std::optional<YamlNode> simple = read_simple_yaml(source)) {
         ++simple_files;
-        EXPECT_EQ(tree_text(*simple), by_yaml_cpp(source)) << entry.path();
+        const std::string tree = by_yaml_cpp(source);
+        EXPECT_EQ(tree_text(*simple), tree) << entry.path();
+        EXPECT_EQ(item_by_item(source, "launch").value_or(tree), tree) << entry.path();
       }
     }
   }
