@@ -74,6 +74,7 @@ std::string NodeProcess::request(LaunchContext& context) const {
   Scope& scope = context.scope();
   ProcessSpec spec;
   spec.argv.reserve(arguments_.size() + 2 * (parameters_.size() + remaps_.size()) + 8);
+  spec.files.reserve(parameters_.size());
   spec.argv.push_back(program(scope));
   for (const Template& word : arguments_) {
     spec.argv.push_back(word.perform(scope));
@@ -170,7 +171,9 @@ ItemSpec remap_item() {
 
 std::vector<std::pair<Template, Template>> remaps_of(const Fields& fields) {
   std::vector<std::pair<Template, Template>> remaps;
-  for (const Fields* remap : fields.items("remap")) {
+  const std::vector<const Fields*> items = fields.items("remap");
+  remaps.reserve(items.size());
+  for (const Fields* remap : items) {
     remaps.emplace_back(remap->text("from"), remap->text("to"));
   }
   return remaps;

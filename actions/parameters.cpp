@@ -10,6 +10,12 @@
 
 namespace launch {
 
+namespace {
+
+constexpr std::size_t kUsualContent = 120;  // bytes of a generated file
+
+}  // namespace
+
 ItemSpec Parameters::item() {
   return {"param",
           "a parameter, or a file of parameters",
@@ -130,6 +136,7 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
   if (tree_) {
     std::vector<NamedParameter> parameters;
     perform_tree(*tree_, "", scope, parameters);
+    content.reserve(kUsualContent);
     content.append(qualified_name.empty() ? "/**" : qualified_name).append(":\n  ros__parameters:\n");
     for (const NamedParameter& parameter : parameters) {
       content.append("    ").append(quote_yaml_if_needed(parameter.name));

@@ -167,6 +167,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
   parse_attributes(entity, type->attributes, items, true, fields);
   parse_condition(entity, fields);
 
+  fields.items_.reserve(type->items.empty() ? 0 : entity.children.size());
   if (type->holds_actions && !entity.has_children_list) {
     errors_.push_back({Severity::kError, fmt::format("expected '{}' to have a list of actions", entity.type_name),
                        entity.where, "add a `children:` list"});

@@ -134,9 +134,11 @@ const Value& Fields::value(std::string_view attribute) const {
 }
 
 std::vector<const Fields*> Fields::items(std::string_view tag) const {
+  const auto is_meant = [&](const Item& item) { return item.tag == tag; };
   std::vector<const Fields*> found;
+  found.reserve(static_cast<std::size_t>(std::count_if(items_.begin(), items_.end(), is_meant)));
   for (const Item& item : items_) {
-    if (item.tag == tag) {
+    if (is_meant(item)) {
       found.push_back(&item.fields);
     }
   }

@@ -2,9 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <cstring>
+
 #include "launcher/base/utf8.hpp"
 
 namespace launch {
+
+namespace {
+
+// Bytes at the beginning that are ASCII without control characters, eight by eight; there may be more.
+std::size_t ordinary_prefix(std::string_view text) {
+  constexpr std::uint64_t kHighBits = 0x8080808080808080;
+  constexpr std::uint64_t kFirstPrintable = 0x2020202020202020;
+  std::size_t size = 0;
+  for (std::uint64_t eight = 0; size + sizeof eight <= text.size(); size += sizeof eight) {
+    std::memcpy(&eight, text.data() + size, sizeof eight);
+    // The high bit of a byte is set when the byte is below 0x20, or has been set already.
+    if (((eight | (eight - kFirstPrintable)) & kHighBits) != 0) {
+      break;
+    }
+  }
+  return size;
+}
+
+}  // namespace
 
 std::optional<Diagnostic> find_bad_character(const LocatedText& source) {
   const std::string_view text = source.text();
@@ -12,6 +34,10 @@ std::optional<Diagnostic> find_bad_character(const LocatedText& source) {
     return Diagnostic{Severity::kError, "the file is encoded in UTF-16", source.range(0, 0), "save it as UTF-8"};
   }
   for (std::size_t i = 0; i < text.size();) {
+    i += ordinary_prefix(text.substr(i));
+    if (i == text.size()) {
+      break;
+    }
     if (text[i] >= 0x20 || text[i] == '\n') {  // ASCII, most of it
       ++i;
       continue;

@@ -91,6 +91,7 @@ bool read_attribute(XmlCursor& cursor, XmlTag& tag, std::string_view name, std::
 }  // namespace
 
 bool read_xml_attributes(XmlCursor& cursor, XmlTag& tag, std::size_t tag_begin) {
+  tag.attributes.reserve(2);  // as most tags have
   while (true) {
     const bool blank = cursor.skip_blanks();
     if (cursor.position >= cursor.text.size()) {
