@@ -68,7 +68,8 @@ void expect_reported(const std::filesystem::path& directory) {
   EXPECT_EQ(call["responses"], 3);
   EXPECT_EQ(call["round_trip"]["count"], 3);
   EXPECT_EQ(call["in_service"]["count"], 3);
-  EXPECT_GT(call["round_trip"]["min_ns"], call["in_service"]["min_ns"]);
+  EXPECT_GT(call["round_trip"]["min_ns"],
+            0);  // maybe less than in_service: the request is recorded when it is on its way
 
   std::map<std::string, int> callbacks;
   for (const nlohmann::json& callback : report["callbacks"]) {
