@@ -5,22 +5,19 @@
 #include <utility>
 
 #include "launcher/frontend/frontend.hpp"
+#include "launcher/frontend/simple_yaml_cursor.hpp"
 
 namespace launch {
 
 namespace {
 
 constexpr std::size_t kMaximumDepth = 50;
-constexpr std::size_t kDepthOfList = 1;   // whose items read_list() hands over
-constexpr std::size_t kUsualKeys = 2;     // of a mapping: what is reserved
-constexpr std::size_t kMaximumKey = 500;  // YAML ends the search for the ':' of a key somewhere behind
+constexpr std::size_t kDepthOfList = 1;  // whose items read_list() hands over
+constexpr std::size_t kUsualKeys = 2;    // of a mapping: what is reserved
 
-// Thrown for what is out of the ordinary; caught in this file.
-struct GiveUp {};
-
-class SimpleYaml {
+class SimpleYaml : private SimpleYamlCursor {
  public:
-  explicit SimpleYaml(const LocatedText& source) : source_(source), text_(source.text()) {}
+  explicit SimpleYaml(const LocatedText& source) : SimpleYamlCursor(source.text()), source_(source) {}
 
   YamlNode read() {
     begin_document();
@@ -76,43 +73,6 @@ class SimpleYaml {
     if (position_ != text_.size()) {
       throw GiveUp();
     }
-  }
-
-  char peek(std::size_t ahead = 0) const { return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0'; }
-  bool at_flow() const { return peek() == '[' || peek() == '{'; }
-  bool at_dash() const { return peek() == '-' && (peek(1) == ' ' || peek(1) == '\n'); }
-
-  void skip_blanks() {
-    while (peek() == ' ') {
-      ++position_;
-    }
-  }
-
-  // From anywhere behind a node: blanks and a comment up to the end of the line.
-  void end_line() {
-    const std::size_t begin = position_;
-    skip_blanks();
-    if (peek() == '#' && (position_ > begin || begin == 0 || text_[begin - 1] == '\n' || text_[begin - 1] == ' ')) {
-      position_ = std::min(text_.find('\n', position_), text_.size());
-    }
-    if (position_ < text_.size() && text_[position_] != '\n') {
-      throw GiveUp();
-    }
-  }
-
-  // From the end of a line, or the beginning of the text, to the first character of the next line that has content.
-  void next_line() {
-    while (position_ < text_.size()) {
-      position_ += peek() == '\n' ? 1 : 0;
-      const std::size_t begin = position_;
-      skip_blanks();
-      if (position_ < text_.size() && peek() != '#' && peek() != '\n') {
-        column_ = position_ - begin;
-        return;
-      }
-      end_line();
-    }
-    column_ = 0;
   }
 
   // Nodes are read in their place in the tree: moving them there costs more than reading them.
@@ -200,40 +160,6 @@ class SimpleYaml {
     }
     end_line();
     next_line();
-  }
-
-  // Where the plain text that begins here ends in a block: before blanks, and before a comment.
-  std::size_t plain_end() const {
-    const std::size_t line_end = std::min(text_.find('\n', position_), text_.size());
-    const std::size_t comment = text_.substr(0, line_end).find(" #", position_);
-    const std::size_t end = std::min(comment, line_end);
-    const std::string_view line = text_.substr(position_, end - position_);
-    const std::size_t colon = line.find(": ");
-    const std::size_t last = line.find_last_not_of(' ');
-    if (colon != std::string_view::npos || last == std::string_view::npos || line[last] == ':') {
-      throw GiveUp();
-    }
-    return position_ + last + 1;
-  }
-
-  // Whether "KEY:" begins here. Texts are recognised by how they begin; the rest follows when the key is read.
-  bool is_key() const {
-    if (at_flow()) {
-      return false;
-    }
-    const std::size_t line_end = std::min(text_.find('\n', position_), text_.size());
-    const std::string_view line = text_.substr(position_, line_end - position_);
-    std::size_t from = 0;
-    if (peek() == '"' || peek() == '\'') {
-      from = line.find(peek(), 1);
-      if (from == std::string_view::npos || from + 1 >= line.size() || line[from + 1] != ':') {
-        return false;
-      }
-    }
-    const std::size_t colon = line.find(": ", from);
-    const bool at_end = colon == std::string_view::npos && line.ends_with(':');
-    const std::size_t end = at_end ? line.size() - 1 : colon;
-    return end != std::string_view::npos && end < std::min(line.find(" #"), kMaximumKey);
   }
 
   void key(YamlNode& node) {
@@ -390,9 +316,6 @@ class SimpleYaml {
   }
 
   const LocatedText& source_;
-  const std::string_view text_;
-  std::size_t position_ = 0;
-  std::size_t column_ = 0;  // of the line's first character, where next_line() has stopped
   const std::function<void(YamlNode& item)>* take_ = nullptr;  // items of the list of read_list()
 };
 
@@ -401,7 +324,7 @@ class SimpleYaml {
 std::optional<YamlNode> read_simple_yaml(const LocatedText& source) {
   try {
     return SimpleYaml(source).read();
-  } catch (const GiveUp&) {
+  } catch (const SimpleYamlCursor::GiveUp&) {
     return std::nullopt;
   }
 }
@@ -410,7 +333,7 @@ std::optional<YamlNode> read_simple_yaml_list(const LocatedText& source, std::st
                                               const std::function<void(YamlNode& item)>& take) {
   try {
     return SimpleYaml(source).read_list(name, take);
-  } catch (const GiveUp&) {
+  } catch (const SimpleYamlCursor::GiveUp&) {
     return std::nullopt;
   }
 }

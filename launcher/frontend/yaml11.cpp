@@ -2,7 +2,6 @@
 // follow YAML 1.2 and differ in octal, sexagesimal and exponent forms.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -256,27 +255,6 @@ double float_value(std::string_view text) {
   return sign * value;
 }
 
-// "[1.0, two]": a list of plain scalars in one line, which most lists of parameters are. Nullopt for anything else.
-std::optional<Value> plain_list(const LocatedText& located) {
-  const std::string_view text = located.text();
-  if (text.size() < 3 || text.front() != '[' || text.back() != ']') {
-    return std::nullopt;
-  }
-  std::vector<Value> items;
-  for (std::size_t begin = 1; begin < text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size() - 1);
-    const std::size_t first = std::min(text.find_first_not_of(' ', begin), end);
-    const std::size_t last = text.find_last_not_of(' ', end - 1) + 1;
-    if (first >= last || !is_plain_scalar(text.substr(first, last - first))) {
-      return std::nullopt;
-    }
-    const SourceRange where = located.range(first, last - first);
-    items.push_back({yaml11_scalar(LocatedText(std::string(text.substr(first, last - first)), where)), where});
-    begin = end + 1;
-  }
-  return Value{std::move(items), located.range()};
-}
-
 Value to_value(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::kMapping) {
     throw LaunchError("expected a scalar or a list, found a mapping", node.where, "quote a text that has ': ' in it");
@@ -346,9 +324,6 @@ Scalar yaml11_scalar(LocatedText located) {
 Value yaml11_value(const LocatedText& text) {
   if (is_plain_scalar(text.text())) {
     return {yaml11_scalar(text), text.range()};
-  }
-  if (std::optional<Value> list = plain_list(text)) {
-    return *std::move(list);
   }
   std::vector<Diagnostic> errors;
   const YamlNode node = read_yaml(text, errors);

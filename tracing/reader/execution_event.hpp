@@ -1,11 +1,12 @@
 // What executors and clients do that ROS 2 has no event for, and provider `ros2_ext` records.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <string_view>
+#include <utility>
 
-#include "tracing/reader/event.hpp"
+#include "tracing/reader/handle_event_decoder.hpp"
 #include "tracing/reader/ros2_events.hpp"
 
 namespace tracing::ros2 {
@@ -20,18 +21,18 @@ struct ExecutionEvent {
   };
   Kind kind = Kind::kService;
   Handle handle = 0;  // rcl's of the service or the client; the waitable's address
+
+  static constexpr std::array<std::pair<std::string_view, Kind>, 5> kKinds{{
+      {"ros2_ext:rclcpp_executor_execute_service", Kind::kService},
+      {"ros2_ext:rclcpp_executor_execute_client", Kind::kClient},
+      {"ros2_ext:rclcpp_executor_execute_waitable", Kind::kWaitable},
+      {"ros2_ext:rclcpp_client_callback_start", Kind::kClientCallbackStart},
+      {"ros2_ext:rclcpp_client_callback_end", Kind::kClientCallbackEnd},
+  }};
+
   bool operator==(const ExecutionEvent&) const = default;
 };
 
-// For the events of one reader.
-class ExecutionEventDecoder {
- public:
-  // Nothing when it is another event.
-  std::optional<ExecutionEvent> decode(const Event& event);
-
- private:
-  using Kind = std::optional<ExecutionEvent::Kind>;
-  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as asked for
-};
+using ExecutionEventDecoder = HandleEventDecoder<ExecutionEvent>;
 
 }  // namespace tracing::ros2

@@ -1,11 +1,12 @@
 // The ends of ROS 2 objects, which provider `ros2_ext` records. ROS 2 itself tells of beginnings only.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <string_view>
+#include <utility>
 
-#include "tracing/reader/event.hpp"
+#include "tracing/reader/handle_event_decoder.hpp"
 #include "tracing/reader/ros2_events.hpp"
 
 namespace tracing::ros2 {
@@ -30,18 +31,25 @@ struct ObjectEnd {
   };
   Kind kind = Kind::kRclNode;
   Handle handle = 0;
+
+  static constexpr std::array<std::pair<std::string_view, Kind>, 12> kKinds{{
+      {"ros2_ext:rcl_node_fini", Kind::kRclNode},
+      {"ros2_ext:rmw_publisher_fini", Kind::kRmwPublisher},
+      {"ros2_ext:rcl_publisher_fini", Kind::kRclPublisher},
+      {"ros2_ext:rmw_subscription_fini", Kind::kRmwSubscription},
+      {"ros2_ext:rcl_subscription_fini", Kind::kRclSubscription},
+      {"ros2_ext:rclcpp_subscription_fini", Kind::kRclcppSubscription},
+      {"ros2_ext:rcl_service_fini", Kind::kRclService},
+      {"ros2_ext:rmw_service_fini", Kind::kRmwService},
+      {"ros2_ext:rcl_client_fini", Kind::kRclClient},
+      {"ros2_ext:rmw_client_fini", Kind::kRmwClient},
+      {"ros2_ext:rcl_timer_fini", Kind::kRclTimer},
+      {"ros2_ext:rclcpp_callback_fini", Kind::kRclcppCallback},
+  }};
+
   bool operator==(const ObjectEnd&) const = default;
 };
 
-// For the events of one reader.
-class ObjectEndDecoder {
- public:
-  // Nothing when it is another event.
-  std::optional<ObjectEnd> decode(const Event& event);
-
- private:
-  using Kind = std::optional<ObjectEnd::Kind>;
-  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as asked for
-};
+using ObjectEndDecoder = HandleEventDecoder<ObjectEnd>;
 
 }  // namespace tracing::ros2

@@ -1,0 +1,43 @@
+// Recognises events of provider `ros2_ext` whose first field is the handle of what they tell of.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tracing/reader/event.hpp"
+
+namespace tracing::ros2 {
+
+// For the events of one reader. A `Decoded` has a `kind`, a `handle`, and kKinds: pairs of an event's name and its
+// kind.
+template <typename Decoded>
+class HandleEventDecoder {
+ public:
+  // Nothing when it is another event.
+  std::optional<Decoded> decode(const Event& event) {
+    const std::size_t id = event.event_class->id;
+    if (id >= kinds_.size()) kinds_.resize(id + 1);
+    if (!kinds_[id]) kinds_[id] = kind_of(event);
+    const Kind& kind = *kinds_[id];
+    if (!kind || event.event_class->fields.empty()) return std::nullopt;
+    const std::optional<std::uint64_t> handle = event.field(0).unsigned_integer();
+    if (!handle) return std::nullopt;
+    return Decoded{*kind, *handle};
+  }
+
+ private:
+  using Kind = std::optional<typename Decoded::Kind>;
+
+  static Kind kind_of(const Event& event) {
+    const auto found = std::find_if(Decoded::kKinds.begin(), Decoded::kKinds.end(),
+                                    [&](const auto& entry) { return entry.first == event.name(); });
+    return found == Decoded::kKinds.end() ? std::nullopt : Kind(found->second);
+  }
+
+  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as asked for
+};
+
+}  // namespace tracing::ros2
