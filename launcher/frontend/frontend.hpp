@@ -20,6 +20,7 @@ Entity parse_yaml(const std::shared_ptr<const SourceFile>& file);  // yaml_front
 // Types a piece of text by the scalar rules of YAML 1.1 (as PyYAML's safe loader): 010 is 8, yes is true, 1e3 is a
 // string. Used by the YAML front end for plain scalars and by parameter values of XML files.
 Scalar yaml11_scalar(LocatedText text);  // yaml11.cpp
+void set_yaml11_type(Scalar& scalar);    // what `scalar.text` is
 
 // Text that isn't YAML at all, as opposed to YAML that can't be used.
 class YamlSyntaxError : public LaunchError {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMaximumDepth = 50;
 constexpr std::size_t kDepthOfList = 1;  // whose items read_list() hands over
-constexpr std::size_t kUsualKeys = 2;    // of a mapping: what is reserved
+constexpr std::size_t kKeysOfItem = 2;   // of a mapping in a list: what is reserved
+constexpr std::size_t kUsualKeys = 8;    // of any other
 
 class SimpleYaml : private SimpleYamlCursor {
  public:
@@ -37,9 +38,6 @@ class SimpleYaml : private SimpleYamlCursor {
     begin_document();
     const std::size_t indentation = column_;
     YamlNode root_key;
-    if (!is_key()) {
-      throw GiveUp();
-    }
     key(root_key);
     if (root_key.scalar.text.text() != name) {
       throw GiveUp();
@@ -82,14 +80,14 @@ class SimpleYaml : private SimpleYamlCursor {
   }
 
   // The collection whose entries begin in this column. Ends at the first line that begins further to the left.
-  void block(YamlNode& node, std::size_t indentation, std::size_t depth) {
+  void block(YamlNode& node, std::size_t indentation, std::size_t depth, bool is_item = false) {
     if (depth > kMaximumDepth) {
       throw GiveUp();
     }
     if (at_dash()) {
       sequence(node, indentation, depth);
     } else {
-      mapping(node, indentation, depth);
+      mapping(node, indentation, depth, is_item);
     }
   }
 
@@ -101,7 +99,7 @@ class SimpleYaml : private SimpleYamlCursor {
       const std::size_t item_column = indentation + (position_ - dash);
       if (at_dash() || is_key()) {
         column_ = item_column;
-        block(node.items.emplace_back(), item_column, depth + 1);
+        block(node.items.emplace_back(), item_column, depth + 1, true);
       } else {
         value_of_line(node.items.emplace_back());
       }
@@ -113,13 +111,10 @@ class SimpleYaml : private SimpleYamlCursor {
     require_end_of_block(indentation);
   }
 
-  void mapping(YamlNode& node, std::size_t indentation, std::size_t depth) {
+  void mapping(YamlNode& node, std::size_t indentation, std::size_t depth, bool is_item) {
     begin_collection(node, YamlNode::Kind::kMapping);
-    node.entries.reserve(kUsualKeys);
+    node.entries.reserve(is_item ? kKeysOfItem : kUsualKeys);
     while (position_ < text_.size() && column_ == indentation && !at_dash()) {
-      if (!is_key()) {
-        throw GiveUp();
-      }
       YamlEntry& entry = node.entries.emplace_back();
       key(entry.key);
       require_new_key(node);
@@ -153,7 +148,7 @@ class SimpleYaml : private SimpleYamlCursor {
   void value_of_line(YamlNode& node) {
     if (at_flow()) {
       flow(node, 0);
-    } else if (peek() == '"' || peek() == '\'') {
+    } else if (at_quote()) {
       quoted(node);
     } else {
       plain(node, plain_end());
@@ -163,20 +158,16 @@ class SimpleYaml : private SimpleYamlCursor {
   }
 
   void key(YamlNode& node) {
-    if (peek() == '"' || peek() == '\'') {
+    const std::size_t colon = colon_of_key();
+    if (colon == kNoKey) {
+      throw GiveUp();
+    }
+    if (at_quote()) {
       quoted(node);
     } else {
-      std::size_t colon = position_;
-      while (!(text_[colon] == ':' &&
-               (colon + 1 == text_.size() || text_[colon + 1] == ' ' || text_[colon + 1] == '\n'))) {
-        ++colon;
-      }
-      if (colon == position_ || text_[colon - 1] == ' ') {
-        throw GiveUp();
-      }
       plain(node, colon);
     }
-    if (peek() != ':' || (peek(1) != ' ' && peek(1) != '\n')) {
+    if (position_ != colon) {
       throw GiveUp();
     }
     ++position_;
@@ -198,7 +189,8 @@ class SimpleYaml : private SimpleYamlCursor {
     if (!is_plain_scalar(text)) {
       throw GiveUp();
     }
-    node.scalar = yaml11_scalar(located(position_, end));
+    node.scalar.text = located(position_, end);
+    set_yaml11_type(node.scalar);
     if (node.scalar.type == Scalar::Type::kNull) {
       throw GiveUp();
     }
@@ -300,7 +292,7 @@ class SimpleYaml : private SimpleYamlCursor {
       flow(node, depth + 1);
       return;
     }
-    if (peek() == '"' || peek() == '\'') {
+    if (at_quote()) {
       quoted(node);
       return;
     }

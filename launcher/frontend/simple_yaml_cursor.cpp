@@ -10,36 +10,47 @@ constexpr std::size_t kMaximumKey = 500;  // YAML ends the search for the ':' of
 
 }  // namespace
 
-bool SimpleYamlCursor::is_key() const {
+std::size_t SimpleYamlCursor::colon_of_key() const {
   if (at_flow()) {
-    return false;
+    return kNoKey;
   }
-  const std::size_t line_end = std::min(text_.find('\n', position_), text_.size());
-  const std::string_view line = text_.substr(position_, line_end - position_);
-  std::size_t from = 0;
-  if (peek() == '"' || peek() == '\'') {
-    from = line.find(peek(), 1);
-    if (from == std::string_view::npos || from + 1 >= line.size() || line[from + 1] != ':') {
-      return false;
+  std::size_t at = position_;
+  if (at_quote()) {
+    at = text_.find(peek(), position_ + 1);
+    if (at == std::string_view::npos || text_.substr(at + 1, 1) != ":") {
+      return kNoKey;
     }
   }
-  const std::size_t colon = line.find(": ", from);
-  const bool at_end = colon == std::string_view::npos && line.ends_with(':');
-  const std::size_t end = at_end ? line.size() - 1 : colon;
-  return end != std::string_view::npos && end < std::min(line.find(" #"), kMaximumKey);
+  const std::size_t last = std::min(text_.size(), position_ + kMaximumKey);
+  for (; at < last && text_[at] != '\n'; ++at) {
+    if (text_[at] == ':' && is_end(at + 1)) {
+      return at;
+    }
+    if (text_[at] == ' ' && at + 1 < last && text_[at + 1] == '#') {
+      return kNoKey;
+    }
+  }
+  return kNoKey;
 }
 
 std::size_t SimpleYamlCursor::plain_end() const {
-  const std::size_t line_end = std::min(text_.find('\n', position_), text_.size());
-  const std::size_t comment = text_.substr(0, line_end).find(" #", position_);
-  const std::size_t end = std::min(comment, line_end);
-  const std::string_view line = text_.substr(position_, end - position_);
-  const std::size_t colon = line.find(": ");
-  const std::size_t last = line.find_last_not_of(' ');
-  if (colon != std::string_view::npos || last == std::string_view::npos || line[last] == ':') {
+  std::size_t end = position_;
+  for (std::size_t at = position_; at < text_.size() && text_[at] != '\n'; ++at) {
+    if (text_[at] == ' ') {
+      if (at + 1 < text_.size() && text_[at + 1] == '#') {
+        break;
+      }
+      continue;
+    }
+    if (text_[at] == ':' && is_end(at + 1)) {
+      throw GiveUp();
+    }
+    end = at + 1;
+  }
+  if (end == position_) {
     throw GiveUp();
   }
-  return position_ + last + 1;
+  return end;
 }
 
 void SimpleYamlCursor::end_line() {

@@ -12,16 +12,24 @@ class SimpleYamlCursor {
   struct GiveUp {};
 
  protected:
+  static constexpr std::size_t kNoKey = std::string_view::npos;
+
   // The text must outlive the cursor.
   explicit SimpleYamlCursor(std::string_view text) : text_(text) {}
 
   char peek(std::size_t ahead = 0) const { return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0'; }
   bool at_flow() const { return peek() == '[' || peek() == '{'; }
+  bool at_quote() const { return peek() == '"' || peek() == '\''; }
   bool at_dash() const { return peek() == '-' && (peek(1) == ' ' || peek(1) == '\n'); }
-  // Whether "KEY:" begins here. Texts are recognised by how they begin; the rest follows when the key is read.
-  bool is_key() const;
+  // Where the colon of the "KEY:" that begins here stands, kNoKey where none does. A quoted key is only recognised;
+  // what is in its quotes is looked at when it is read.
+  std::size_t colon_of_key() const;
+  bool is_key() const { return colon_of_key() != kNoKey; }
   // Where the plain text that begins here ends in a block: before blanks, and before a comment.
   std::size_t plain_end() const;
+
+  // Whether the character there ends what is before it: a blank, the end of the line, the end of the text.
+  bool is_end(std::size_t at) const { return at >= text_.size() || text_[at] == ' ' || text_[at] == '\n'; }
 
   void skip_blanks() {
     while (peek() == ' ') {

@@ -275,24 +275,34 @@ bool may_be_number(std::string_view text) {
 }
 // Whether a text begins as the words do that stand for booleans and null, and is no longer than they are.
 bool may_be_word(std::string_view text) {
-  constexpr std::array<std::string_view, 7> kBeginnings = {"ye", "tr", "on", "no", "fa", "of", "nu"};
+  constexpr auto pair = [](int first, int second) { return first * 256 + second; };
   if (text.size() < 2) {
     return text.empty() || text == "~";
   }
-  const std::array<char, 2> beginning = {static_cast<char>(text[0] | 0x20), static_cast<char>(text[1] | 0x20)};
-  return text.size() <= std::string_view("false").size() &&
-         is_one_of(std::string_view(beginning.data(), beginning.size()), kBeginnings);
+  if (text.size() > std::string_view("false").size()) {
+    return false;
+  }
+  switch (pair(text[0] | 0x20, text[1] | 0x20)) {
+    case pair('y', 'e'):
+    case pair('t', 'r'):
+    case pair('o', 'n'):
+    case pair('n', 'o'):
+    case pair('f', 'a'):
+    case pair('o', 'f'):
+    case pair('n', 'u'):
+      return true;
+    default:
+      return false;
+  }
 }
 
 }  // namespace
 
-Scalar yaml11_scalar(LocatedText located) {
-  const std::string_view text = located.text();
-  Scalar scalar;
+void set_yaml11_type(Scalar& scalar) {
+  const std::string_view text = scalar.text.text();
   scalar.type = Scalar::Type::kString;
   if (!may_be_number(text) && !may_be_word(text)) {
-    scalar.text = std::move(located);
-    return scalar;
+    return;
   }
   if (is_one_of(text, std::array<std::string_view, 9>{"yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"})) {
     scalar.type = Scalar::Type::kBool;
@@ -317,7 +327,12 @@ Scalar yaml11_scalar(LocatedText located) {
   } else if (is_timestamp(text)) {
     scalar.type = Scalar::Type::kOther;
   }
-  scalar.text = std::move(located);
+}
+
+Scalar yaml11_scalar(LocatedText text) {
+  Scalar scalar;
+  scalar.text = std::move(text);
+  set_yaml11_type(scalar);
   return scalar;
 }
 
