@@ -92,6 +92,22 @@ rcl_ret_t take(const rcl_action_client_t* client, rcl_subscription_t rcl_action_
   return result == RCL_RET_SUBSCRIPTION_TAKE_FAILED ? RCL_RET_ACTION_CLIENT_TAKE_FAILED : result;
 }
 
+rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_client_t rcl_action_client_impl_s::*part,
+                       rcl_event_callback_t callback, const void* user_data) {
+  if (!rcl_action_client_is_valid(client)) {
+    return RCL_RET_ACTION_CLIENT_INVALID;
+  }
+  return rcl_client_set_on_new_response_callback(&(client->impl->*part), callback, user_data);
+}
+
+rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_subscription_t rcl_action_client_impl_s::*part,
+                       rcl_event_callback_t callback, const void* user_data) {
+  if (!rcl_action_client_is_valid(client)) {
+    return RCL_RET_ACTION_CLIENT_INVALID;
+  }
+  return rcl_subscription_set_on_new_message_callback(&(client->impl->*part), callback, user_data);
+}
+
 }  // namespace
 
 rcl_action_client_t rcl_action_get_zero_initialized_client(void) {
@@ -216,42 +232,27 @@ rcl_ret_t rcl_action_take_status(const rcl_action_client_t* action_client, void*
 
 rcl_ret_t rcl_action_client_set_goal_client_callback(const rcl_action_client_t* action_client,
                                                      rcl_event_callback_t callback, const void* user_data) {
-  if (!rcl_action_client_is_valid(action_client)) {
-    return RCL_RET_ACTION_CLIENT_INVALID;
-  }
-  return rcl_client_set_on_new_response_callback(&action_client->impl->goal_client, callback, user_data);
+  return set_callback(action_client, &rcl_action_client_impl_s::goal_client, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_cancel_client_callback(const rcl_action_client_t* action_client,
                                                        rcl_event_callback_t callback, const void* user_data) {
-  if (!rcl_action_client_is_valid(action_client)) {
-    return RCL_RET_ACTION_CLIENT_INVALID;
-  }
-  return rcl_client_set_on_new_response_callback(&action_client->impl->cancel_client, callback, user_data);
+  return set_callback(action_client, &rcl_action_client_impl_s::cancel_client, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_result_client_callback(const rcl_action_client_t* action_client,
                                                        rcl_event_callback_t callback, const void* user_data) {
-  if (!rcl_action_client_is_valid(action_client)) {
-    return RCL_RET_ACTION_CLIENT_INVALID;
-  }
-  return rcl_client_set_on_new_response_callback(&action_client->impl->result_client, callback, user_data);
+  return set_callback(action_client, &rcl_action_client_impl_s::result_client, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_feedback_subscription_callback(const rcl_action_client_t* action_client,
                                                                rcl_event_callback_t callback, const void* user_data) {
-  if (!rcl_action_client_is_valid(action_client)) {
-    return RCL_RET_ACTION_CLIENT_INVALID;
-  }
-  return rcl_subscription_set_on_new_message_callback(&action_client->impl->feedback_subscription, callback, user_data);
+  return set_callback(action_client, &rcl_action_client_impl_s::feedback_subscription, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_status_subscription_callback(const rcl_action_client_t* action_client,
                                                              rcl_event_callback_t callback, const void* user_data) {
-  if (!rcl_action_client_is_valid(action_client)) {
-    return RCL_RET_ACTION_CLIENT_INVALID;
-  }
-  return rcl_subscription_set_on_new_message_callback(&action_client->impl->status_subscription, callback, user_data);
+  return set_callback(action_client, &rcl_action_client_impl_s::status_subscription, callback, user_data);
 }
 
 const char* rcl_action_client_get_action_name(const rcl_action_client_t* action_client) {

@@ -1,5 +1,7 @@
 #include "rclcpp/generic_client.hpp"
 
+#include <optional>
+
 #include "rclcpp/detail/message_memory.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -40,59 +42,23 @@ GenericClient::SharedFutureAndRequestId GenericClient::async_send_request(const 
 }
 
 int64_t GenericClient::send(const void* request, Answer answer) {
-  // Locked until the request is registered: its response may come before this function returns.
-  const std::lock_guard lock(mutex_);
-  const int64_t request_id = send_type_erased_request(request);
-  pending_.emplace(request_id, Pending{std::chrono::system_clock::now(), std::move(answer)});
-  return request_id;
+  return pending_.add([&] { return send_type_erased_request(request); }, std::move(answer));
 }
 
 void GenericClient::handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) {
-  std::unique_lock lock(mutex_);
-  auto node = pending_.extract(request_header.sequence_number);
-  lock.unlock();
-  if (node.empty()) {
+  std::optional<Answer> answer = pending_.take(request_header.sequence_number);
+  if (!answer) {
     RCLCPP_DEBUG(get_logger("rclcpp"), "dropped a response of service '%s' to a request that is not pending",
                  get_service_name());
     return;
   }
-  Answer& answer = node.mapped().answer;
-  if (auto* promise = std::get_if<Promise>(&answer)) {
+  if (auto* promise = std::get_if<Promise>(&*answer)) {
     promise->set_value(std::move(response));
   } else {
-    auto& with_callback = std::get<WithCallback>(answer);
+    auto& with_callback = std::get<WithCallback>(*answer);
     with_callback.promise.set_value(std::move(response));
     with_callback.callback(std::move(with_callback.future));
   }
-}
-
-bool GenericClient::remove_pending_request(int64_t request_id) {
-  const std::lock_guard lock(mutex_);
-  return pending_.erase(request_id) != 0;
-}
-
-size_t GenericClient::prune_pending_requests() {
-  const std::lock_guard lock(mutex_);
-  const size_t count = pending_.size();
-  pending_.clear();
-  return count;
-}
-
-size_t GenericClient::prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,
-                                                std::vector<int64_t>* pruned_requests) {
-  const std::lock_guard lock(mutex_);
-  const size_t before = pending_.size();
-  for (auto entry = pending_.begin(); entry != pending_.end();) {
-    if (entry->second.sent >= time_point) {
-      ++entry;
-      continue;
-    }
-    if (pruned_requests) {
-      pruned_requests->push_back(entry->first);
-    }
-    entry = pending_.erase(entry);
-  }
-  return before - pending_.size();
 }
 
 }  // namespace rclcpp

@@ -57,24 +57,12 @@ rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_typ
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_name, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos_policies, nullptr);
-  if (!qos_policies->avoid_ros_namespace_conventions) {
-    rmw_fastrtps::check_topic_name(service_name);
-  }
   rmw_context_impl_t& impl = *node->context->impl;
   std::lock_guard lock(impl.mutex);
   auto client = std::make_unique<Client>(impl.graph_changed);
-  client->open(ServiceChannel::End::kClient, *impl.participant, *type_support, service_name, *qos_policies);
+  client->open(ServiceChannel::End::kClient, node, *type_support, service_name, *qos_policies);
   client->handle = {kIdentifier, static_cast<Waitable*>(client.get()), client->service_name().c_str()};
-  try {
-    rmw_fastrtps::enter_graph(node, {client->reader_identity(), client->writer_identity()});
-  } catch (...) {
-    impl.graph.remove_endpoint(client->reader_identity().gid);
-    impl.graph.remove_endpoint(client->writer_identity().gid);
-    client->close();
-    throw;
-  }
-  TRACETOOLS_TRACEPOINT(rmw_client_init, static_cast<const void*>(&client->handle),
-                        client->reader_identity().gid.data());
+  TRACETOOLS_TRACEPOINT(rmw_client_init, static_cast<const void*>(&client->handle), client->reader_gid().data());
   return &client.release()->handle;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());
@@ -87,8 +75,7 @@ rmw_ret_t rmw_destroy_client(rmw_node_t* node, rmw_client_t* client) try {
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_client_fini, static_cast<const void*>(client));
   const std::unique_ptr<Client> owned(&client_of(*client));
-  owned->close();
-  rmw_fastrtps::leave_graph(node, {owned->reader_identity(), owned->writer_identity()});
+  owned->close(node);
   return RMW_RET_OK;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());

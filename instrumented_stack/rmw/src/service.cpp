@@ -61,24 +61,11 @@ rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_t
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_name, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos_policies, nullptr);
-  if (!qos_policies->avoid_ros_namespace_conventions) {
-    rmw_fastrtps::check_topic_name(service_name);
-  }
-  rmw_context_impl_t& impl = *node->context->impl;
-  std::lock_guard lock(impl.mutex);
+  std::lock_guard lock(node->context->impl->mutex);
   auto service = std::make_unique<Service>();
-  service->open(ServiceChannel::End::kService, *impl.participant, *type_support, service_name, *qos_policies);
+  service->open(ServiceChannel::End::kService, node, *type_support, service_name, *qos_policies);
   service->handle = {kIdentifier, static_cast<Waitable*>(service.get()), service->service_name().c_str()};
-  try {
-    rmw_fastrtps::enter_graph(node, {service->reader_identity(), service->writer_identity()});
-  } catch (...) {
-    impl.graph.remove_endpoint(service->reader_identity().gid);
-    impl.graph.remove_endpoint(service->writer_identity().gid);
-    service->close();
-    throw;
-  }
-  TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, static_cast<const void*>(&service->handle),
-                            service->reader_identity().gid.data());
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, static_cast<const void*>(&service->handle), service->reader_gid().data());
   return &service.release()->handle;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());
@@ -91,8 +78,7 @@ rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service) try {
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, static_cast<const void*>(service));
   const std::unique_ptr<Service> owned(&service_of(*service));
-  owned->close();
-  rmw_fastrtps::leave_graph(node, {owned->reader_identity(), owned->writer_identity()});
+  owned->close(node);
   return RMW_RET_OK;
 } catch (const std::exception& error) {
   RMW_SET_ERROR_MSG(error.what());

@@ -7,8 +7,10 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <stdexcept>
 
+#include "context_impl.hpp"
 #include "dds_gid.hpp"
 #include "message_type.hpp"
+#include "node.hpp"
 #include "participant.hpp"
 #include "qos.hpp"
 #include "rmw/error_handling.h"
@@ -33,16 +35,38 @@ const service_type_support_callbacks_t& service_callbacks_of(const rosidl_servic
 
 }  // namespace
 
-void ServiceChannel::open(End end, Participant& participant, const rosidl_service_type_support_t& type_support,
-                          const std::string& service_name, const rmw_qos_profile_t& profile) try {
+void ServiceChannel::open(End end, const rmw_node_t* node, const rosidl_service_type_support_t& type_support,
+                          const std::string& service_name, const rmw_qos_profile_t& profile) {
+  if (!profile.avoid_ros_namespace_conventions) {
+    check_topic_name(service_name.c_str());
+  }
+  rmw_context_impl_t& context = *node->context->impl;
+  participant_ = context.participant.get();
+  service_name_ = service_name;
+  open_endpoints(end, type_support, profile);
+  try {
+    enter_graph(node, {reader_identity_, writer_identity_});
+  } catch (...) {
+    context.graph.remove_endpoint(reader_identity_.gid);
+    context.graph.remove_endpoint(writer_identity_.gid);
+    close_endpoints();
+    throw;
+  }
+}
+
+void ServiceChannel::close(const rmw_node_t* node) {
+  close_endpoints();
+  leave_graph(node, {reader_identity_, writer_identity_});
+}
+
+void ServiceChannel::open_endpoints(End end, const rosidl_service_type_support_t& type_support,
+                                    const rmw_qos_profile_t& profile) try {
   const auto& callbacks = service_callbacks_of(type_support);
   const auto& request = callbacks_of(callbacks.request_members_);
   const auto& response = callbacks_of(callbacks.response_members_);
-  participant_ = &participant;
-  service_name_ = service_name;
   const bool bare = profile.avoid_ros_namespace_conventions;
-  const std::string request_topic = bare ? service_name + "Request" : mangled_request_topic(service_name);
-  const std::string response_topic = bare ? service_name + "Reply" : mangled_response_topic(service_name);
+  const std::string request_topic = bare ? service_name_ + "Request" : mangled_request_topic(service_name_);
+  const std::string response_topic = bare ? service_name_ + "Reply" : mangled_response_topic(service_name_);
   if (end == End::kService) {
     open_reader(request_topic, request, profile);
     open_writer(response_topic, response, profile);
@@ -51,7 +75,7 @@ void ServiceChannel::open(End end, Participant& participant, const rosidl_servic
     open_writer(request_topic, request, profile);
   }
 } catch (...) {
-  close();
+  close_endpoints();
   throw;
 }
 
@@ -84,7 +108,7 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
                       {GraphCache::Kind::kWriter, topic_name, dds_type_name(type), profile_of(writer->get_qos())}};
 }
 
-void ServiceChannel::close() {
+void ServiceChannel::close_endpoints() {
   if (reader != nullptr) {
     reader->set_listener(nullptr);
     participant_->subscriber().delete_datareader(reader);

@@ -21,14 +21,14 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
  public:
   enum class End { kService, kClient };
 
-  // Throws std::runtime_error, and is then closed.
-  void open(End end, Participant& participant, const rosidl_service_type_support_t& type_support,
+  // Enters the two endpoints into the graph of the node, too. The caller holds the lock of the node's context. Throws
+  // std::runtime_error, and is then closed.
+  void open(End end, const rmw_node_t* node, const rosidl_service_type_support_t& type_support,
             const std::string& service_name, const rmw_qos_profile_t& profile);
-  void close();
+  void close(const rmw_node_t* node);
 
   const std::string& service_name() const { return service_name_; }
-  const EndpointIdentity& reader_identity() const { return reader_identity_; }
-  const EndpointIdentity& writer_identity() const { return writer_identity_; }
+  const Gid& reader_gid() const { return reader_identity_.gid; }
 
   rmw_ret_t get_reader_qos(rmw_qos_profile_t* qos) const;
   rmw_ret_t get_writer_qos(rmw_qos_profile_t* qos) const;
@@ -36,6 +36,8 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
   eprosima::fastdds::dds::DataWriter* writer = nullptr;
 
  private:
+  void open_endpoints(End end, const rosidl_service_type_support_t& type_support, const rmw_qos_profile_t& profile);
+  void close_endpoints();
   void open_reader(const std::string& topic_name, const message_type_support_callbacks_t& type,
                    const rmw_qos_profile_t& profile);
   void open_writer(const std::string& topic_name, const message_type_support_callbacks_t& type,

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <functional>
 #include <future>
-#include <map>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <rosidl_typesupport_cpp/service_type_support.hpp>
 #include <string>
 #include <type_traits>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "rclcpp/client_base.hpp"
+#include "rclcpp/detail/pending_requests.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
@@ -111,10 +111,7 @@ class Client : public ClientBase {
   }
 
   // True if the request was still pending. A response that comes later is dropped.
-  bool remove_pending_request(int64_t request_id) {
-    const std::lock_guard lock(mutex_);
-    return pending_.erase(request_id) != 0;
-  }
+  bool remove_pending_request(int64_t request_id) { return pending_.remove(request_id); }
   bool remove_pending_request(const FutureAndRequestId& future) { return remove_pending_request(future.request_id); }
   bool remove_pending_request(const SharedFutureAndRequestId& future) {
     return remove_pending_request(future.request_id);
@@ -124,28 +121,11 @@ class Client : public ClientBase {
   }
 
   // Both give the number of requests that were removed, and the second their ids.
-  size_t prune_pending_requests() {
-    const std::lock_guard lock(mutex_);
-    const size_t count = pending_.size();
-    pending_.clear();
-    return count;
-  }
+  size_t prune_pending_requests() { return pending_.prune(); }
   template <typename AllocatorT = std::allocator<int64_t>>
   size_t prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,
                                    std::vector<int64_t, AllocatorT>* pruned_requests = nullptr) {
-    const std::lock_guard lock(mutex_);
-    const size_t before = pending_.size();
-    for (auto entry = pending_.begin(); entry != pending_.end();) {
-      if (entry->second.sent < time_point) {
-        if (pruned_requests) {
-          pruned_requests->push_back(entry->first);
-        }
-        entry = pending_.erase(entry);
-      } else {
-        ++entry;
-      }
-    }
-    return before - pending_.size();
+    return pending_.prune_older_than(time_point, pruned_requests);
   }
 
  protected:
@@ -153,22 +133,19 @@ class Client : public ClientBase {
 
   void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) override {
     const SharedResponse typed = std::static_pointer_cast<Response>(std::move(response));
-    std::unique_lock lock(mutex_);
-    auto node = pending_.extract(request_header.sequence_number);
-    lock.unlock();
-    if (node.empty()) {
+    std::optional<Answer> answer = pending_.take(request_header.sequence_number);
+    if (!answer) {
       RCLCPP_DEBUG(get_logger("rclcpp"), "dropped a response of service '%s' to a request that is not pending",
                    get_service_name());
       return;
     }
-    Answer& answer = node.mapped().answer;
-    if (auto* promise = std::get_if<Promise>(&answer)) {
+    if (auto* promise = std::get_if<Promise>(&*answer)) {
       promise->set_value(typed);
-    } else if (auto* with_callback = std::get_if<WithCallback>(&answer)) {
+    } else if (auto* with_callback = std::get_if<WithCallback>(&*answer)) {
       with_callback->promise.set_value(typed);
       with_callback->callback(std::move(with_callback->future));
     } else {
-      auto& with_request = std::get<WithRequest>(answer);
+      auto& with_request = std::get<WithRequest>(*answer);
       with_request.promise.set_value({std::move(with_request.request), typed});
       with_request.callback(std::move(with_request.future));
     }
@@ -187,21 +164,12 @@ class Client : public ClientBase {
     SharedFutureWithRequest future;
   };
   using Answer = std::variant<Promise, WithCallback, WithRequest>;
-  struct Pending {
-    std::chrono::time_point<std::chrono::system_clock> sent;
-    Answer answer;
-  };
 
   int64_t send(const Request& request, Answer answer) {
-    // Locked until the request is registered: its response may come before this function returns.
-    const std::lock_guard lock(mutex_);
-    const int64_t request_id = send_type_erased_request(&request);
-    pending_.emplace(request_id, Pending{std::chrono::system_clock::now(), std::move(answer)});
-    return request_id;
+    return pending_.add([&] { return send_type_erased_request(&request); }, std::move(answer));
   }
 
-  std::mutex mutex_;
-  std::map<int64_t, Pending> pending_;
+  detail::PendingRequests<Answer> pending_;
 };
 
 }  // namespace rclcpp

@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <future>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,6 +15,7 @@
 
 #include "rclcpp/client.hpp"
 #include "rclcpp/client_base.hpp"
+#include "rclcpp/detail/pending_requests.hpp"
 #include "rclcpp/typesupport_helpers.hpp"
 
 namespace rclcpp {
@@ -61,15 +60,17 @@ class GenericClient : public ClientBase {
   SharedFutureAndRequestId async_send_request(const Request request, CallbackType callback);
 
   // Whether there was such a request.
-  bool remove_pending_request(int64_t request_id);
+  bool remove_pending_request(int64_t request_id) { return pending_.remove(request_id); }
   bool remove_pending_request(const FutureAndRequestId& future) { return remove_pending_request(future.request_id); }
   bool remove_pending_request(const SharedFutureAndRequestId& future) {
     return remove_pending_request(future.request_id);
   }
   // Both give the number of requests that were removed, and the second their ids.
-  size_t prune_pending_requests();
+  size_t prune_pending_requests() { return pending_.prune(); }
   size_t prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,
-                                   std::vector<int64_t>* pruned_requests = nullptr);
+                                   std::vector<int64_t>* pruned_requests = nullptr) {
+    return pending_.prune_older_than(time_point, pruned_requests);
+  }
 
  protected:
   void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) override;
@@ -81,18 +82,13 @@ class GenericClient : public ClientBase {
     SharedFuture future;
   };
   using Answer = std::variant<Promise, WithCallback>;
-  struct Pending {
-    std::chrono::time_point<std::chrono::system_clock> sent;
-    Answer answer;
-  };
 
   GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                 const rosidl_service_type_support_t* type_support, const QoS& qos);
   int64_t send(const void* request, Answer answer);
 
   const rosidl_service_type_support_t* type_support_;
-  std::mutex mutex_;
-  std::map<int64_t, Pending> pending_;
+  detail::PendingRequests<Answer> pending_;
 };
 
 }  // namespace rclcpp

@@ -1,0 +1,71 @@
+// The requests of a client that have no response yet.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rclcpp::detail {
+
+// With each request what its response is for. Thread safe.
+template <typename AnswerT>
+class PendingRequests {
+ public:
+  // Calls `send`, which returns the id of the request.
+  template <typename SendT>
+  int64_t add(SendT send, AnswerT answer) {
+    // Locked until the request is registered: its response may come before this function returns.
+    const std::lock_guard lock(mutex_);
+    const int64_t request_id = send();
+    requests_.emplace(request_id, Request{std::chrono::system_clock::now(), std::move(answer)});
+    return request_id;
+  }
+
+  // Nothing for a request that is not pending.
+  std::optional<AnswerT> take(int64_t request_id) {
+    const std::lock_guard lock(mutex_);
+    auto node = requests_.extract(request_id);
+    return node.empty() ? std::nullopt : std::optional<AnswerT>(std::move(node.mapped().answer));
+  }
+
+  bool remove(int64_t request_id) {
+    const std::lock_guard lock(mutex_);
+    return requests_.erase(request_id) != 0;
+  }
+
+  // Both give the number of requests that were removed, and the second their ids.
+  size_t prune() {
+    const std::lock_guard lock(mutex_);
+    const size_t count = requests_.size();
+    requests_.clear();
+    return count;
+  }
+  template <typename AllocatorT>
+  size_t prune_older_than(std::chrono::system_clock::time_point time_point,
+                          std::vector<int64_t, AllocatorT>* pruned_requests) {
+    const std::lock_guard lock(mutex_);
+    return std::erase_if(requests_, [&](const auto& entry) {
+      const bool is_older = entry.second.sent < time_point;
+      if (is_older && pruned_requests != nullptr) {
+        pruned_requests->push_back(entry.first);
+      }
+      return is_older;
+    });
+  }
+
+ private:
+  struct Request {
+    std::chrono::system_clock::time_point sent;
+    AnswerT answer;
+  };
+
+  std::mutex mutex_;
+  std::map<int64_t, Request> requests_;
+};
+
+}  // namespace rclcpp::detail
