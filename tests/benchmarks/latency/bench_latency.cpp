@@ -4,6 +4,7 @@
 // Every variant is a pair of processes. They take turns, batch by batch, so that whatever the machine does meanwhile
 // meets them all. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -111,12 +112,17 @@ void print_table(const std::vector<const Variant*>& variants) {
 }  // namespace
 
 int main() try {
+  if (access(LATENCY_STACK_WITHOUT_TRACEPOINTS, X_OK) != 0) {
+    latency::fail(LATENCY_STACK_WITHOUT_TRACEPOINTS
+                  " is not built: build the target latency_stack_without_tracepoints, as ./dev bench does");
+  }
   latency::TracingSession session;
   Variant bare{"bare, wait set", LATENCY_BARE, "wait_set", 60};
   Variant idle{"stack, tracing idle", LATENCY_STACK, "subscriber", 61};
   Variant disabled{"stack, no tracing", LATENCY_STACK, "subscriber", 62, {{"TRACETOOLS_RUNTIME_DISABLE", "1"}}};
+  Variant without{"stack, no tracepoints", LATENCY_STACK_WITHOUT_TRACEPOINTS, "subscriber", 64};
   Variant listener{"bare, in listener", LATENCY_BARE, "listener", 63};
-  const std::vector<Variant*> variants = {&bare, &idle, &disabled, &listener};
+  const std::vector<Variant*> variants = {&bare, &idle, &disabled, &without, &listener};
   // Of the processes of `idle` with the session started, and of those of `disabled` at the same time.
   std::vector<Samples> recorded(kSizes.size());
   std::vector<Samples> beside_recorded(kSizes.size());
@@ -158,7 +164,7 @@ int main() try {
   }
 
   fmt::print("latency in microseconds, {} messages each\n", kGenerations * kRounds * kMessages);
-  print_table({&bare, &idle, &disabled, &listener});
+  print_table({&bare, &idle, &disabled, &without, &listener});
 
   fmt::print(
       "\nThe tracepoints on the path cost {:.2f} microseconds when each is called in a loop. They cost more when "
@@ -171,7 +177,7 @@ int main() try {
     const double path = median(paced_costs[size]);
     const double by_recording = added(recorded[size], beside_recorded[size]);
     fmt::print("{:<8}{:>16.2f}{:>24.2f}{:>26.2f}{:>16.2f}\n", kSizes[size] / 1024, path,
-               added(idle.sizes[size], disabled.sizes[size]), by_recording, by_recording / path);
+               added(idle.sizes[size], without.sizes[size]), by_recording, by_recording / path);
   }
 } catch (const std::exception& error) {
   fmt::print(stderr, "bench_latency: {}\n", error.what());
