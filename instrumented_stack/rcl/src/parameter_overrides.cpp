@@ -32,11 +32,18 @@ bool matches(std::string_view pattern, std::string_view name) {
   return (level == "/*" || level == name_level) && matches(rest, name.substr(name_level.size()));
 }
 
+std::string with_slash(std::string_view pattern) {
+  return pattern.starts_with('/') ? std::string(pattern) : "/" + std::string(pattern);
+}
+
 }  // namespace
 
+bool node_pattern_matches(std::string_view pattern, std::string_view fully_qualified_name) {
+  return matches(with_slash(pattern), fully_qualified_name);
+}
+
 void ParameterOverrides::set(std::string_view node_pattern, std::string_view name, ParameterValue value) {
-  std::string pattern = node_pattern.starts_with('/') ? "" : "/";
-  pattern += node_pattern;
+  std::string pattern = with_slash(node_pattern);
   auto entry =
       std::find_if(patterns_.begin(), patterns_.end(), [&](const auto& known) { return known.first == pattern; });
   if (entry == patterns_.end()) {

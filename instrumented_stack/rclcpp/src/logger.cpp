@@ -1,5 +1,6 @@
 #include "rclcpp/logger.hpp"
 
+#include <rcl/logging_directory.hpp>
 #include <stdexcept>
 
 #include "rclcpp/exceptions.hpp"
@@ -28,6 +29,10 @@ Logger::Level Logger::get_effective_level() const {
     exceptions::throw_from_rcl_error(RCL_RET_ERROR, "couldn't get logger level");
   }
   return static_cast<Level>(level);
+}
+
+std::filesystem::path get_logging_directory() {
+  return rcl::logging_directory();
 }
 
 }  // namespace rclcpp

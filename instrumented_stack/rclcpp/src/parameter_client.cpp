@@ -1,6 +1,7 @@
 #include "rclcpp/parameter_client.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "parameter_service_names.hpp"
 #include "rclcpp/create_client.hpp"
@@ -53,6 +54,8 @@ AsyncParametersClient::AsyncParametersClient(node_interfaces::NodeBaseInterface:
   connect(set_atomically_, names::kSetParametersAtomically);
   connect(describe_, names::kDescribeParameters);
   connect(list_, names::kListParameters);
+  const std::string_view service = list_->get_service_name();
+  remote_node_name_ = service.substr(0, service.rfind('/'));
 }
 
 std::shared_future<std::vector<Parameter>> AsyncParametersClient::get_parameters(
@@ -111,6 +114,20 @@ std::shared_future<std::vector<AsyncParametersClient::SetResult>> AsyncParameter
   std::vector<Parameter> parameters;
   std::transform(names.begin(), names.end(), std::back_inserter(parameters),
                  [](const std::string& name) { return Parameter(name); });
+  return set_parameters(parameters);
+}
+
+std::shared_future<std::vector<AsyncParametersClient::SetResult>> AsyncParametersClient::load_parameters(
+    const std::string& yaml_filename) {
+  return load_parameters(parameter_map_from_yaml_file(yaml_filename, remote_node_name_.c_str()));
+}
+
+std::shared_future<std::vector<AsyncParametersClient::SetResult>> AsyncParametersClient::load_parameters(
+    const ParameterMap& parameter_map) {
+  const std::vector<Parameter> parameters = parameters_from_map(parameter_map, remote_node_name_.c_str());
+  if (parameters.empty()) {
+    throw exceptions::InvalidParametersException("there are no parameters for node '" + remote_node_name_ + "'");
+  }
   return set_parameters(parameters);
 }
 

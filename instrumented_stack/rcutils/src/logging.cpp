@@ -3,6 +3,7 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdio>
@@ -17,6 +18,7 @@
 
 #include "log_line.hpp"
 #include "rcutils/error_handling.h"
+#include "rcutils/format_log_line.hpp"
 
 namespace {
 
@@ -234,34 +236,57 @@ void rcutils_log_internal(const rcutils_log_location_t* location, int severity, 
   va_end(args);
 }
 
+namespace rcutils {
+namespace {
+
+// On the stack unless it is long. The arguments are left for the next handler.
+class Message {
+ public:
+  Message(const char* format, va_list* args) {
+    va_list copy;
+    va_copy(copy, *args);
+    const int length = std::vsnprintf(buffer_, sizeof(buffer_), format, copy);
+    va_end(copy);
+    text_ = {buffer_, static_cast<size_t>(std::max(length, 0))};
+    if (text_.size() >= sizeof(buffer_)) {
+      long_text_.resize(text_.size());
+      va_copy(copy, *args);
+      std::vsnprintf(long_text_.data(), long_text_.size() + 1, format, copy);
+      va_end(copy);
+      text_ = long_text_;
+    }
+  }
+  std::string_view text() const { return text_; }
+
+ private:
+  char buffer_[1024];
+  std::string long_text_;
+  std::string_view text_;
+};
+
+}  // namespace
+
+std::string format_log_line(const rcutils_log_location_t* location, int severity, const char* name,
+                            rcutils_time_point_value_t timestamp, const char* format, va_list* args) {
+  RCUTILS_LOGGING_AUTOINIT;
+  const Message message(format, args);
+  Logging& log = logging();
+  std::shared_lock lock(log.mutex);
+  return log.line.fill(location, severity, name, timestamp, message.text(), false);
+}
+
+}  // namespace rcutils
+
 void rcutils_logging_console_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
                                             rcutils_time_point_value_t timestamp, const char* format, va_list* args) {
   RCUTILS_LOGGING_AUTOINIT;
-  // Formatted on the stack unless it is long. The arguments are left for the next handler.
-  char buffer[1024];
-  std::string long_message;
-  va_list copy;
-  va_copy(copy, *args);
-  const int length = std::vsnprintf(buffer, sizeof(buffer), format, copy);
-  va_end(copy);
-  if (length < 0) {
-    return;
-  }
-  std::string_view message(buffer, static_cast<size_t>(length));
-  if (message.size() >= sizeof(buffer)) {
-    long_message.resize(message.size());
-    va_copy(copy, *args);
-    std::vsnprintf(long_message.data(), long_message.size() + 1, format, copy);
-    va_end(copy);
-    message = long_message;
-  }
-
+  const rcutils::Message message(format, args);
   Logging& log = logging();
   std::string line;
   FILE* stream;
   {
     std::shared_lock lock(log.mutex);
-    line = log.line.fill(location, severity, name, timestamp, message, log.colorized);
+    line = log.line.fill(location, severity, name, timestamp, message.text(), log.colorized);
     stream = log.stream;
   }
   std::fwrite(line.data(), 1, line.size(), stream);

@@ -3,10 +3,12 @@
 #include <cstring>
 #include <type_traits>
 
+#include "builtin_interfaces/msg/time.hpp"
 #include "rcl_interfaces/msg/log.hpp"
 #include "rcl_interfaces/msg/parameter_type.hpp"
 #include "rcl_interfaces/srv/get_parameters.hpp"
 #include "std_msgs/msg/color_rgba.hpp"
+#include "std_msgs/msg/empty.hpp"
 #include "std_msgs/msg/header.hpp"
 #include "std_msgs/msg/string.hpp"
 #include "test_interfaces/msg/awkward.hpp"
@@ -75,6 +77,20 @@ TEST(Message, SettersChain) {
   EXPECT_EQ(color.r, 0.5f);
   EXPECT_EQ(color.g, 0.0f);
   EXPECT_EQ(color.a, 1.0f);
+}
+
+TEST(Message, IsBuiltFieldByField) {
+  const auto color = std_msgs::build<std_msgs::msg::ColorRGBA>().r(0.5f).g(0.25f).b(0.0f).a(1.0f);
+  static_assert(std::is_same_v<decltype(color), const std_msgs::msg::ColorRGBA>);
+  EXPECT_EQ(color, std_msgs::msg::ColorRGBA().set__r(0.5f).set__g(0.25f).set__a(1.0f));
+
+  const auto header = std_msgs::build<std_msgs::msg::Header>()
+                          .stamp(builtin_interfaces::build<builtin_interfaces::msg::Time>().sec(3).nanosec(4))
+                          .frame_id("map");
+  EXPECT_EQ(header.stamp.nanosec, 4u);
+  EXPECT_EQ(header.frame_id, "map");
+  EXPECT_EQ(test_interfaces::build<test_interfaces::srv::AddTwoInts::Request>().a(1).b(2).b, 2);
+  EXPECT_EQ(std_msgs::build<std_msgs::msg::Empty>(), std_msgs::msg::Empty());
 }
 
 TEST(Message, ConstantsHaveTheTypeOfTheFile) {

@@ -1,7 +1,15 @@
 #include "rcutils/logging.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "rcl_test.hpp"
 
@@ -13,8 +21,15 @@ constexpr rcutils_time_point_value_t kTime = 1700000000123456789;
 // Logging that starts anew with the environment of the test.
 class Logging : public testing::Test {
  protected:
-  Logging() { clear(); }
-  ~Logging() override { clear(); }
+  Logging() {
+    clear();
+    setenv("ROS_LOG_DIR", directory_.c_str(), 1);
+  }
+  ~Logging() override {
+    clear();
+    unsetenv("ROS_LOG_DIR");
+    std::filesystem::remove_all(directory_);
+  }
 
   static void clear() {
     for (const char* variable : {"RCUTILS_CONSOLE_OUTPUT_FORMAT", "RCUTILS_COLORIZED_OUTPUT",
@@ -33,6 +48,38 @@ class Logging : public testing::Test {
     va_end(args);
     return testing::internal::GetCapturedStderr();
   }
+
+  // Logs a warning with these ROS arguments. Returns what the console shows.
+  static std::string log_with(std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"program", "--ros-args"});
+    const rcl_test::Arguments arguments(flags);
+    const rcl_allocator_t allocator = rcl_get_default_allocator();
+    EXPECT_EQ(rcl_logging_configure(&arguments.handle, &allocator), RCL_RET_OK);
+    testing::internal::CaptureStderr();
+    rcutils_log(&kLocation, RCUTILS_LOG_SEVERITY_WARN, "a", "line %d", 1);
+    rcutils_log(&kLocation, RCUTILS_LOG_SEVERITY_WARN, "a", "line %d", 2);
+    EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
+    return testing::internal::GetCapturedStderr();
+  }
+
+  // Those of the log directory, without what differs from run to run.
+  static std::vector<std::string> files_of(const std::filesystem::path& directory) {
+    std::vector<std::string> names;
+    std::error_code absent;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, absent)) {
+      names.push_back(std::regex_replace(entry.path().filename().string(),
+                                         std::regex("_" + std::to_string(getpid()) + "_[0-9]{13}"), "_PID_TIME"));
+    }
+    return names;
+  }
+  static std::string content_of_only_file_in(const std::filesystem::path& directory) {
+    std::ostringstream text;
+    text << std::ifstream(std::filesystem::directory_iterator(directory)->path()).rdbuf();
+    return text.str();
+  }
+
+  const std::filesystem::path directory_ =
+      std::filesystem::temp_directory_path() / ("logging_test_" + std::to_string(getpid()));
 };
 
 TEST_F(Logging, WritesSeverityTimeNameAndMessageToStderr) {
@@ -105,6 +152,43 @@ TEST_F(Logging, IsSilentOnTheConsoleWhenTold) {
   rcutils_log(&kLocation, RCUTILS_LOG_SEVERITY_FATAL, "a", "nothing");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
+}
+
+TEST_F(Logging, KeepsTheLinesOfTheConsoleInAFile) {
+  setenv("RCUTILS_COLORIZED_OUTPUT", "0", 1);
+  const std::string lines = log_with({});
+  EXPECT_EQ(files_of(directory_), std::vector<std::string>{"rcl_values_test_PID_TIME.log"});
+  EXPECT_EQ(content_of_only_file_in(directory_), lines);
+}
+
+TEST_F(Logging, FileHasTheNameThatIsAskedFor) {
+  log_with({"--log-file-name", "run"});
+  EXPECT_EQ(files_of(directory_), std::vector<std::string>{"run_PID_TIME.log"});
+}
+
+TEST_F(Logging, FileIsWrittenWhenTheConsoleIsSilent) {
+  EXPECT_EQ(log_with({"--disable-stdout-logs"}), "");
+  EXPECT_NE(content_of_only_file_in(directory_).find("[a]: line 1\n"), std::string::npos);
+}
+
+TEST_F(Logging, HasNoFileWhenTold) {
+  log_with({"--disable-external-lib-logs"});
+  EXPECT_EQ(files_of(directory_), std::vector<std::string>{});
+}
+
+TEST_F(Logging, FileIsBelowTheHomeOfRosWithoutADirectoryOfItsOwn) {
+  unsetenv("ROS_LOG_DIR");
+  setenv("ROS_HOME", directory_.c_str(), 1);
+  log_with({});
+  unsetenv("ROS_HOME");
+  EXPECT_EQ(files_of(directory_ / "log"), std::vector<std::string>{"rcl_values_test_PID_TIME.log"});
+}
+
+TEST_F(Logging, GoesOnWithoutAFileAndSaysSoOnce) {
+  std::ofstream(directory_) << "in the way";
+  setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "{severity} {name} {message}", 1);
+  EXPECT_EQ(log_with({}), "WARN a line 1\nWARN rcl no log file: cannot create '" + directory_.string() +
+                              "': Not a directory\nWARN a line 2\n");
 }
 
 }  // namespace

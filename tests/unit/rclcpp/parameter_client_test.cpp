@@ -1,4 +1,5 @@
 // Parameters of one node, read and changed from another.
+#include <fstream>
 #include <thread>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
@@ -17,6 +18,13 @@ class ParameterClient : public RosTest {
   ~ParameterClient() override {
     rclcpp::shutdown();
     thread_.join();
+  }
+
+  // The path of a new file.
+  std::string write(const char* name, const char* text) const {
+    const std::string file = (sandbox_.directory() / name).string();
+    std::ofstream(file) << text;
+    return file;
   }
 
   rclcpp::Node::SharedPtr owner_ = std::make_shared<rclcpp::Node>("owner", "ns");
@@ -41,6 +49,39 @@ TEST_F(ParameterClient, ReadsAndChangesParametersOfAnotherNode) {
   EXPECT_EQ(owner_->get_parameter("speed").as_double(), 2.5);
   EXPECT_TRUE(client.set_parameters_atomically({rclcpp::Parameter("speed", 3.0)}).successful);
   EXPECT_EQ(owner_->get_parameter("speed").as_double(), 3.0);
+}
+
+TEST_F(ParameterClient, LoadsWhatAFileHoldsForTheOtherNode) {
+  const std::string file = write("parameters.yaml",
+                                 "/**:\n  ros__parameters: {speed: 0.5}\n"
+                                 "ns/owner:\n  ros__parameters: {wheels: {count: 6}}\n"
+                                 "elsewhere:\n  ros__parameters: {speed: 9.0}\n");
+  rclcpp::SyncParametersClient client(asker_, "/ns/owner");
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  const auto results = client.load_parameters(file);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_TRUE(results[0].successful && results[1].successful);
+  EXPECT_EQ(owner_->get_parameter("speed").as_double(), 0.5);
+  EXPECT_EQ(owner_->get_parameter("wheels.count").as_int(), 6);
+
+  const rclcpp::ParameterMap map = rclcpp::parameter_map_from_yaml_file(file);
+  EXPECT_EQ(map.size(), 3u);
+  EXPECT_EQ(map.at("/elsewhere"), std::vector<rclcpp::Parameter>{rclcpp::Parameter("speed", 9.0)});
+  EXPECT_EQ(rclcpp::parameters_from_map(map, "/elsewhere").size(), 2u);
+}
+
+TEST_F(ParameterClient, FilesThatCannotBeLoadedSayWhy) {
+  const std::string of_another = write("another.yaml", "elsewhere:\n  ros__parameters: {speed: 9.0}\n");
+  rclcpp::SyncParametersClient client(asker_, "/ns/owner");
+  try {
+    client.load_parameters(of_another);
+    FAIL();
+  } catch (const rclcpp::exceptions::InvalidParametersException& error) {
+    EXPECT_STREQ(error.what(), "there are no parameters for node '/ns/owner'");
+  }
+  const std::string wrong = write("wrong.yaml", "owner: 3\n");
+  EXPECT_THROW(client.load_parameters(wrong), rclcpp::exceptions::RCLError);
+  EXPECT_THROW(rclcpp::parameter_map_from_yaml_file("/nowhere.yaml"), rclcpp::exceptions::RCLError);
 }
 
 TEST_F(ParameterClient, RefusalsSayWhy) {

@@ -1,4 +1,4 @@
-// Logging of a process as its ROS arguments want it: levels, console and /rosout.
+// Logging of a process as its ROS arguments want it: levels, console, log file and /rosout.
 #pragma once
 
 #include "rcl/allocator.h"
@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-// Applies `--log-level` and the enable/disable flags, and installs the output handler that feeds the console and
-// /rosout.
+// Applies `--log-level` and the enable/disable flags, and installs the output handler that feeds the console, the log
+// file of the process and /rosout.
 rcl_ret_t rcl_logging_configure(const rcl_arguments_t* global_args, const rcl_allocator_t* allocator);
 
 // The same with another handler, which may call rcl_logging_multiple_output_handler().

@@ -20,8 +20,13 @@ namespace rcl {
 using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
                                     std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
 
+// Whether a node pattern stands for the node of this fully qualified name.
+bool node_pattern_matches(std::string_view pattern, std::string_view fully_qualified_name);
+
 class ParameterOverrides {
  public:
+  using Values = std::vector<std::pair<std::string, ParameterValue>>;
+
   void set(std::string_view node_pattern, std::string_view name, ParameterValue value);
 
   // Reads a parameter file over the present values. Throws std::invalid_argument with `FILE:LINE: what is wrong`.
@@ -38,8 +43,10 @@ class ParameterOverrides {
 
   bool empty() const { return patterns_.empty(); }
 
+  // Each pattern, with a leading slash, and its values.
+  const std::vector<std::pair<std::string, Values>>& patterns() const { return patterns_; }
+
  private:
-  using Values = std::vector<std::pair<std::string, ParameterValue>>;
   std::vector<std::pair<std::string, Values>> patterns_;
 };
 

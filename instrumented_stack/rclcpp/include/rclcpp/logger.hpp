@@ -3,6 +3,7 @@
 
 #include <rcutils/logging.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -34,5 +35,8 @@ class Logger {
 };
 
 Logger get_logger(const std::string& name);
+
+// Where the log files of this process are, also before there are any.
+std::filesystem::path get_logging_directory();
 
 }  // namespace rclcpp

@@ -25,6 +25,7 @@
 #include "rclcpp/node_interfaces/node_services.hpp"
 #include "rclcpp/node_interfaces/node_topics.hpp"
 #include "rclcpp/parameter.hpp"
+#include "rclcpp/parameter_map.hpp"
 
 namespace rclcpp {
 
@@ -69,6 +70,10 @@ class AsyncParametersClient {
   std::shared_future<SetResult> set_parameters_atomically(const std::vector<Parameter>& parameters,
                                                           Callback<SetResult> callback = nullptr);
   std::shared_future<std::vector<SetResult>> delete_parameters(const std::vector<std::string>& names);
+  // Sets what the file, or the map, holds for the remote node. Throw exceptions::InvalidParametersException when that
+  // is nothing, and what parameter_map_from_yaml_file() throws.
+  std::shared_future<std::vector<SetResult>> load_parameters(const std::string& yaml_filename);
+  std::shared_future<std::vector<SetResult>> load_parameters(const ParameterMap& parameter_map);
   std::shared_future<ListResult> list_parameters(const std::vector<std::string>& prefixes, uint64_t depth,
                                                  Callback<ListResult> callback = nullptr);
 
@@ -98,6 +103,7 @@ class AsyncParametersClient {
   bool wait_for_service_nanoseconds(std::chrono::nanoseconds timeout);
   std::vector<ClientBase::SharedPtr> clients() const;
 
+  std::string remote_node_name_;  // fully qualified
   node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
   Client<rcl_interfaces::srv::GetParameters>::SharedPtr get_;
@@ -191,6 +197,12 @@ class SyncParametersClient {
       const std::vector<std::string>& names,
       std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
     return result_of(client_.delete_parameters(names), timeout);
+  }
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  std::vector<SetResult> load_parameters(
+      const std::string& yaml_filename,
+      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    return result_of(client_.load_parameters(yaml_filename), timeout);
   }
   // Throws std::runtime_error when there is no answer.
   template <typename RepT = int64_t, typename RatioT = std::milli>

@@ -50,6 +50,7 @@
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/parameter_client.hpp"
 #include "rclcpp/parameter_event_handler.hpp"
+#include "rclcpp/parameter_map.hpp"
 #include "rclcpp/rate.hpp"
 #include "rclcpp/serialization.hpp"
 #include "rclcpp/time.hpp"

@@ -16,7 +16,7 @@ if __package__ in (None, ''):
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     __package__ = 'rosidl_generator'
 
-from . import cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
+from . import cpp_builder, cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
 from .interface_parser import InterfaceError, parse_file  # noqa: E402
 
 
@@ -72,7 +72,7 @@ def main() -> int:
     include = os.path.join(options.output, 'include')
     for file in files:
         write_if_changed(os.path.join(include, file.header), cpp_struct.main_header(file))
-        for part, emit in (('struct', cpp_struct.struct_header), ('traits', cpp_traits.traits_header),
+        for part, emit in (('struct', cpp_struct.struct_header), ('builder', cpp_builder.builder_header), ('traits', cpp_traits.traits_header),
                            ('type_support', cpp_traits.type_support_header)):
             write_if_changed(os.path.join(include, file.detail_header(part)), emit(file))
     write_if_changed(os.path.join(include, cpp_source.codec_header_path(options.package)),

@@ -7,7 +7,7 @@ from .interface_definition import Action, Constant, Field, InterfaceFile, Messag
 
 
 def main_header(file: InterfaceFile) -> str:
-    includes = [f'"{file.detail_header(part)}"' for part in ('struct', 'traits', 'type_support')]
+    includes = [f'"{file.detail_header(part)}"' for part in ('struct', 'builder', 'traits', 'type_support')]
     return cpp_types.header(file.header, includes, '')
 
 

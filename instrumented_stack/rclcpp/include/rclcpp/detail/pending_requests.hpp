@@ -49,13 +49,18 @@ class PendingRequests {
   size_t prune_older_than(std::chrono::system_clock::time_point time_point,
                           std::vector<int64_t, AllocatorT>* pruned_requests) {
     const std::lock_guard lock(mutex_);
-    return std::erase_if(requests_, [&](const auto& entry) {
-      const bool is_older = entry.second.sent < time_point;
-      if (is_older && pruned_requests != nullptr) {
-        pruned_requests->push_back(entry.first);
+    const size_t before = requests_.size();
+    for (auto entry = requests_.begin(); entry != requests_.end();) {
+      if (entry->second.sent >= time_point) {
+        ++entry;
+        continue;
       }
-      return is_older;
-    });
+      if (pruned_requests != nullptr) {
+        pruned_requests->push_back(entry->first);
+      }
+      entry = requests_.erase(entry);
+    }
+    return before - requests_.size();
   }
 
  private:
