@@ -26,6 +26,11 @@ class Examples : public testing::TestWithParam<std::tuple<Example, const char*>>
 TEST_P(Examples, DoWhatTheReadmeSays) {
   test_support::Sandbox sandbox;
   const auto& [example, format] = GetParam();
+#ifdef __SANITIZE_ADDRESS__
+  if (std::string(example.name) == "26_trace_action") {
+    GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
+  }
+#endif
   std::vector<std::string> argv = {LAUNCH_PROGRAM,
                                    std::string(EXAMPLES_DIRECTORY "/") + example.name + ".launch." + format};
   argv.insert(argv.end(), example.arguments.begin(), example.arguments.end());

@@ -141,6 +141,9 @@ TEST_F(TraceControl, LaunchEventsCanBeLeftOut) {
 }
 
 TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
+#endif
   const std::string app = std::string("sh -c '") + TRACED_APP + " 3 10 &lt;/dev/null'";
   const std::string file =
       write("system.launch.xml",
@@ -250,15 +253,10 @@ TEST_F(TraceControl, AKilledLauncherLeavesNoTriggerAndNoSession) {
   EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, HasSubstr("run:0"));
   run.send_signal(SIGKILL);
   EXPECT_EQ(run.wait().signal, SIGKILL);
-  while (true) {  // the guardian and what it ends become ours; the session daemon stays
-    const CommandResult sessions = run_command({"lttng", "list"});
-    if (sessions.out.find("Currently no available recording session") != std::string::npos) break;
-    ASSERT_EQ(sessions.exit_code, 0) << sessions.err;
-  }
-  for (std::string triggers = "run:"; triggers.find("run:") != std::string::npos;) {
-    triggers = run_command({"lttng", "list-triggers"}).out;
-  }
-  while (counters_are_left()) std::this_thread::yield();  // the last that the guardian's command removes
+  sandbox_.wait_until_daemons_are_left();
+  EXPECT_THAT(run_command({"lttng", "list"}).out, HasSubstr("Currently no available recording session"));
+  EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, testing::Not(HasSubstr("run:")));
+  EXPECT_FALSE(counters_are_left());
 }
 
 TEST_F(TraceControl, TheNetworkExampleSendsItsTraceToTheRelayDaemon) {

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -171,6 +172,13 @@ std::vector<std::string> Sandbox::end_processes() {
     }
     // One at a time: the children of whom we reap become ours and are seen in the next round.
     if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return unexpected;
+  }
+}
+
+void Sandbox::wait_until_daemons_are_left() {
+  const auto stays = [](const auto& entry) { return entry.second.state == 'Z' || is_lttng_daemon(entry.second); };
+  for (auto left = descendants(); !std::all_of(left.begin(), left.end(), stays); left = descendants()) {
+    waitpid(-1, nullptr, 0);
   }
 }
 

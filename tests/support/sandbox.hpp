@@ -39,6 +39,10 @@ class Sandbox {
   // daemons. The destructor does it, too.
   std::vector<std::string> end_processes();
 
+  // Until nothing but LTTng's daemons descends from this process. For what a killed launcher leaves: it becomes ours,
+  // and goes by itself.
+  static void wait_until_daemons_are_left();
+
  private:
   void enter_namespaces();
   void leave_namespaces();

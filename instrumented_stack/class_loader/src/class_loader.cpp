@@ -3,6 +3,9 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <mutex>
+#include <vector>
+
 namespace class_loader {
 
 namespace {
@@ -101,7 +104,11 @@ void* ClassLoader::create(const std::type_info& base, const std::string& class_n
 }
 
 void ClassLoader::keep_for_ever(const std::shared_ptr<void>& library) {
-  new std::shared_ptr<void>(library);
+  static std::mutex mutex;
+  // Never destroyed, so no library is closed when the process ends.
+  static auto& libraries = *new std::vector<std::shared_ptr<void>>;
+  const std::lock_guard lock(mutex);
+  libraries.push_back(library);
 }
 
 }  // namespace class_loader

@@ -75,7 +75,7 @@ TEST_F(TopicStatistics, AgeAndPeriodAreMeasuredInMilliseconds) {
   statistics.publish_message_and_reset_measurements();
   ASSERT_TRUE(spin_until(executor_, [&] { return messages_.size() == 2; }));
 
-  const MetricsMessage& age = messages_[0];
+  const MetricsMessage age = messages_[0];
   EXPECT_EQ(age.measurement_source_name, "measured");
   EXPECT_EQ(age.metrics_source, "message_age");
   EXPECT_EQ(age.unit, "ms");
@@ -85,7 +85,7 @@ TEST_F(TopicStatistics, AgeAndPeriodAreMeasuredInMilliseconds) {
   EXPECT_EQ(value_of(age, StatisticDataType::STATISTICS_DATA_TYPE_MINIMUM), 2);
   EXPECT_EQ(value_of(age, StatisticDataType::STATISTICS_DATA_TYPE_MAXIMUM), 4);
   EXPECT_EQ(value_of(age, StatisticDataType::STATISTICS_DATA_TYPE_STDDEV), 1);
-  const MetricsMessage& period = messages_[1];
+  const MetricsMessage period = messages_[1];
   EXPECT_EQ(period.metrics_source, "message_period");
   EXPECT_EQ(value_of(period, StatisticDataType::STATISTICS_DATA_TYPE_SAMPLE_COUNT), 2);
   EXPECT_EQ(value_of(period, StatisticDataType::STATISTICS_DATA_TYPE_AVERAGE), 15);

@@ -62,7 +62,8 @@ TEST(EventClasses, PatternsOfOtherProvidersAreDroppedAsAWhole) {
 
 TEST(EventClasses, PatternsOfRos2AreNamedOnceSoThatTheyCanBeSwitchedOff) {
   std::set<std::string> seen;
-  for (const tracing::EventRule& rule : channels({"ros2:*", "ros2:rcl_*", "ros2:callback_start"}).at(0).events) {
+  const auto planned = channels({"ros2:*", "ros2:rcl_*", "ros2:callback_start"});
+  for (const tracing::EventRule& rule : planned.at(0).events) {
     EXPECT_TRUE(seen.insert(rule.pattern).second) << rule.pattern;
   }
   EXPECT_EQ(seen.size(), 43u) << "42, and launch:cut";
