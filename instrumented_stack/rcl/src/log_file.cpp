@@ -53,9 +53,9 @@ void LogFile::write(std::string_view line) {
   if (!problem.empty()) {
     rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_WARN, "rcl", "no log file: %s", problem.c_str());
   }
-  // A full disk must not stop a robot.
-  if (fd_ >= 0 && ::write(fd_, line.data(), line.size()) < 0) {
-    return;
+  if (fd_ >= 0) {
+    // A full disk must not stop a robot.
+    [[maybe_unused]] const ssize_t written = ::write(fd_, line.data(), line.size());
   }
 }
 

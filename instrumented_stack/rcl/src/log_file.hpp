@@ -8,9 +8,9 @@
 
 namespace rcl {
 
-// `<logging_directory()>/<prefix>_<pid>_<milliseconds since 1970>.log`; the prefix is the name of the program when it is empty.
-// Made, with its directory, when the first line comes. Each line is written at once, so a crash loses none. Thread
-// safe.
+// `<logging_directory()>/<prefix>_<pid>_<milliseconds since 1970>.log`; an empty prefix stands for the name of the
+// program. Made, with its directory, when the first line comes. Each line is written at once, so a crash loses none.
+// Thread safe.
 class LogFile {
  public:
   explicit LogFile(std::string_view prefix);
