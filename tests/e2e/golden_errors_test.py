@@ -81,7 +81,7 @@ class GoldenErrors(unittest.TestCase):
         return subprocess.run(
             [LAUNCH, '--dry-run', str(path)], capture_output=True, text=True, timeout=50,
             env={'PATH': '/usr/bin:/bin', 'HOME': self.directory.name, 'AMENT_PREFIX_PATH': self.prefix,
-                 'LANG': 'C.UTF-8', 'ASAN_OPTIONS': os.environ.get('ASAN_OPTIONS', '')})
+                 'LANG': 'C.UTF-8', **{name: os.environ.get(name, '') for name in ('ASAN_OPTIONS', 'LSAN_OPTIONS')}})
 
     def test_every_message(self):
         files = [path for folder in ('errors/load', 'errors/visit') for path in launch_files(folder)]
