@@ -4,7 +4,7 @@
 
 namespace rclcpp {
 
-void AnySubscriptionCallbackBase::trace_start(bool is_intra_process) const {
+void AnySubscriptionCallbackBase::trace_start([[maybe_unused]] bool is_intra_process) const {
   TRACETOOLS_TRACEPOINT(callback_start, static_cast<const void*>(this), is_intra_process);
 }
 

@@ -45,7 +45,7 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
 }
 
 // `data` is what the writer gets: an OutgoingMessage, or a loan.
-rmw_ret_t write(const rmw_publisher_t* publisher, void* data, const void* traced_message) {
+rmw_ret_t write(const rmw_publisher_t* publisher, void* data, [[maybe_unused]] const void* traced_message) {
   rmw_time_point_value_t now = 0;
   (void)rcutils_system_time_now(&now);
   rtps::WriteParams params;

@@ -51,8 +51,8 @@ bool is_wanted(const rmw_subscription_t* handle, const fdds::SampleInfo& sample)
   return sample.valid_data && !ignored;
 }
 
-rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, const void* traced_message, bool* taken,
-               rmw_message_info_t* message_info) {
+rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, [[maybe_unused]] const void* traced_message,
+               bool* taken, rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
   *taken = false;
   const std::shared_lock lock(subscription.reader_mutex);

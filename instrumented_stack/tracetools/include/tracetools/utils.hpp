@@ -15,6 +15,18 @@ namespace tracetools {
 
 #ifdef TRACETOOLS_DISABLED
 
+namespace detail {
+
+inline char* demangle_symbol(const char*) {
+  return nullptr;
+}
+
+inline char* get_symbol_funcptr(const void*) {
+  return nullptr;
+}
+
+}  // namespace detail
+
 template <typename Callable>
 char* get_symbol(const Callable&) {
   return nullptr;
