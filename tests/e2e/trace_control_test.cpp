@@ -161,6 +161,26 @@ TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
   EXPECT_EQ(processes.count("traced_app"), 1u);
 }
 
+// A shell's subshells are forked, never executed: each is a process of its own for the tracer, and ends.
+TEST_F(TraceControl, ForkedProcessesAreTracedAsTheirOwn) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
+#endif
+  const fs::path script = sandbox_.directory() / "script.sh";
+  write_file(script, "for i in 1 2 3 4; do echo $(echo $i); done\n");
+  const std::string file = write("system.launch.xml", R"xml(
+<trace session-name="run" events-ust="lttng_ust_libc:*" context-fields="vpid"/>
+<executable cmd="bash )xml" + script.string() + "\"/>");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  std::set<std::string> processes;
+  for (const std::string& line : events(sandbox_.trace_directory() / "run", "lttng_ust_libc:")) {
+    const std::size_t begin = line.find("vpid = ");
+    processes.insert(line.substr(begin, line.find_first_of(" ,", begin + 7) - begin));
+  }
+  EXPECT_THAT(processes, SizeIs(5));
+}
+
 TEST_F(TraceControl, NodesThatNothingIsCalledAreWarnedOf) {
   const std::string file = write("system.launch.xml", R"xml(<trace session-name="run" nodes="talkr"/>
 <executable name="talker" cmd="true"/>)xml");

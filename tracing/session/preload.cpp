@@ -21,6 +21,9 @@ struct PreloadRule {
 
 constexpr const char* kFastProfile = "liblttng-ust-cyg-profile-fast.so";
 constexpr const char* kProfile = "liblttng-ust-cyg-profile.so";
+// A helper library brings LTTng-UST and its threads into programs that know nothing of it, a shell for one. What such a
+// program forks would inherit the locks that these threads hold, and wait for them for ever when it exits.
+constexpr const char* kFork = "liblttng-ust-fork.so";
 constexpr const char* kInterfaceVersion = ".1";  // of LTTng-UST 2.13 and later
 
 // In the order of preloading. Source: tracetools_trace of ros2_tracing.
@@ -68,13 +71,15 @@ PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string
         "events of both function profilers are enabled: the fast one ({}) is used, its exit events carry no address",
         kFastProfile));
   }
+  if (!wanted.empty()) wanted.emplace_back(kFork);
   for (const std::string& library : wanted) {
     // The plain name comes with the development package only.
     std::string path = find_library(library);
     if (path.empty()) path = find_library(library + kInterfaceVersion);
     if (path.empty()) {
-      plan.warnings.push_back(fmt::format(
-          "{} is not installed: the events that it provides will be missing (package liblttng-ust1)", library));
+      plan.warnings.push_back(fmt::format("{} is not installed: {} (package liblttng-ust1)", library,
+                                          library == kFork ? "processes that traced processes fork may hang"
+                                                           : "the events that it provides will be missing"));
     } else {
       plan.libraries.push_back(std::move(path));
     }

@@ -1,4 +1,4 @@
-// Which LTTng helper libraries a process must preload for its userspace events to fire.
+// Which LTTng helper libraries a process must preload for its userspace events to fire, and to fork safely with them.
 #pragma once
 
 #include <string>

@@ -100,7 +100,7 @@ TEST(Trace, PreloadsForProcessesBeforeItToo) {
     <executable cmd="second"><env name="LD_PRELOAD" value="mine.so"/></executable>)xml");
   ASSERT_EQ(planned.error, "");
   const std::string first = planned.plan.processes.at(0).environment.at("LD_PRELOAD");
-  EXPECT_THAT(first, testing::EndsWith("liblttng-ust-libc-wrapper.so"));
+  EXPECT_THAT(first, testing::MatchesRegex(".*/liblttng-ust-libc-wrapper.so:.*/liblttng-ust-fork.so"));
   EXPECT_EQ(planned.plan.processes.at(1).environment.at("LD_PRELOAD"), "mine.so:" + first);
 }
 
@@ -166,7 +166,8 @@ TEST(Trace, ProcessesThatAreNotToBeTracedArePreloadedWithWhatKeepsThemOut) {
   ASSERT_EQ(planned.error, "");
   EXPECT_THAT(preload_of(planned.plan.processes.at(0)), testing::EndsWith("lib/launch/liblaunch_untraced.so"));
   EXPECT_EQ(planned.plan.processes.at(0).environment.at("LTTNG_UST_REGISTER_TIMEOUT"), "0");
-  EXPECT_THAT(preload_of(planned.plan.processes.at(1)), testing::EndsWith("liblttng-ust-libc-wrapper.so"));
+  EXPECT_THAT(preload_of(planned.plan.processes.at(1)),
+              testing::MatchesRegex(".*/liblttng-ust-libc-wrapper.so:.*/liblttng-ust-fork.so"));
 }
 
 TEST(Trace, NodesNamesThoseThatAloneAreTraced) {

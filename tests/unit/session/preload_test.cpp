@@ -27,6 +27,8 @@ std::string missing(const std::string&) {
   return "";
 }
 
+constexpr const char* kFork = "/lib/liblttng-ust-fork.so";  // beside every other one
+
 TEST(Preload, RosEventsNeedNothing) {
   EXPECT_THAT(plan_preload({"ros2:rcl_init", "ros2:*", "lttng_ust_statedump:*"}, installed).libraries, IsEmpty());
   EXPECT_THAT(plan_preload({}, installed).libraries, IsEmpty());
@@ -34,19 +36,19 @@ TEST(Preload, RosEventsNeedNothing) {
 
 TEST(Preload, EachProviderHasItsLibrary) {
   const auto library_of = [](const std::string& event) { return plan_preload({event}, installed).libraries; };
-  EXPECT_THAT(library_of("lttng_ust_libc:malloc"), ElementsAre("/lib/liblttng-ust-libc-wrapper.so"));
-  EXPECT_THAT(library_of("lttng_ust_libc:posix_memalign"), ElementsAre("/lib/liblttng-ust-libc-wrapper.so"));
+  EXPECT_THAT(library_of("lttng_ust_libc:malloc"), ElementsAre("/lib/liblttng-ust-libc-wrapper.so", kFork));
+  EXPECT_THAT(library_of("lttng_ust_libc:posix_memalign"), ElementsAre("/lib/liblttng-ust-libc-wrapper.so", kFork));
   EXPECT_THAT(library_of("lttng_ust_pthread:pthread_mutex_unlock"),
-              ElementsAre("/lib/liblttng-ust-pthread-wrapper.so"));
-  EXPECT_THAT(library_of("lttng_ust_dl:dlopen"), ElementsAre("/lib/liblttng-ust-dl.so"));
+              ElementsAre("/lib/liblttng-ust-pthread-wrapper.so", kFork));
+  EXPECT_THAT(library_of("lttng_ust_dl:dlopen"), ElementsAre("/lib/liblttng-ust-dl.so", kFork));
   EXPECT_THAT(library_of("lttng_ust_cyg_profile_fast:func_entry"),
-              ElementsAre("/lib/liblttng-ust-cyg-profile-fast.so"));
-  EXPECT_THAT(library_of("lttng_ust_cyg_profile:func_exit"), ElementsAre("/lib/liblttng-ust-cyg-profile.so"));
+              ElementsAre("/lib/liblttng-ust-cyg-profile-fast.so", kFork));
+  EXPECT_THAT(library_of("lttng_ust_cyg_profile:func_exit"), ElementsAre("/lib/liblttng-ust-cyg-profile.so", kFork));
 }
 
 TEST(Preload, PatternsMatchWholeNamesAsInTheShell) {
   EXPECT_THAT(plan_preload({"lttng_ust_libc:m?ll[aeo]c"}, installed).libraries,
-              ElementsAre("/lib/liblttng-ust-libc-wrapper.so"));
+              ElementsAre("/lib/liblttng-ust-libc-wrapper.so", kFork));
   EXPECT_THAT(plan_preload({"lttng_ust_libc:mal", "ust_libc:malloc", "lttng_ust_libc:mallocator"}, installed).libraries,
               IsEmpty());
 }
@@ -55,7 +57,7 @@ TEST(Preload, BareStarPreloadsEverythingInOrderAndWarnsOfTwoProfilers) {
   const PreloadPlan plan = plan_preload({"*"}, installed);
   EXPECT_THAT(plan.libraries, ElementsAre("/lib/liblttng-ust-libc-wrapper.so", "/lib/liblttng-ust-pthread-wrapper.so",
                                           "/lib/liblttng-ust-dl.so", "/lib/liblttng-ust-cyg-profile-fast.so",
-                                          "/lib/liblttng-ust-cyg-profile.so"));
+                                          "/lib/liblttng-ust-cyg-profile.so", kFork));
   EXPECT_THAT(plan.warnings,
               ElementsAre("events of both function profilers are enabled: the fast one "
                           "(liblttng-ust-cyg-profile-fast.so) is used, its exit events carry no address"));
@@ -64,18 +66,23 @@ TEST(Preload, BareStarPreloadsEverythingInOrderAndWarnsOfTwoProfilers) {
 TEST(Preload, LibraryThatIsNotInstalledIsAWarning) {
   const PreloadPlan plan = plan_preload({"lttng_ust_dl:*"}, missing);
   EXPECT_THAT(plan.libraries, IsEmpty());
-  EXPECT_THAT(plan.warnings, ElementsAre("liblttng-ust-dl.so is not installed: the events that it provides will be "
-                                         "missing (package liblttng-ust1)"));
+  EXPECT_THAT(plan.warnings,
+              ElementsAre("liblttng-ust-dl.so is not installed: the events that it provides will be "
+                          "missing (package liblttng-ust1)",
+                          "liblttng-ust-fork.so is not installed: processes that traced processes fork may hang "
+                          "(package liblttng-ust1)"));
 }
 
 TEST(Preload, DevelopmentPackageIsNotNeeded) {
-  EXPECT_THAT(plan_preload({"lttng_ust_dl:*"}, only_versioned).libraries, ElementsAre("/lib/liblttng-ust-dl.so.1"));
+  EXPECT_THAT(plan_preload({"lttng_ust_dl:*"}, only_versioned).libraries,
+              ElementsAre("/lib/liblttng-ust-dl.so.1", "/lib/liblttng-ust-fork.so.1"));
 }
 
 TEST(Preload, FindsTheInstalledLibraries) {
   const PreloadPlan plan = plan_preload({"lttng_ust_libc:malloc"});
-  ASSERT_EQ(plan.libraries.size(), 1u);
+  ASSERT_EQ(plan.libraries.size(), 2u);
   EXPECT_TRUE(std::filesystem::exists(plan.libraries[0]));
+  EXPECT_TRUE(std::filesystem::exists(plan.libraries[1]));
 }
 
 TEST(Preload, IsAppendedToWhatIsThere) {
