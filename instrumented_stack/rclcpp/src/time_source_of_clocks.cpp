@@ -40,10 +40,12 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
         }
       }
     };
+    // Not under our lock: a parameter that is set calls back under the lock of the node's parameters.
+    auto callback = node->add_post_set_parameters_callback(std::move(on_change));
     {
       const std::lock_guard lock(mutex_);
       node_ = node;
-      parameter_callback_ = node->add_post_set_parameters_callback(std::move(on_change));
+      parameter_callback_ = std::move(callback);
     }
     use_sim_time(enabled);
   }
@@ -122,7 +124,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   }
 
   const QoS qos_;
-  std::recursive_mutex mutex_;  // recursive: declaring a parameter calls back
+  std::recursive_mutex mutex_;  // recursive: what waits for a jump of a clock may attach and detach
   std::weak_ptr<Node> node_;
   std::vector<Clock::SharedPtr> clocks_;
   node_interfaces::PostSetParametersCallbackHandle::SharedPtr parameter_callback_;

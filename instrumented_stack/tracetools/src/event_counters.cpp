@@ -93,8 +93,9 @@ CounterFile* make_file(const char* directory) {
   made->begin = begin;
   std::strncpy(made->process, program_invocation_short_name, kCountedNameSize - 1);
   for (std::size_t i = 0; i < kCountedEvents; ++i) std::strncpy(made->names[i], kNames[i], kCountedNameSize - 1);
-  std::atomic_thread_fence(std::memory_order_release);
-  std::memcpy(made->magic, "ROS2CNT1", sizeof made->magic);
+  std::uint64_t magic;
+  std::memcpy(&magic, "ROS2CNT1", sizeof magic);
+  std::atomic_ref(made->magic).store(magic, std::memory_order_release);
   return made;
 }
 

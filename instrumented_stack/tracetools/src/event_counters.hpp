@@ -30,7 +30,7 @@ inline constexpr std::size_t kCountedNameSize = 64;  // bytes, zero-terminated
 
 /// The file, in the byte order of the machine. Times are CLOCK_MONOTONIC in nanoseconds.
 struct CounterFile {
-  char magic[8];  // "ROS2CNT1", written last
+  std::uint64_t magic;  // the characters "ROS2CNT1", written last
   std::uint32_t events;
   std::uint32_t blocks;
   std::uint64_t pid;

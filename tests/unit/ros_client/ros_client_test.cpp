@@ -7,6 +7,7 @@
 #include <composition_interfaces/srv/load_node.hpp>
 #include <composition_interfaces/srv/unload_node.hpp>
 #include <filesystem>
+#include <future>
 #include <lifecycle_msgs/msg/state.hpp>
 #include <lifecycle_msgs/msg/transition_event.hpp>
 #include <lifecycle_msgs/srv/change_state.hpp>
@@ -110,11 +111,11 @@ class RosClientTest : public testing::Test {
 };
 
 TEST_F(RosClientTest, LoadsListsAndUnloadsNodesOfAContainer) {
-  composition::LoadNode::Request seen;
+  std::promise<composition::LoadNode::Request> request_promise;
   const auto load = node_->create_service<composition::LoadNode>(
       "/c/_container/load_node", [&](const std::shared_ptr<composition::LoadNode::Request> request,
                                      std::shared_ptr<composition::LoadNode::Response> response) {
-        seen = *request;
+        request_promise.set_value(*request);
         response->success = true;
         response->full_node_name = "/left/talker";
         response->unique_id = 5;
@@ -151,6 +152,7 @@ TEST_F(RosClientTest, LoadsListsAndUnloadsNodesOfAContainer) {
   EXPECT_TRUE(loaded.ok) << loaded.error;
   EXPECT_EQ(loaded.node, "/left/talker");
   EXPECT_EQ(loaded.unique_id, 5U);
+  const composition::LoadNode::Request seen = request_promise.get_future().get();
   EXPECT_EQ(seen.package_name, "demo");
   EXPECT_EQ(seen.plugin_name, "demo::Talker");
   EXPECT_EQ(seen.node_name, "talker");
