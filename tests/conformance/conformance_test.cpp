@@ -21,7 +21,11 @@ namespace fs = std::filesystem;
 using test_support::CommandResult;
 
 constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has python3-yaml
+#ifdef __SANITIZE_THREAD__
+constexpr std::chrono::seconds kTimeout{600};
+#else
 constexpr std::chrono::seconds kTimeout{110};
+#endif
 
 // A file and the kind of its difference.
 using Difference = std::pair<std::string, std::string>;

@@ -26,9 +26,9 @@ class Examples : public testing::TestWithParam<std::tuple<Example, const char*>>
 TEST_P(Examples, DoWhatTheReadmeSays) {
   test_support::Sandbox sandbox;
   const auto& [example, format] = GetParam();
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   if (std::string(example.name) == "26_trace_action") {
-    GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
+    GTEST_SKIP() << "skipped, because sanitizers and a preloaded malloc exclude each other";
   }
 #endif
   std::vector<std::string> argv = {LAUNCH_PROGRAM,

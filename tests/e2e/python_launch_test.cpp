@@ -58,8 +58,8 @@ class PythonLaunch : public testing::Test {
 };
 
 TEST_F(PythonLaunch, TheTraceActionRecordsTheRun) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "skipped, because sanitizers and a preloaded malloc exclude each other";
 #endif
   const CommandResult result = launch({EXAMPLES_DIRECTORY "/26_trace_action.launch.py"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

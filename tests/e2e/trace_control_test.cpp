@@ -141,8 +141,8 @@ TEST_F(TraceControl, LaunchEventsCanBeLeftOut) {
 }
 
 TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "skipped, because sanitizers and a preloaded malloc exclude each other";
 #endif
   const std::string app = std::string("sh -c '") + TRACED_APP + " 3 10 &lt;/dev/null'";
   const std::string file =
@@ -163,9 +163,6 @@ TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
 
 // A shell's subshells are forked, never executed: each is a process of its own for the tracer, and ends.
 TEST_F(TraceControl, ForkedProcessesAreTracedAsTheirOwn) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "skipped, because AddressSanitizer and a preloaded malloc exclude each other";
-#endif
   const fs::path script = sandbox_.directory() / "script.sh";
   write_file(script, "for i in 1 2 3 4; do echo $(echo $i); done\n");
   const std::string file = write("system.launch.xml", R"xml(

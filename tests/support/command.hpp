@@ -27,7 +27,11 @@ struct CommandResult {
   std::string err;
 };
 
+#ifdef __SANITIZE_THREAD__
+inline constexpr std::chrono::seconds kCommandTimeout{120};  // programs take ten times as long
+#else
 inline constexpr std::chrono::seconds kCommandTimeout{30};
+#endif
 
 // A started program, in a process group of its own. It is killed, group and all, if it still runs at the end of scope.
 // Use it from one thread.

@@ -21,12 +21,20 @@ void note_message(const void* rmw_subscription_handle, const void* message, std:
 void check_message(const void* message) noexcept;
 }  // namespace detail
 
-/// Around each callback, on its thread; callbacks may nest. Without a deadline a load and a branch.
+/// Whether there is a deadline: a load and a branch.
+inline bool watches_callbacks() noexcept {
+  return detail::callback_deadline != 0;
+}
+inline bool watches_messages() noexcept {
+  return detail::message_deadline != 0;
+}
+
+/// Around each callback, on its thread; callbacks may nest.
 inline void callback_starts() noexcept {
-  if (detail::callback_deadline != 0) detail::note_callback_start();
+  if (watches_callbacks()) detail::note_callback_start();
 }
 inline void callback_ends(const void* callback) noexcept {
-  if (detail::callback_deadline != 0) detail::check_callback(callback);
+  if (watches_callbacks()) detail::check_callback(callback);
 }
 
 /// A message was taken from the middleware, then handed on to rcl, by the same thread; what the middleware takes for
@@ -34,10 +42,10 @@ inline void callback_ends(const void* callback) noexcept {
 /// clock, 0 or less when unknown.
 inline void message_taken(const void* rmw_subscription_handle, const void* message, std::int64_t source_timestamp,
                           bool taken) noexcept {
-  if (detail::message_deadline != 0 && taken) detail::note_message(rmw_subscription_handle, message, source_timestamp);
+  if (watches_messages() && taken) detail::note_message(rmw_subscription_handle, message, source_timestamp);
 }
 inline void message_handed_on(const void* message) noexcept {
-  if (detail::message_deadline != 0) detail::check_message(message);
+  if (watches_messages()) detail::check_message(message);
 }
 
 }  // namespace tracetools

@@ -56,17 +56,28 @@ bool ros_trace_compile_status(void);
 /// False with TRACETOOLS_RUNTIME_DISABLE=1 in the environment and when libtracetools_provider.so could not be opened.
 bool ros_trace_runtime_status(void);
 
+// Without a detour through the linker's table of procedures: where nobody records, each line of memory that a call touches
+// is a good part of its cost.
+#if defined(__has_attribute)
+#if __has_attribute(noplt)
+#define TRACETOOLS_CALLED_DIRECTLY __attribute__((noplt))
+#endif
+#endif
+#ifndef TRACETOOLS_CALLED_DIRECTLY
+#define TRACETOOLS_CALLED_DIRECTLY
+#endif
+
 /// For each event: record it if it is wanted; whether it is wanted; record it without asking.
 ///
 /// An event is wanted when a session records it. An init event is always wanted where tracing is enabled at run time:
 /// it is kept for sessions that start later (see object_state.hpp).
-#define TRACETOOLS_DECLARE_EVENT(name, parameters, arguments) \
-  void ros_trace_##name parameters;                           \
-  bool ros_trace_enabled_##name(void);                        \
+#define TRACETOOLS_DECLARE_EVENT(name, parameters, arguments)     \
+  TRACETOOLS_CALLED_DIRECTLY void ros_trace_##name parameters;    \
+  TRACETOOLS_CALLED_DIRECTLY bool ros_trace_enabled_##name(void); \
   void ros_trace_do_##name parameters;
-#define TRACETOOLS_DECLARE_EXT_EVENT(name, parameters, arguments) \
-  void ros_trace_ext_##name parameters;                           \
-  bool ros_trace_ext_enabled_##name(void);                        \
+#define TRACETOOLS_DECLARE_EXT_EVENT(name, parameters, arguments)     \
+  TRACETOOLS_CALLED_DIRECTLY void ros_trace_ext_##name parameters;    \
+  TRACETOOLS_CALLED_DIRECTLY bool ros_trace_ext_enabled_##name(void); \
   void ros_trace_ext_do_##name parameters;
 
 TRACETOOLS_EVENTS(TRACETOOLS_DECLARE_EVENT)
