@@ -32,17 +32,21 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     }
   }
 
-  // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap.
+  // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap, and not for the
+  // first sample after the reader was empty, which is on its way to a callback.
   bool is_ready() override {
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     if (settled_.load(std::memory_order_acquire) == arrivals) {
       return false;
     }
+    if (!is_taken_from_.load(std::memory_order_acquire)) {
+      return true;
+    }
     eprosima::fastdds::dds::SampleInfo info;
     if (reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK) {
       return true;
     }
-    settled_.store(arrivals, std::memory_order_release);
+    settle(arrivals);
     return false;
   }
 
@@ -67,13 +71,22 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     const ReturnCode_t result = take_from_reader();
     if (result == ReturnCode_t::RETCODE_NO_DATA) {
-      settled_.store(arrivals, std::memory_order_release);
+      settle(arrivals);
+    } else {
+      is_taken_from_.store(true, std::memory_order_release);
     }
     return result == ReturnCode_t::RETCODE_OK;
   }
 
+  // Nothing can be taken of what had arrived.
+  void settle(std::uint64_t arrivals) {
+    settled_.store(arrivals, std::memory_order_release);
+    is_taken_from_.store(false, std::memory_order_release);
+  }
+
   std::atomic<std::uint64_t> arrivals_{0};
-  std::atomic<std::uint64_t> settled_{0};  // arrivals that are known to have left nothing to take
+  std::atomic<std::uint64_t> settled_{0};   // arrivals that are known to have left nothing to take
+  std::atomic<bool> is_taken_from_{false};  // since it was settled
   ReadyCallback on_new_data_;
 };
 

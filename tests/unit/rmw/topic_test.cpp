@@ -266,6 +266,19 @@ TEST_F(Topic, WaitsNoLongerThanItsTimeout) {
   EXPECT_EQ(subscription.wait({0, 1000000}), RMW_RET_TIMEOUT);
 }
 
+TEST_F(Topic, IsNoLongerReadyWhenAllIsTaken) {
+  Publisher<String> publisher(sender_, "/chatter");
+  Subscription<String> subscription(receiver_, "/chatter");
+  wait_for_match(publisher, subscription);
+  for (int i = 0; i < 3; ++i) {
+    publisher.publish(text("one"));
+    publisher.publish(text("two"));
+    EXPECT_EQ(subscription.next().data, "one");
+    EXPECT_EQ(subscription.next().data, "two");
+    EXPECT_EQ(subscription.wait(kNoWait), RMW_RET_TIMEOUT);
+  }
+}
+
 TEST_F(Topic, GuardConditionsWakeOnceAndAreReset) {
   rmw_guard_condition_t* condition = rmw_create_guard_condition(&sending_context_.handle);
   rmw_wait_set_t* wait_set = rmw_create_wait_set(&sending_context_.handle, 1);
