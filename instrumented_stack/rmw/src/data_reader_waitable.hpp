@@ -33,7 +33,7 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   }
 
   // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap, and not for the
-  // first sample after the reader was empty, which is on its way to a callback.
+  // first sample after the reader was empty, which is on its way to a callback: at worst somebody looks once in vain.
   bool is_ready() override {
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     if (settled_.load(std::memory_order_acquire) == arrivals) {
