@@ -62,7 +62,7 @@ rcl_ret_t rcl_context_get_domain_id(rcl_context_t* context, size_t* domain_id) {
   return RCL_RET_OK;
 }
 
-bool rcl_context_is_valid(const rcl_context_t* context) {
+[[gnu::hot]] bool rcl_context_is_valid(const rcl_context_t* context) {
   return context != nullptr && instance_id(context).load() != 0;
 }
 

@@ -9,10 +9,12 @@
 #include "tracetools/tracetools.h"
 
 struct rcl_publisher_impl_s {
-  rcl_publisher_options_t options;
-  rmw_qos_profile_t actual_qos;
+  // What each message needs, in one line of the cache.
   rcl_context_t* context;
   rmw_publisher_t* rmw_handle;
+
+  rcl_publisher_options_t options;
+  rmw_qos_profile_t actual_qos;
   const rosidl_type_description_t* type;
 };
 
@@ -57,7 +59,7 @@ rcl_ret_t rcl_publisher_init(rcl_publisher_t* publisher, const rcl_node_t* node,
   actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
   const rosidl_type_description_t* type = rmw_message_type_description(type_support);
   (void)rcl_node_type_cache_register_type(node, type);
-  publisher->impl = new rcl_publisher_impl_s{*options, actual_qos, node->context, handle, type};
+  publisher->impl = new rcl_publisher_impl_s{node->context, handle, *options, actual_qos, type};
   TRACETOOLS_TRACEPOINT(rcl_publisher_init, static_cast<const void*>(publisher), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -79,8 +81,8 @@ rcl_ret_t rcl_publisher_fini(rcl_publisher_t* publisher, rcl_node_t* node) {
   return result;
 }
 
-rcl_ret_t rcl_publish(const rcl_publisher_t* publisher, const void* ros_message,
-                      rmw_publisher_allocation_t* allocation) {
+[[gnu::hot]] rcl_ret_t rcl_publish(const rcl_publisher_t* publisher, const void* ros_message,
+                                   rmw_publisher_allocation_t* allocation) {
   if (!rcl_publisher_is_valid(publisher)) {
     return RCL_RET_PUBLISHER_INVALID;
   }
@@ -161,13 +163,13 @@ rcl_ret_t rcl_publisher_get_subscription_count(const rcl_publisher_t* publisher,
              : RCL_RET_PUBLISHER_INVALID;
 }
 
-bool rcl_publisher_is_valid_except_context(const rcl_publisher_t* publisher) {
+[[gnu::hot]] bool rcl_publisher_is_valid_except_context(const rcl_publisher_t* publisher) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(publisher, "the publisher is null", return false);
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(publisher->impl, "the publisher is not initialized", return false);
   return true;
 }
 
-bool rcl_publisher_is_valid(const rcl_publisher_t* publisher) {
+[[gnu::hot]] bool rcl_publisher_is_valid(const rcl_publisher_t* publisher) {
   if (!rcl_publisher_is_valid_except_context(publisher)) {
     return false;
   }

@@ -10,9 +10,9 @@
 #include "tracetools/tracetools.h"
 
 struct rcl_subscription_impl_s {
+  rmw_subscription_t* rmw_handle;
   rcl_subscription_options_t options;
   rmw_qos_profile_t actual_qos;
-  rmw_subscription_t* rmw_handle;
   const rosidl_type_description_t* type;
 };
 
@@ -25,6 +25,23 @@ rcl_subscription_options_t rcl_subscription_get_default_options(void) {
   return {rmw_qos_profile_default, rcl_get_default_allocator(), rmw_get_default_subscription_options(),
           disable == nullptr || std::strcmp(disable, "0") != 0};
 }
+
+namespace {
+
+// rmw fills in all of `info` when it has taken a message.
+[[gnu::hot]] rcl_ret_t finish_take(rmw_ret_t result, bool taken, [[maybe_unused]] const void* message,
+                                   rmw_message_info_t& info) {
+  if (!taken) {
+    info = rmw_get_zero_initialized_message_info();
+  }
+  if (result != RMW_RET_OK) {
+    return result;
+  }
+  TRACETOOLS_TRACEPOINT(rcl_take, message);
+  return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
+}
+
+}  // namespace
 
 rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node_t* node,
                                 const rosidl_message_type_support_t* type_support, const char* topic_name,
@@ -59,7 +76,7 @@ rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node
   actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
   const rosidl_type_description_t* type = rmw_message_type_description(type_support);
   (void)rcl_node_type_cache_register_type(node, type);
-  subscription->impl = new rcl_subscription_impl_s{*options, actual_qos, handle, type};
+  subscription->impl = new rcl_subscription_impl_s{handle, *options, actual_qos, type};
   subscription->impl->options.rmw_subscription_options.content_filter_options = nullptr;  // of the caller
   TRACETOOLS_TRACEPOINT(rcl_subscription_init, static_cast<const void*>(subscription), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
@@ -82,8 +99,8 @@ rcl_ret_t rcl_subscription_fini(rcl_subscription_t* subscription, rcl_node_t* no
   return result;
 }
 
-rcl_ret_t rcl_take(const rcl_subscription_t* subscription, void* ros_message, rmw_message_info_t* message_info,
-                   rmw_subscription_allocation_t* allocation) {
+[[gnu::hot]] rcl_ret_t rcl_take(const rcl_subscription_t* subscription, void* ros_message,
+                                rmw_message_info_t* message_info, rmw_subscription_allocation_t* allocation) {
   if (!rcl_subscription_is_valid(subscription)) {
     return RCL_RET_SUBSCRIPTION_INVALID;
   }
@@ -91,14 +108,9 @@ rcl_ret_t rcl_take(const rcl_subscription_t* subscription, void* ros_message, rm
   // The rmw_take event tells the source timestamp only if there is a place for it.
   rmw_message_info_t local_info;
   rmw_message_info_t* info = message_info == nullptr ? &local_info : message_info;
-  *info = rmw_get_zero_initialized_message_info();
   bool taken = false;
   const rmw_ret_t result = rmw_take_with_info(subscription->impl->rmw_handle, ros_message, &taken, info, allocation);
-  if (result != RMW_RET_OK) {
-    return result;
-  }
-  TRACETOOLS_TRACEPOINT(rcl_take, static_cast<const void*>(ros_message));
-  return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
+  return finish_take(result, taken, ros_message, *info);
 }
 
 rcl_ret_t rcl_take_serialized_message(const rcl_subscription_t* subscription,
@@ -110,15 +122,10 @@ rcl_ret_t rcl_take_serialized_message(const rcl_subscription_t* subscription,
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RCL_RET_INVALID_ARGUMENT);
   rmw_message_info_t local_info;
   rmw_message_info_t* info = message_info == nullptr ? &local_info : message_info;
-  *info = rmw_get_zero_initialized_message_info();
   bool taken = false;
   const rmw_ret_t result = rmw_take_serialized_message_with_info(subscription->impl->rmw_handle, serialized_message,
                                                                  &taken, info, allocation);
-  if (result != RMW_RET_OK) {
-    return result;
-  }
-  TRACETOOLS_TRACEPOINT(rcl_take, static_cast<const void*>(serialized_message));
-  return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
+  return finish_take(result, taken, serialized_message, *info);
 }
 
 rcl_ret_t rcl_take_loaned_message(const rcl_subscription_t* subscription, void** loaned_message,
@@ -129,15 +136,10 @@ rcl_ret_t rcl_take_loaned_message(const rcl_subscription_t* subscription, void**
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RCL_RET_INVALID_ARGUMENT);
   rmw_message_info_t local_info;
   rmw_message_info_t* info = message_info == nullptr ? &local_info : message_info;
-  *info = rmw_get_zero_initialized_message_info();
   bool taken = false;
   const rmw_ret_t result =
       rmw_take_loaned_message_with_info(subscription->impl->rmw_handle, loaned_message, &taken, info, allocation);
-  if (result != RMW_RET_OK) {
-    return result;
-  }
-  TRACETOOLS_TRACEPOINT(rcl_take, static_cast<const void*>(*loaned_message));
-  return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
+  return finish_take(result, taken, *loaned_message, *info);
 }
 
 rcl_ret_t rcl_return_loaned_message_from_subscription(const rcl_subscription_t* subscription, void* loaned_message) {
@@ -168,13 +170,13 @@ rcl_ret_t rcl_subscription_get_publisher_count(const rcl_subscription_t* subscri
              : RCL_RET_SUBSCRIPTION_INVALID;
 }
 
-bool rcl_subscription_is_valid(const rcl_subscription_t* subscription) {
+[[gnu::hot]] bool rcl_subscription_is_valid(const rcl_subscription_t* subscription) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(subscription, "the subscription is null", return false);
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(subscription->impl, "the subscription is not initialized", return false);
   return true;
 }
 
-bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription) {
+[[gnu::hot]] bool rcl_subscription_can_loan_messages(const rcl_subscription_t* subscription) {
   return rcl_subscription_is_valid(subscription) && subscription->impl->rmw_handle->can_loan_messages &&
          !subscription->impl->options.disable_loaned_message;
 }

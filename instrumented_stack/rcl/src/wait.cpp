@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "rmw/wait_again.h"
@@ -77,10 +78,28 @@ void collect_further(rcl_wait_set_impl_t& impl) {
   append_further(impl.timers, impl.timer_count, impl.kept_timers, impl.further);
 }
 
+template <typename Entity>
+void take_out_further(std::vector<const Entity*>& entities, size_t count, const Kept<Entity>& kept,
+                      std::vector<const void*>& taken_out) {
+  for (size_t i = kept.entities.size(); i < count; ++i) {
+    taken_out.push_back(std::exchange(entities[i], nullptr));
+  }
+}
+
+// All entries are null then, but those of timers that were added to the kept ones.
+void take_out_further(rcl_wait_set_impl_t& impl) {
+  impl.taken_out.clear();
+  take_out_further(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions, impl.taken_out);
+  take_out_further(impl.services, impl.service_count, impl.kept_services, impl.taken_out);
+  take_out_further(impl.clients, impl.client_count, impl.kept_clients, impl.taken_out);
+  take_out_further(impl.events, impl.event_count, impl.kept_events, impl.taken_out);
+  take_out_further(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions, impl.taken_out);
+}
+
 // Nulls the entries for which rmw has nulled its own.
 template <typename Entity>
 void keep_ready(std::vector<const Entity*>& entities, size_t count, const std::vector<void*>& rmw_entities,
-                Kept<Entity>& kept) {
+                Kept<Entity>& kept, rcl_wait_set_left_indices_t& left) {
   kept.left.clear();
   for (size_t i = 0; i < count; ++i) {
     if (rmw_entities[i] == nullptr) {
@@ -89,63 +108,78 @@ void keep_ready(std::vector<const Entity*>& entities, size_t count, const std::v
       kept.left.push_back(i);
     }
   }
+  left = kept.left_indices();
 }
 
 void keep_ready(rcl_wait_set_impl_t& impl) {
-  keep_ready(impl.subscriptions, impl.subscription_count, impl.rmw_subscriptions, impl.kept_subscriptions);
-  keep_ready(impl.services, impl.service_count, impl.rmw_services, impl.kept_services);
-  keep_ready(impl.clients, impl.client_count, impl.rmw_clients, impl.kept_clients);
-  keep_ready(impl.events, impl.event_count, impl.rmw_events, impl.kept_events);
-  keep_ready(impl.guard_conditions, impl.guard_condition_count, impl.rmw_guard_conditions, impl.kept_guard_conditions);
+  auto& [timers, subscriptions, services, clients, events] = impl.left;
+  keep_ready(impl.subscriptions, impl.subscription_count, impl.rmw_subscriptions, impl.kept_subscriptions,
+             subscriptions);
+  keep_ready(impl.services, impl.service_count, impl.rmw_services, impl.kept_services, services);
+  keep_ready(impl.clients, impl.client_count, impl.rmw_clients, impl.kept_clients, clients);
+  keep_ready(impl.events, impl.event_count, impl.rmw_events, impl.kept_events, events);
+  rcl_wait_set_left_indices_t guard_conditions;
+  keep_ready(impl.guard_conditions, impl.guard_condition_count, impl.rmw_guard_conditions, impl.kept_guard_conditions,
+             guard_conditions);
 }
 
 // What is ready of a wait for what rmw knows: indices, counted through all kinds.
 class Ready {
  public:
-  Ready(const size_t* begin, size_t count) : next_(begin), end_(begin + count) {}
+  Ready(const size_t* begin, size_t count, const std::vector<const void*>& taken_out)
+      : next_(begin), end_(begin + count), taken_out_(taken_out.begin()) {}
 
-  // Puts the ready ones of the next kind into the array, whose kept entries are null; nulls the others.
+  // Puts the ready ones of the next kind into the array, whose entries are null. False when none is left for the
+  // others.
   template <typename Entity>
-  void fill_in(std::vector<const Entity*>& entities, size_t count, Kept<Entity>& kept) {
+  bool fill_in(std::vector<const Entity*>& entities, size_t count, Kept<Entity>& kept,
+               rcl_wait_set_left_indices_t* left) {
     const size_t kept_count = kept.entities.size();
-    const auto further = entities.begin() + static_cast<std::ptrdiff_t>(kept_count);
-    further_.assign(further, entities.begin() + static_cast<std::ptrdiff_t>(count));
-    std::fill(further, entities.end(), nullptr);
     for (; next_ != end_ && *next_ - first_ < count; ++next_) {
       const size_t i = *next_ - first_;
       if (i < kept_count) {
         kept.left.push_back(i);
         entities[i] = kept.entities[i];
       } else {
-        entities[i] = static_cast<const Entity*>(further_[i - kept_count]);
+        entities[i] = static_cast<const Entity*>(taken_out_[static_cast<std::ptrdiff_t>(i - kept_count)]);
       }
     }
+    if (left != nullptr) {
+      *left = kept.left_indices();
+    }
     first_ += count;
+    taken_out_ += static_cast<std::ptrdiff_t>(count - kept_count);
+    return next_ != end_;
   }
-
-  bool is_any_left() const { return next_ != end_; }
 
  private:
   const size_t* next_;
   const size_t* end_;
-  size_t first_ = 0;  // of the kind
-  std::vector<const void*> further_;
+  std::vector<const void*>::const_iterator taken_out_;  // of the kind
+  size_t first_ = 0;                                    // of the kind
 };
 
-void fill_in_ready(rcl_wait_set_impl_t& impl, Ready ready) {
-  ready.fill_in(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
-  ready.fill_in(impl.services, impl.service_count, impl.kept_services);
-  ready.fill_in(impl.clients, impl.client_count, impl.kept_clients);
-  ready.fill_in(impl.events, impl.event_count, impl.kept_events);
-  ready.fill_in(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
-  // Those of timers follow.
-  if (ready.is_any_left()) {
+[[gnu::hot]] void fill_in_ready(rcl_wait_set_impl_t& impl, const size_t* indices, size_t count) {
+  Ready ready(indices, count, impl.taken_out);
+  // Most waits end with a message: what is of the other kinds is not touched then.
+  const bool has_timers =
+      count != 0 &&
+      ready.fill_in(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions, &impl.left.subscriptions) &&
+      ready.fill_in(impl.services, impl.service_count, impl.kept_services, &impl.left.services) &&
+      ready.fill_in(impl.clients, impl.client_count, impl.kept_clients, &impl.left.clients) &&
+      ready.fill_in(impl.events, impl.event_count, impl.kept_events, &impl.left.events) &&
+      ready.fill_in(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions, nullptr);
+  if (has_timers) {
     impl.timer_queue.forget_times();
   }
 }
 
 // Nulls the entries of timers that are not ready, which those of the kept ones may be already. False if none is.
 rcl_ret_t keep_ready_timers(rcl_wait_set_impl_t& impl, bool are_entries_null, bool& any_timer) {
+  any_timer = false;
+  if (impl.timer_count == 0) {
+    return RCL_RET_OK;
+  }
   auto& [kept, rmw_entities, left] = impl.kept_timers;
   left.clear();
   if (const rcl_ret_t result = impl.timer_queue.append_due(left); result != RCL_RET_OK) {
@@ -157,6 +191,7 @@ rcl_ret_t keep_ready_timers(rcl_wait_set_impl_t& impl, bool are_entries_null, bo
   for (const size_t i : left) {
     impl.timers[i] = kept[i];
   }
+  impl.left.timers = impl.kept_timers.left_indices();
   any_timer = !left.empty();
   for (size_t i = kept.size(); i < impl.timer_count; ++i) {
     bool is_ready = false;
@@ -196,18 +231,19 @@ rmw_ret_t wait_for_all(rcl_wait_set_impl_t& impl, const rmw_time_t* timeout) {
 }
 
 rmw_ret_t wait_again(rcl_wait_set_impl_t& impl, const rmw_time_t* timeout) {
+  take_out_further(impl);
   const size_t* ready = nullptr;
   size_t count = 0;
   const rmw_ret_t result = rmw_wait_again(impl.rmw_wait_set, timeout, &ready, &count);
   if (result == RMW_RET_OK || result == RMW_RET_TIMEOUT) {
-    fill_in_ready(impl, Ready(ready, count));
+    fill_in_ready(impl, ready, count);
   }
   return result;
 }
 
 }  // namespace
 
-rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
+[[gnu::hot]] rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
     return result;
   }
@@ -234,6 +270,7 @@ rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout) {
   // Until this wait has gone well, nothing is known.
   const bool has_kept = impl.has_kept;
   impl.rmw_knows_kept = false;
+  impl.left = {};
   const rmw_ret_t result = again ? wait_again(impl, deadline) : wait_for_all(impl, deadline);
   impl.are_entries_null = false;
   if (result != RMW_RET_OK && result != RMW_RET_TIMEOUT) {

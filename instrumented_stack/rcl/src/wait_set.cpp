@@ -133,6 +133,7 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
   impl.client_count = impl.service_count = impl.event_count = 0;
   impl.has_kept = impl.rmw_knows_kept = impl.are_entries_null = false;
+  impl.left = {};
   forget(impl.kept_subscriptions);
   forget(impl.kept_guard_conditions);
   forget(impl.kept_timers);
@@ -157,6 +158,7 @@ rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set) {
   keep(impl.events, impl.event_count, impl.kept_events);
   impl.has_kept = true;
   impl.rmw_knows_kept = false;
+  impl.left = {};
   return RCL_RET_OK;
 }
 
@@ -170,6 +172,7 @@ rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set) {
     return RCL_RET_WAIT_SET_EMPTY;
   }
   impl.are_entries_null = impl.rmw_knows_kept;
+  impl.left = {};
   const auto restore_kind = [&](auto& entities, size_t& count, auto& kept) {
     impl.rmw_knows_kept ? restore_as_null(entities, count, kept) : restore(entities, count, kept);
   };
@@ -180,6 +183,10 @@ rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set) {
   restore_kind(impl.services, impl.service_count, impl.kept_services);
   restore_kind(impl.events, impl.event_count, impl.kept_events);
   return RCL_RET_OK;
+}
+
+[[gnu::hot]] const rcl_wait_set_left_t* rcl_wait_set_get_left(const rcl_wait_set_t* wait_set) {
+  return check(wait_set) == RCL_RET_OK ? &wait_set->impl->left : nullptr;
 }
 
 rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_size, size_t guard_conditions_size,

@@ -6,6 +6,7 @@
 
 #include "rcl/error_handling.h"
 #include "rcl/wait.h"
+#include "rcl/wait_restore.h"
 #include "rmw/rmw.h"
 #include "timer_queue.hpp"
 
@@ -17,6 +18,8 @@ struct Kept {
   std::vector<const Entity*> entities;
   std::vector<void*> rmw_entities;
   std::vector<size_t> left;  // which of them the last wait has left in the public array
+
+  rcl_wait_set_left_indices_t left_indices() const { return {left.data(), left.size()}; }
 };
 
 }  // namespace rcl
@@ -51,6 +54,8 @@ struct rcl_wait_set_impl_s {
   bool are_entries_null = false;          // of the kept ones, after rcl_wait_set_restore()
   std::vector<const void*> further;       // rmw's of what is added to the kept ones, kind after kind
   std::vector<const void*> last_further;  // in the last wait
+  std::vector<const void*> taken_out;     // of the public arrays, while they are waited for again
+  rcl_wait_set_left_t left{};             // by the last wait
   rcl::Kept<rcl_subscription_t> kept_subscriptions;
   rcl::Kept<rcl_guard_condition_t> kept_guard_conditions;
   rcl::Kept<rcl_timer_t> kept_timers;  // rmw does not know them

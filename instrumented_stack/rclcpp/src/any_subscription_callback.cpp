@@ -4,11 +4,11 @@
 
 namespace rclcpp {
 
-void AnySubscriptionCallbackBase::trace_start([[maybe_unused]] bool is_intra_process) const {
+[[gnu::hot]] void AnySubscriptionCallbackBase::trace_start([[maybe_unused]] bool is_intra_process) const {
   TRACETOOLS_TRACEPOINT(callback_start, static_cast<const void*>(this), is_intra_process);
 }
 
-void AnySubscriptionCallbackBase::trace_end() const {
+[[gnu::hot]] void AnySubscriptionCallbackBase::trace_end() const {
   TRACETOOLS_TRACEPOINT(callback_end, static_cast<const void*>(this));
 }
 

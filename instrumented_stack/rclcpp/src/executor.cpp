@@ -245,7 +245,7 @@ void Executor::interrupt() {
   entities_->interrupt();
 }
 
-bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds timeout) {
+[[gnu::hot]] bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds timeout) {
   if (get_next_ready_executable(any_executable)) {
     return true;
   }
@@ -253,7 +253,7 @@ bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds ti
   return spinning_ && get_next_ready_executable(any_executable);
 }
 
-bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
+[[gnu::hot]] bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
   if (const size_t removals = entities_->removals(); removals != removals_seen_) {
     removals_seen_ = removals;
@@ -263,7 +263,7 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
     entities_->erase_unserved(postponed_);
   }
   while (next_ready_ < ready_.size()) {
-    detail::ReadyEntity ready = std::move(ready_[next_ready_++]);
+    detail::ReadyEntity& ready = ready_[next_ready_++];
     CallbackGroup::SharedPtr group = ready.group.lock();
     if (!group) {
       continue;
@@ -283,7 +283,7 @@ bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
   return false;
 }
 
-void Executor::wait_for_work(nanoseconds timeout) {
+[[gnu::hot]] void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
   std::copy_if(std::make_move_iterator(ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_)),
                std::make_move_iterator(ready_.end()), std::back_inserter(postponed_), is_waitable);
@@ -299,7 +299,7 @@ void Executor::wait_for_work(nanoseconds timeout) {
   postponed_.clear();
 }
 
-void Executor::execute_any_executable(AnyExecutable& any_executable) {
+[[gnu::hot]] void Executor::execute_any_executable(AnyExecutable& any_executable) {
   if (!spinning_) {
     return;
   }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <rcl/wait.h>
+#include <rcl/wait_restore.h>
 
 #include <atomic>
 #include <chrono>
@@ -122,6 +123,10 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   void fill_wait_set(std::vector<HeldWaitable>& waitables);
   void add_handles(const Sizes& sizes);
   void append_ready(const std::vector<HeldWaitable>& waitables, std::vector<detail::ReadyEntity>& ready) const;
+  // The entities of one kind, group after group, of which the wait has left the handle.
+  template <typename KindT>
+  void append_left(const rcl_wait_set_left_indices_t& left, KindT WaitedGroup::*kind,
+                   std::vector<detail::ReadyEntity>& ready) const;
 
   const std::shared_ptr<rcl_context_t> rcl_context_;
   GuardCondition interrupt_;

@@ -21,7 +21,7 @@ void require_ok(rcl_ret_t ret, const char* what) {
 
 }  // namespace
 
-void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
+[[gnu::hot]] void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
   {
     Owners owners;
     const std::lock_guard lock(mutex_);
@@ -39,17 +39,18 @@ void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail
     if (ret != RCL_RET_OK && ret != RCL_RET_TIMEOUT) {
       exceptions::throw_from_rcl_error(ret, "rcl_wait() failed");
     }
-    rcl_reset_error();
     append_ready(waitables, ready);
   } catch (...) {
     failure = std::current_exception();
   }
 
-  Owners owners;
-  const std::lock_guard lock(mutex_);
-  waiting_ = false;
-  if (changed_) {
-    owners.waited = std::exchange(waited_, {});
+  {
+    std::unique_lock lock(mutex_);
+    waiting_ = false;
+    if (changed_) {
+      const std::vector<WaitedGroup> outdated = std::exchange(waited_, {});
+      lock.unlock();
+    }
   }
   if (failure) {
     std::rethrow_exception(failure);
@@ -128,36 +129,41 @@ void ExecutorEntities::add_handles(const Sizes& sizes) {
   require_ok(rcl_wait_set_keep(&wait_set_), "couldn't keep wait set");
 }
 
-void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
-                                    std::vector<detail::ReadyEntity>& ready) const {
-  // The entities of one kind, group after group, of which the wait has left the handle. Between these, nothing but the
-  // handles is looked at: there may be thousands that have nothing to do.
-  const auto append = [&](const auto* const* handles, size_t count, auto WaitedGroup::*kind) {
-    const auto* const* const end = handles + count;
-    const auto next_left = [end](const auto* const* from) {
-      return std::find_if(from, end, [](const void* handle) { return handle != nullptr; });
-    };
-    auto group = waited_.begin();
-    const auto* const* of_group = handles;
-    for (const auto* const* left = next_left(handles); left != end; left = next_left(left + 1)) {
-      for (; group != waited_.end(); ++group) {
-        const auto size = group->in_wait_set ? static_cast<std::ptrdiff_t>(((*group).*kind).size()) : 0;
-        if (left - of_group < size) {
-          break;
-        }
-        of_group += size;
-      }
-      if (group == waited_.end()) {
-        return;  // what follows are entities of waitables
-      }
-      ready.push_back({((*group).*kind)[static_cast<size_t>(left - of_group)].entity, group->group});
+template <typename KindT>
+[[gnu::hot, gnu::noinline]] void ExecutorEntities::append_left(const rcl_wait_set_left_indices_t& left,
+                                                               KindT WaitedGroup::*kind,
+                                                               std::vector<detail::ReadyEntity>& ready) const {
+  auto group = waited_.begin();
+  size_t first = 0;  // of the group
+  for (size_t i = 0; i < left.count; ++i) {
+    const auto size = [&] { return group->in_wait_set ? ((*group).*kind).size() : 0; };
+    for (size_t in_group = size(); left.indices[i] - first >= in_group; in_group = size()) {
+      first += in_group;
+      ++group;
     }
-  };
-  append(wait_set_.timers, wait_set_.size_of_timers, &WaitedGroup::timers);
-  append(wait_set_.subscriptions, wait_set_.size_of_subscriptions, &WaitedGroup::subscriptions);
-  append(wait_set_.services, wait_set_.size_of_services, &WaitedGroup::services);
-  append(wait_set_.clients, wait_set_.size_of_clients, &WaitedGroup::clients);
-  append(wait_set_.events, wait_set_.size_of_events, &WaitedGroup::events);
+    ready.push_back({((*group).*kind)[left.indices[i] - first].entity, group->group});
+  }
+}
+
+[[gnu::hot]] void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
+                                                 std::vector<detail::ReadyEntity>& ready) const {
+  // Nothing but what the wait has left is looked at: there may be thousands that have nothing to do.
+  const rcl_wait_set_left_t& left = *rcl_wait_set_get_left(&wait_set_);
+  if (left.timers.count != 0) {
+    append_left(left.timers, &WaitedGroup::timers, ready);
+  }
+  if (left.subscriptions.count != 0) {
+    append_left(left.subscriptions, &WaitedGroup::subscriptions, ready);
+  }
+  if (left.services.count != 0) {
+    append_left(left.services, &WaitedGroup::services, ready);
+  }
+  if (left.clients.count != 0) {
+    append_left(left.clients, &WaitedGroup::clients, ready);
+  }
+  if (left.events.count != 0) {
+    append_left(left.events, &WaitedGroup::events, ready);
+  }
   for (const HeldWaitable& held : waitables) {
     if (held.waitable->is_ready(wait_set_)) {
       ready.push_back({Waitable::WeakPtr(held.waitable), held.group});

@@ -131,7 +131,7 @@ bool PublisherBase::wait_for_all_acked_ns(std::chrono::nanoseconds timeout) cons
   return true;
 }
 
-void PublisherBase::publish_message(const void* message) {
+[[gnu::hot]] void PublisherBase::publish_message(const void* message) {
   TRACETOOLS_TRACEPOINT(rclcpp_publish, nullptr, message);
   check_published(rcl_publish(publisher_handle_.get(), message, nullptr), "failed to publish message");
 }

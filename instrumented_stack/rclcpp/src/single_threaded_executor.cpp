@@ -2,7 +2,7 @@
 
 namespace rclcpp::executors {
 
-void SingleThreadedExecutor::spin() {
+[[gnu::hot]] void SingleThreadedExecutor::spin() {
   const SpinningScope scope(*this, "spin()");
   while (context_->is_valid() && spinning_) {
     AnyExecutable any_executable;

@@ -68,6 +68,7 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
     }
     delete handle;
   });
+  can_loan_messages_ = rcl_subscription_can_loan_messages(subscription_handle_.get());
   bind_event_callbacks(options.event_callbacks, options.use_default_callbacks,
                        rcl_node_get_logger_name(node_handle.get()));
 }
@@ -109,7 +110,7 @@ size_t SubscriptionBase::get_publisher_count() const {
   return count;
 }
 
-bool SubscriptionBase::take_type_erased(void* message_out, MessageInfo& message_info_out) {
+[[gnu::hot]] bool SubscriptionBase::take_type_erased(void* message_out, MessageInfo& message_info_out) {
   const rcl_ret_t ret =
       rcl_take(subscription_handle_.get(), message_out, &message_info_out.get_rmw_message_info(), nullptr);
   TRACETOOLS_TRACEPOINT(rclcpp_take, static_cast<const void*>(message_out));
@@ -124,7 +125,7 @@ bool SubscriptionBase::take_serialized(SerializedMessage& message_out, MessageIn
   return check_taken(ret);
 }
 
-bool SubscriptionBase::check_taken(rcl_ret_t ret) const {
+[[gnu::hot]] bool SubscriptionBase::check_taken(rcl_ret_t ret) const {
   if (ret == RCL_RET_SUBSCRIPTION_TAKE_FAILED) {
     rcl_reset_error();
     return false;
@@ -205,7 +206,7 @@ void SubscriptionBase::execute_loaned() {
   }
 }
 
-void SubscriptionBase::execute() {
+[[gnu::hot]] void SubscriptionBase::execute() {
   AnySubscriptionCallbackBase& any_callback = callback();
   if (any_callback.takes_reference() && !any_callback.is_serialized_message_callback() && can_loan_messages()) {
     execute_loaned();
@@ -230,7 +231,7 @@ void SubscriptionBase::execute() {
   return_message(std::move(message));
 }
 
-void SubscriptionBase::dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
+[[gnu::hot]] void SubscriptionBase::dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
   if (!statistics_) {
     callback().dispatch(message, message_info);
     return;
@@ -249,20 +250,22 @@ void SubscriptionBase::set_topic_statistics(std::shared_ptr<topic_statistics::Su
   statistics_ = std::move(statistics);
 }
 
-std::shared_ptr<void> SubscriptionBase::borrow_message() {
-  if (callback().takes_reference()) {
-    const std::lock_guard lock(spare_mutex_);
-    if (spare_message_) {
-      return std::exchange(spare_message_, nullptr);
-    }
+[[gnu::hot]] std::shared_ptr<void> SubscriptionBase::borrow_message() {
+  std::shared_ptr<void> message;
+  if (callback().takes_reference() && !is_spare_in_use_.test_and_set(std::memory_order_acquire)) {
+    message.swap(spare_message_);
+    is_spare_in_use_.clear(std::memory_order_release);
   }
-  return callback().is_serialized_message_callback() ? std::make_shared<SerializedMessage>() : create_message();
+  if (!message) {
+    message = callback().is_serialized_message_callback() ? std::make_shared<SerializedMessage>() : create_message();
+  }
+  return message;
 }
 
-void SubscriptionBase::return_message(std::shared_ptr<void> message) {
-  if (callback().takes_reference()) {
-    const std::lock_guard lock(spare_mutex_);
-    spare_message_ = std::move(message);
+[[gnu::hot]] void SubscriptionBase::return_message(std::shared_ptr<void> message) {
+  if (callback().takes_reference() && !is_spare_in_use_.test_and_set(std::memory_order_acquire)) {
+    message.swap(spare_message_);
+    is_spare_in_use_.clear(std::memory_order_release);
   }
 }
 

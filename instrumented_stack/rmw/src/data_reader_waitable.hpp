@@ -7,6 +7,7 @@
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <optional>
 
 #include "ready_callback.hpp"
 #include "waitable.hpp"
@@ -16,7 +17,7 @@ namespace rmw_fastrtps {
 // The listener of `reader`, for data_available at least.
 class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, public Waitable {
  public:
-  void on_data_available(eprosima::fastdds::dds::DataReader* from) override {
+  [[gnu::hot]] void on_data_available(eprosima::fastdds::dds::DataReader* from) override {
     arrivals_.fetch_add(1, std::memory_order_release);
     notify();
     if (on_new_data_.is_set()) {
@@ -36,11 +37,8 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   // first sample after the reader was empty, which is on its way to a callback: at worst somebody looks once in vain.
   bool is_ready() override {
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
-    if (settled_.load(std::memory_order_acquire) == arrivals) {
-      return false;
-    }
-    if (!is_taken_from_.load(std::memory_order_acquire)) {
-      return true;
+    if (const auto known = is_known_to_be_ready(arrivals)) {
+      return *known;
     }
     eprosima::fastdds::dds::SampleInfo info;
     if (reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK) {
@@ -64,7 +62,23 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
 
   eprosima::fastdds::dds::DataReader* reader = nullptr;
 
+ protected:
+  // What is known without asking the reader.
+  std::optional<bool> is_known_to_be_ready() const {
+    return is_known_to_be_ready(arrivals_.load(std::memory_order_acquire));
+  }
+
  private:
+  std::optional<bool> is_known_to_be_ready(std::uint64_t arrivals) const {
+    if (settled_.load(std::memory_order_acquire) == arrivals) {
+      return false;
+    }
+    if (!is_taken_from_.load(std::memory_order_acquire)) {
+      return true;
+    }
+    return std::nullopt;
+  }
+
   template <typename TakeT>
   bool take(TakeT take_from_reader) {
     on_new_data_.about_to_take();

@@ -20,8 +20,8 @@ using eprosima::fastrtps::rtps::SerializedPayload_t;
 constexpr std::uint32_t kEncapsulationSize = 4;
 
 // Bytes written with the encapsulation header, 0 if the buffer is too small.
-std::uint32_t to_cdr(const message_type_support_callbacks_t& callbacks, const void* message, void* buffer,
-                     std::size_t capacity) {
+[[gnu::hot]] std::uint32_t to_cdr(const message_type_support_callbacks_t& callbacks, const void* message, void* buffer,
+                                  std::size_t capacity) {
   FastBuffer memory(static_cast<char*>(buffer), capacity);
   Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
   try {
@@ -32,8 +32,8 @@ std::uint32_t to_cdr(const message_type_support_callbacks_t& callbacks, const vo
   return callbacks.cdr_serialize(message, cdr) ? static_cast<std::uint32_t>(cdr.getSerializedDataLength()) : 0;
 }
 
-bool from_cdr(const message_type_support_callbacks_t& callbacks, const void* buffer, std::size_t length,
-              void* message) {
+[[gnu::hot]] bool from_cdr(const message_type_support_callbacks_t& callbacks, const void* buffer, std::size_t length,
+                           void* message) {
   // Fast CDR has one buffer type for both directions; reading does not write.
   FastBuffer memory(static_cast<char*>(const_cast<void*>(buffer)), length);
   Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
@@ -68,7 +68,7 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks) : ca
   m_typeSize = kEncapsulationSize + rounded;
 }
 
-bool MessageType::serialize(void* data, SerializedPayload_t* payload) {
+[[gnu::hot]] bool MessageType::serialize(void* data, SerializedPayload_t* payload) {
   const auto& outgoing = *static_cast<const OutgoingMessage*>(data);
   payload->encapsulation = CDR_LE;
   if (outgoing.serialized != nullptr) {
@@ -83,7 +83,7 @@ bool MessageType::serialize(void* data, SerializedPayload_t* payload) {
   return payload->length != 0;
 }
 
-bool MessageType::deserialize(SerializedPayload_t* payload, void* data) {
+[[gnu::hot]] bool MessageType::deserialize(SerializedPayload_t* payload, void* data) {
   const auto& incoming = *static_cast<const IncomingMessage*>(data);
   if (incoming.serialized != nullptr) {
     return assign(*incoming.serialized, payload->data, payload->length);
@@ -91,7 +91,7 @@ bool MessageType::deserialize(SerializedPayload_t* payload, void* data) {
   return from_cdr(callbacks_, payload->data, payload->length, incoming.message);
 }
 
-std::function<uint32_t()> MessageType::getSerializedSizeProvider(void* data) {
+[[gnu::hot]] std::function<uint32_t()> MessageType::getSerializedSizeProvider(void* data) {
   // Two pointers fit into a std::function without allocation.
   const auto* outgoing = static_cast<const OutgoingMessage*>(data);
   return [this, outgoing] {

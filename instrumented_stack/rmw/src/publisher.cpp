@@ -1,4 +1,6 @@
 // Publishers: a DDS DataWriter each.
+#include <time.h>
+
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
@@ -33,10 +35,10 @@ namespace {
 
 struct Publisher final : WriterEvents {
   rmw_publisher_t handle{};
+  fdds::DataWriter* writer = nullptr;
   std::string topic_name;  // of the handle
   Participant* participant = nullptr;
   fdds::Topic* topic = nullptr;
-  fdds::DataWriter* writer = nullptr;
   EndpointIdentity identity{};
 };
 
@@ -45,12 +47,15 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
 }
 
 // `data` is what the writer gets: an OutgoingMessage, or a loan.
-rmw_ret_t write(const rmw_publisher_t* publisher, void* data, [[maybe_unused]] const void* traced_message) {
-  rmw_time_point_value_t now = 0;
-  (void)rcutils_system_time_now(&now);
+[[gnu::hot]] rmw_ret_t write(const rmw_publisher_t* publisher, void* data,
+                             [[maybe_unused]] const void* traced_message) {
+  timespec now{};
+  (void)clock_gettime(CLOCK_REALTIME, &now);
   rtps::WriteParams params;
-  params.source_timestamp().from_ns(now);
-  TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message, now);
+  params.source_timestamp().seconds(static_cast<std::int32_t>(now.tv_sec));
+  params.source_timestamp().nanosec(static_cast<std::uint32_t>(now.tv_nsec));
+  TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message,
+                        now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec);
   if (!publisher_of(*publisher).writer->write(data, params)) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a message on topic '%s' cannot be written", publisher->topic_name);
     return RMW_RET_ERROR;
@@ -103,7 +108,8 @@ const EndpointIdentity& identity_of(const rmw_publisher_t& publisher) {
 
 }  // namespace rmw_fastrtps
 
-rmw_ret_t rmw_publish(const rmw_publisher_t* publisher, const void* ros_message, rmw_publisher_allocation_t*) {
+[[gnu::hot]] rmw_ret_t rmw_publish(const rmw_publisher_t* publisher, const void* ros_message,
+                                   rmw_publisher_allocation_t*) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
   OutgoingMessage outgoing{ros_message, nullptr};

@@ -32,7 +32,7 @@ using rmw_fastrtps::Waitable;
 
 namespace {
 
-void fill(rmw_message_info_t& message_info, const fdds::SampleInfo& sample) {
+[[gnu::hot]] void fill(rmw_message_info_t& message_info, const fdds::SampleInfo& sample) {
   message_info.source_timestamp = sample.source_timestamp.to_ns();
   message_info.received_timestamp = sample.reception_timestamp.to_ns();
   message_info.publication_sequence_number = sample.sample_identity.sequence_number().to64long();
@@ -44,15 +44,16 @@ void fill(rmw_message_info_t& message_info, const fdds::SampleInfo& sample) {
 }
 
 // Invalid samples tell of the end of a writer's data, not of a message.
-bool is_wanted(const rmw_subscription_t* handle, const fdds::SampleInfo& sample) {
+[[gnu::hot]] bool is_wanted(const rmw_subscription_t* handle, const fdds::SampleInfo& sample) {
   const bool ignored =
       handle->options.ignore_local_publications &&
       sample.sample_identity.writer_guid().guidPrefix == subscription_of(*handle).reader->guid().guidPrefix;
   return sample.valid_data && !ignored;
 }
 
-rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming, [[maybe_unused]] const void* traced_message,
-               bool* taken, rmw_message_info_t* message_info) {
+[[gnu::hot]] rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming,
+                            [[maybe_unused]] const void* traced_message, bool* taken,
+                            rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
   *taken = false;
   const std::shared_lock lock(subscription.reader_mutex);
@@ -156,8 +157,8 @@ rmw_ret_t rmw_take(const rmw_subscription_t* subscription, void* ros_message, bo
   return take(subscription, {ros_message, nullptr}, ros_message, taken, nullptr);
 }
 
-rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
-                             rmw_message_info_t* message_info, rmw_subscription_allocation_t*) {
+[[gnu::hot]] rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
+                                          rmw_message_info_t* message_info, rmw_subscription_allocation_t*) {
   RMW_CHECK_HANDLE(subscription, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);

@@ -29,7 +29,10 @@ struct Loan {
 };
 
 struct Subscription final : ReaderEvents {
-  bool is_ready() override {
+  [[gnu::hot]] bool is_ready() override {
+    if (const auto known = is_known_to_be_ready()) {
+      return *known;
+    }
     const std::shared_lock lock(reader_mutex);
     return ReaderEvents::is_ready();
   }

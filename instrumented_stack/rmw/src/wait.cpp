@@ -45,7 +45,7 @@ enum class Occasion { kFirst, kAgain };
 
 // Finds what is ready of `waitables`, waiting for it if need be. Who only looks, once, need not be told by those that
 // become ready; who looks again and again is spared asking all of them each time.
-void find_ready(WaitSet& wait_set, const rmw_time_t* timeout, Occasion occasion) {
+[[gnu::hot]] void find_ready(WaitSet& wait_set, const rmw_time_t* timeout, Occasion occasion) {
   auto& [waiter, waitables, ready, first_guard_condition] = wait_set;
   ready.clear();
   const bool may_block = timeout == nullptr || timeout->sec != 0 || timeout->nsec != 0;
@@ -61,13 +61,15 @@ void find_ready(WaitSet& wait_set, const rmw_time_t* timeout, Occasion occasion)
   waiter.watch(waitables);
   waiter.find_ready(waitables, ready);
   // A wake-up can be for data that another thread has taken meanwhile: then sleep on.
-  while (may_block && ready.empty() && waiter.wait_until(deadline)) {
-    waiter.find_ready(waitables, ready);
+  while (may_block && ready.empty() && waiter.wait_ready(deadline, waitables, ready)) {
   }
 }
 
 // Resets guard conditions, which are ready once per trigger; leaves out those that another thread has reset.
 void consume_guard_conditions(WaitSet& wait_set) {
+  if (wait_set.ready.empty() || wait_set.ready.back() < wait_set.first_guard_condition) {
+    return;
+  }
   std::erase_if(wait_set.ready, [&](std::size_t i) {
     return i >= wait_set.first_guard_condition && !static_cast<GuardCondition*>(wait_set.waitables[i])->consume();
   });
@@ -199,8 +201,8 @@ rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* g
   return state.ready.empty() ? RMW_RET_TIMEOUT : RMW_RET_OK;
 }
 
-rmw_ret_t rmw_wait_again(rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout, const size_t** ready,
-                         size_t* ready_count) {
+[[gnu::hot]] rmw_ret_t rmw_wait_again(rmw_wait_set_t* wait_set, const rmw_time_t* wait_timeout, const size_t** ready,
+                                      size_t* ready_count) {
   RMW_CHECK_HANDLE(wait_set, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ready, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ready_count, RMW_RET_INVALID_ARGUMENT);

@@ -53,9 +53,8 @@ void Waiter::watch(const std::vector<Waitable*>& waitables) {
   watched_ = waitables;
   wanted_ = waitables;
   stale_ = false;
-  std::lock_guard candidates_lock(mutex_);
-  candidates_.clear();
-  all_are_candidates_ = true;
+  to_ask_.few.clear();
+  to_ask_.all = true;
 }
 
 bool Waiter::watches(const std::vector<Waitable*>& waitables) const {
@@ -65,83 +64,90 @@ bool Waiter::watches(const std::vector<Waitable*>& waitables) const {
   return waitables == wanted_ || is_subsequence(waitables, wanted_);
 }
 
-void Waiter::find_ready(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready) {
-  asked_.clear();
-  bool all = false;
+[[gnu::hot]] void Waiter::find_ready(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready) {
   {
-    std::lock_guard lock(mutex_);
-    woken_ = false;
-    asked_.swap(candidates_);
-    all = std::exchange(all_are_candidates_, false);
+    const std::lock_guard lock(mutex_);
+    receive_candidates();
   }
-  // Not under the lock: DDS calls wake() under locks of its own, which is_ready() takes too.
+  ask(waitables, ready);
+}
+
+[[gnu::hot]] bool Waiter::wait_ready(std::optional<TimePoint> deadline, const std::vector<Waitable*>& waitables,
+                                     std::vector<std::size_t>& ready) {
+  {
+    std::unique_lock lock(mutex_);
+    if (!deadline) {
+      condition_.wait(lock, [this] { return woken_; });
+    } else if (!condition_.wait_until(lock, *deadline, [this] { return woken_; })) {
+      return false;
+    }
+    receive_candidates();
+  }
+  ask(waitables, ready);
+  return true;
+}
+
+void Waiter::receive_candidates() {
+  woken_ = false;
+  for (Waitable* waitable : woken_by_.few) {
+    to_ask_.add(waitable);
+  }
+  woken_by_.few.clear();
+  to_ask_.all = std::exchange(woken_by_.all, false) || to_ask_.all;
+}
+
+// Not under the lock: DDS calls wake() under locks of its own, which is_ready() takes too.
+[[gnu::hot]] void Waiter::ask(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready) {
+  asked_.swap(to_ask_.few);
+  to_ask_.few.clear();
   const std::size_t before = ready.size();
-  if (all) {
-    asked_.clear();
+  if (std::exchange(to_ask_.all, false)) {
     for (std::size_t i = 0; i < waitables.size(); ++i) {
       if (waitables[i]->is_ready()) {
         ready.push_back(i);
+        to_ask_.add(waitables[i]);
       }
     }
-  } else {
-    // A few are looked for among perhaps thousands, of which nothing but the addresses is read.
-    asked_at_.clear();
-    std::erase_if(asked_, [&](Waitable* waitable) {
-      const auto found = std::find(waitables.begin(), waitables.end(), waitable);
-      if (found != waitables.end()) {
-        asked_at_.push_back(static_cast<std::size_t>(found - waitables.begin()));
-      }
-      return found != waitables.end();
-    });
-    std::sort(asked_at_.begin(), asked_at_.end());
-    std::copy_if(asked_at_.begin(), asked_at_.end(), std::back_inserter(ready),
-                 [&](std::size_t i) { return waitables[i]->is_ready(); });
-  }
-  // Who is ready does not say so again. Who was not asked may be ready.
-  std::lock_guard lock(mutex_);
-  for (std::size_t i = before; i < ready.size(); ++i) {
-    add_candidate(waitables[ready[i]]);
-  }
-  for (Waitable* waitable : asked_) {
-    add_candidate(waitable);
-  }
-  if (all && waitables.size() < wanted_.size()) {
-    all_are_candidates_ = true;
-  }
-}
-
-void Waiter::add_candidate(Waitable* waitable) {
-  if (all_are_candidates_ || contains(candidates_, waitable)) {
+    to_ask_.all = to_ask_.all || waitables.size() < wanted_.size();
     return;
   }
-  if (candidates_.size() == kManyCandidates) {
-    candidates_.clear();
-    all_are_candidates_ = true;
-  } else {
-    candidates_.push_back(waitable);
+  // A few are looked for among perhaps thousands, of which nothing but the addresses is read.
+  for (Waitable* waitable : asked_) {
+    const auto found = std::find(waitables.begin(), waitables.end(), waitable);
+    if (found == waitables.end()) {
+      to_ask_.add(waitable);
+    } else if (waitable->is_ready()) {
+      ready.push_back(static_cast<std::size_t>(found - waitables.begin()));
+      to_ask_.add(waitable);  // who is ready does not say so again
+    }
+  }
+  if (ready.size() > before + 1) {
+    std::sort(ready.begin() + static_cast<std::ptrdiff_t>(before), ready.end());
   }
 }
 
-void Waiter::wake(Waitable& waitable) {
+[[gnu::hot]] void Waiter::Candidates::add(Waitable* waitable) {
+  if (all || contains(few, waitable)) {
+    return;
+  }
+  if (few.size() == kManyCandidates) {
+    few.clear();
+    all = true;
+  } else {
+    few.push_back(waitable);
+  }
+}
+
+[[gnu::hot]] void Waiter::wake(Waitable& waitable) {
   {
-    std::lock_guard lock(mutex_);
-    add_candidate(&waitable);
+    const std::lock_guard lock(mutex_);
+    woken_by_.add(&waitable);
     if (woken_) {
       return;
     }
     woken_ = true;
   }
   condition_.notify_one();
-}
-
-bool Waiter::wait_until(std::optional<TimePoint> deadline) {
-  std::unique_lock lock(mutex_);
-  if (deadline) {
-    condition_.wait_until(lock, *deadline, [this] { return woken_; });
-  } else {
-    condition_.wait(lock, [this] { return woken_; });
-  }
-  return std::exchange(woken_, false);
 }
 
 Waitable::~Waitable() {
@@ -162,7 +168,7 @@ void Waitable::detach(Waiter& waiter) {
   waiters_.erase(std::remove(waiters_.begin(), waiters_.end(), &waiter), waiters_.end());
 }
 
-void Waitable::notify() {
+[[gnu::hot]] void Waitable::notify() {
   std::lock_guard lock(mutex_);
   for (Waiter* waiter : waiters_) {
     waiter->wake(*this);

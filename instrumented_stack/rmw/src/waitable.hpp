@@ -39,32 +39,40 @@ class Waiter {
   // that have called wake() since they were last found not to be ready. Forgets earlier wake-ups.
   void find_ready(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready);
 
+  // Sleeps until wake() was called since the last find_ready() or wait_ready(), then does what find_ready() does: true,
+  // even if nothing was ready. False at the deadline. No deadline: forever.
+  bool wait_ready(std::optional<TimePoint> deadline, const std::vector<Waitable*>& waitables,
+                  std::vector<std::size_t>& ready);
+
   // `waitable` may be ready now. Any thread.
   void wake(Waitable& waitable);
 
-  // Returns when wake() was called since the last find_ready() or wait, true, or at the deadline, false. No deadline:
-  // forever.
-  bool wait_until(std::optional<TimePoint> deadline);
-
  private:
   friend class Waitable;
+
+  // With the mutex held: what has called wake() is to be asked.
+  void receive_candidates();
+  void ask(const std::vector<Waitable*>& waitables, std::vector<std::size_t>& ready);
 
   // The arguments of the last watch() that changed something, to be compared only. Of the waiting thread.
   std::vector<Waitable*> wanted_;
   std::atomic<bool> stale_{false};  // one of them was destroyed: its address may be another's now
   std::vector<Waitable*> watched_;  // those of them that live; under the lock of attachments
 
-  void add_candidate(Waitable* waitable);
+  // Waitables that may be ready, if they are few; they may be gone, too, and are only compared.
+  struct Candidates {
+    void add(Waitable* waitable);
 
-  std::vector<Waitable*> asked_;       // the candidates of a find_ready()
-  std::vector<std::size_t> asked_at_;  // where they are
+    std::vector<Waitable*> few;
+    bool all = false;
+  };
+  Candidates to_ask_;  // next time, of the waiting thread
+  std::vector<Waitable*> asked_;
 
   std::mutex mutex_;
   std::condition_variable condition_;
   bool woken_ = false;
-  // Those that may be ready, if they are few; they may be gone, too, and are only compared.
-  std::vector<Waitable*> candidates_;
-  bool all_are_candidates_ = true;
+  Candidates woken_by_;
 };
 
 // Something that becomes ready. `data` of subscriptions, services, clients and guard conditions points at one.

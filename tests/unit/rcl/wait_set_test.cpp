@@ -157,6 +157,8 @@ class WaitSetKeepsTimers : public testing::Test {
       }
     }
     EXPECT_EQ(result == RCL_RET_OK || !ready.empty(), result == RCL_RET_OK);
+    const rcl_wait_set_left_indices_t& left = rcl_wait_set_get_left(&set_)->timers;
+    EXPECT_EQ(std::vector<std::ptrdiff_t>(left.indices, left.indices + left.count), ready);
     rcl_reset_error();
     return ready;
   }

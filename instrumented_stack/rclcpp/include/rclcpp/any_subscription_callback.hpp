@@ -75,7 +75,7 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
     return *this;
   }
 
-  void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) override {
+  [[gnu::hot]] void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) override {
     run(Message(&message), message_info, false);
   }
 

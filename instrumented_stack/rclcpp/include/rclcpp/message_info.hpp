@@ -7,7 +7,7 @@ namespace rclcpp {
 
 class MessageInfo {
  public:
-  MessageInfo() : rmw_message_info_(rmw_get_zero_initialized_message_info()) {}
+  MessageInfo() = default;
   MessageInfo(const rmw_message_info_t& rmw_message_info)  // NOLINT: the wrapper of its C form
       : rmw_message_info_(rmw_message_info) {}
 
@@ -15,7 +15,7 @@ class MessageInfo {
   rmw_message_info_t& get_rmw_message_info() { return rmw_message_info_; }
 
  private:
-  rmw_message_info_t rmw_message_info_;
+  rmw_message_info_t rmw_message_info_{};
 };
 
 }  // namespace rclcpp

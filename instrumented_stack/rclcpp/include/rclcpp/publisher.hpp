@@ -129,7 +129,7 @@ class Publisher : public PublisherBase {
   }
 
   template <typename T>
-  void publish_reference(const T& message) {
+  [[gnu::hot]] void publish_reference(const T& message) {
     if (!intra_process_is_enabled()) {
       publish_inter_process(message);
     } else if (!buffer_ && get_intra_process_subscription_count() == 0) {

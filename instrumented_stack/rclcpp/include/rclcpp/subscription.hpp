@@ -63,7 +63,7 @@ class Subscription : public SubscriptionBase {
   std::shared_ptr<void> create_message() override {
     return allocator::make_shared<ROSMessageType>(allocator_, rosidl_runtime_cpp::MessageInitialization::SKIP);
   }
-  AnySubscriptionCallbackBase& callback() override { return any_callback_; }
+  [[gnu::hot]] AnySubscriptionCallbackBase& callback() override { return any_callback_; }
 
  private:
   AllocatorT allocator_;

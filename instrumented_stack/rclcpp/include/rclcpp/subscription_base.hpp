@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -63,7 +62,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
   // Whether messages are taken where the middleware holds them: those of plain types, if the environment variable
   // ROS_DISABLE_LOANED_MESSAGES is 0. Executors do so for callbacks that take a const reference, which cannot keep it.
-  bool can_loan_messages() const { return rcl_subscription_can_loan_messages(subscription_handle_.get()); }
+  bool can_loan_messages() const { return can_loan_messages_; }
 
   // Whether there is a content filter.
   bool is_cft_enabled() const { return rcl_subscription_is_cft_enabled(subscription_handle_.get()); }
@@ -146,9 +145,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics_;
   const void* traced_callback_ = nullptr;  // as trace_creation() told it
   // Where the next message for a callback that takes a reference is read into: it costs no allocation. Executors may
-  // run such a callback several times at once.
-  std::mutex spare_mutex_;
+  // run such a callback several times at once: who finds the place in use does without it.
+  std::atomic_flag is_spare_in_use_ = ATOMIC_FLAG_INIT;
   std::shared_ptr<void> spare_message_;
+  bool can_loan_messages_ = false;
 };
 
 }  // namespace rclcpp
