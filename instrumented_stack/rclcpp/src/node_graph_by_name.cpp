@@ -10,6 +10,7 @@ TopicEndpointInfo::TopicEndpointInfo(const rcl_topic_endpoint_info_t& info)
     : node_name_(info.node_name),
       node_namespace_(info.node_namespace),
       topic_type_(info.topic_type),
+      topic_type_hash_(info.topic_type_hash),
       endpoint_type_(static_cast<rclcpp::EndpointType>(info.endpoint_type)),
       qos_profile_(QoSInitialization(info.qos_profile.history, info.qos_profile.depth), info.qos_profile) {
   std::copy(std::begin(info.endpoint_gid), std::end(info.endpoint_gid), endpoint_gid_.begin());

@@ -38,6 +38,7 @@ class GraphCache {
     // Of an own endpoint, else null: is told of those at the other side of the topic that have another type. Fast DDS
     // 2.9 says nothing of them.
     std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>> incompatible_type = nullptr;
+    std::string type_hash = {};  // `RIHS01_…`; empty if it does not tell it
   };
 
   // One with its node. Empty names if no node is known to have it.

@@ -41,15 +41,15 @@ std::vector<rtps::octet> type_hash_user_data(const message_type_support_callback
   return {text.begin(), text.end()};
 }
 
-// The value of `enclave=…;` in the user data that participants announce.
-std::string enclave_in(const std::vector<rtps::octet>& user_data) {
+// The value of `<key>=…;` in the user data that participants and endpoints announce; empty without it.
+std::string value_in(const std::vector<rtps::octet>& user_data, const std::string& key_name) {
   const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
-  constexpr std::string_view kKey = "enclave=";
-  const std::size_t key = text.find(kKey);
+  const std::string prefix = key_name + "=";
+  const std::size_t key = text.find(prefix);
   if (key == std::string_view::npos) {
     return {};
   }
-  const std::string_view value = text.substr(key + kKey.size());
+  const std::string_view value = text.substr(key + prefix.size());
   return std::string(value.substr(0, value.find(';')));
 }
 
@@ -143,7 +143,7 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
   void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
     const Gid gid = to_gid(info.info.m_guid);
     if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
-      graph_.add_participant(gid, enclave_in(info.info.m_userData.data_vec()));
+      graph_.add_participant(gid, value_in(info.info.m_userData.data_vec(), "enclave"));
       unanswered_.discovered(gid, std::chrono::steady_clock::now());
     } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
                info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
@@ -170,8 +170,9 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
     if (removed) {
       graph_.remove_endpoint(gid);
     } else {
-      graph_.add_endpoint(gid,
-                          {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos)});
+      graph_.add_endpoint(
+          gid, {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos), nullptr,
+                value_in(proxy.m_qos.m_userData.data_vec(), "typehash")});
     }
   }
 

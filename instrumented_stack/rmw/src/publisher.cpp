@@ -84,9 +84,10 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
     participant.release_topic(*publisher->topic);
     throw std::runtime_error("Fast DDS cannot create a writer on topic '" + dds_topic + "'");
   }
-  publisher->identity = {to_gid(publisher->writer->guid()),
-                         {GraphCache::Kind::kWriter, dds_topic, dds_type_name(callbacks),
-                          profile_of(publisher->writer->get_qos()), publisher->incompatible_type()}};
+  publisher->identity = {
+      to_gid(publisher->writer->guid()),
+      {GraphCache::Kind::kWriter, dds_topic, dds_type_name(callbacks), profile_of(publisher->writer->get_qos()),
+       publisher->incompatible_type(), callbacks.type_hash_}};
   publisher->topic_name = topic_name;
   publisher->handle = {kIdentifier, publisher.get(), publisher->topic_name.c_str(), options, is_plain(callbacks)};
   TRACETOOLS_TRACEPOINT(rmw_publisher_init, static_cast<const void*>(&publisher->handle),

@@ -95,9 +95,10 @@ void create_reader(Subscription& subscription) {
   if (subscription.reader == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a reader on topic '" + dds_topic + "'");
   }
-  subscription.identity = {to_gid(subscription.reader->guid()),
-                           {GraphCache::Kind::kReader, dds_topic, dds_type_name(*subscription.type),
-                            profile_of(subscription.reader->get_qos()), subscription.incompatible_type()}};
+  subscription.identity = {
+      to_gid(subscription.reader->guid()),
+      {GraphCache::Kind::kReader, dds_topic, dds_type_name(*subscription.type),
+       profile_of(subscription.reader->get_qos()), subscription.incompatible_type(), subscription.type->type_hash_}};
 }
 
 rmw_subscription_t* create_subscription(Participant& participant, const rosidl_message_type_support_t& type_support,

@@ -26,6 +26,7 @@ rmw_topic_endpoint_info_t to_info(const GraphCache::OwnedEndpoint& owned, bool n
   info.node_name = rmw_fastrtps::duplicate(known ? owned.node_name : kUnknownName, allocator);
   info.node_namespace = rmw_fastrtps::duplicate(known ? owned.node_namespace : kUnknownNamespace, allocator);
   info.topic_type = rmw_fastrtps::duplicate(no_mangle ? type : rmw_fastrtps::demangled_type(type), allocator);
+  (void)rosidl_parse_type_hash_string(owned.endpoint.type_hash.c_str(), &info.topic_type_hash);
   info.endpoint_type =
       owned.endpoint.kind == GraphCache::Kind::kWriter ? RMW_ENDPOINT_PUBLISHER : RMW_ENDPOINT_SUBSCRIPTION;
   std::copy(owned.gid.begin(), owned.gid.end(), info.endpoint_gid);

@@ -29,6 +29,9 @@ class TopicEndpointInfo {
   // `std_msgs/msg/String`
   std::string& topic_type() { return topic_type_; }
   const std::string& topic_type() const { return topic_type_; }
+  // Of the type's description; zero if the endpoint does not tell it.
+  rosidl_type_hash_t& topic_type_hash() { return topic_type_hash_; }
+  const rosidl_type_hash_t& topic_type_hash() const { return topic_type_hash_; }
   rclcpp::EndpointType& endpoint_type() { return endpoint_type_; }
   const rclcpp::EndpointType& endpoint_type() const { return endpoint_type_; }
   // Identity in the whole system, as in the trace.
@@ -41,6 +44,7 @@ class TopicEndpointInfo {
   std::string node_name_;
   std::string node_namespace_;
   std::string topic_type_;
+  rosidl_type_hash_t topic_type_hash_;
   rclcpp::EndpointType endpoint_type_;
   std::array<uint8_t, RMW_GID_STORAGE_SIZE> endpoint_gid_;
   QoS qos_profile_;

@@ -6,6 +6,7 @@
 
 #include "rcutils/allocator.h"
 #include "rmw/types.h"
+#include "rosidl_runtime_c/type_hash.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,6 +19,7 @@ typedef struct rmw_topic_endpoint_info_s {
   const char* node_name;
   const char* node_namespace;
   const char* topic_type;
+  rosidl_type_hash_t topic_type_hash;  // zero if the endpoint does not tell it
   rmw_endpoint_type_t endpoint_type;
   uint8_t endpoint_gid[RMW_GID_STORAGE_SIZE];
   rmw_qos_profile_t qos_profile;
