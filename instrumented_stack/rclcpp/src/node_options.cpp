@@ -13,11 +13,13 @@ NodeOptions& NodeOptions::context(Context::SharedPtr context) {
 
 NodeOptions& NodeOptions::arguments(const std::vector<std::string>& arguments) {
   arguments_ = arguments;
+  rcl_node_options_.reset();
   return *this;
 }
 
 NodeOptions& NodeOptions::use_global_arguments(bool use_global_arguments) {
   use_global_arguments_ = use_global_arguments;
+  rcl_node_options_.reset();
   return *this;
 }
 
@@ -38,6 +40,7 @@ NodeOptions& NodeOptions::enable_topic_statistics(bool enable_topic_statistics) 
 
 NodeOptions& NodeOptions::enable_rosout(bool enable_rosout) {
   enable_rosout_ = enable_rosout;
+  rcl_node_options_.reset();
   return *this;
 }
 
@@ -48,6 +51,7 @@ NodeOptions& NodeOptions::enable_logger_service(bool enable_logger_service) {
 
 NodeOptions& NodeOptions::rosout_qos(const QoS& rosout_qos) {
   rosout_qos_ = rosout_qos;
+  rcl_node_options_.reset();
   return *this;
 }
 
@@ -82,6 +86,35 @@ NodeOptions& NodeOptions::clock_type(rcl_clock_type_t clock_type) {
   return *this;
 }
 
+NodeOptions& NodeOptions::parameter_event_publisher_options(
+    const PublisherOptionsBase& parameter_event_publisher_options) {
+  parameter_event_publisher_options_ = parameter_event_publisher_options;
+  return *this;
+}
+
+NodeOptions& NodeOptions::clock_qos(const QoS& clock_qos) {
+  clock_qos_ = clock_qos;
+  return *this;
+}
+
+NodeOptions& NodeOptions::use_clock_thread(bool use_clock_thread) {
+  use_clock_thread_ = use_clock_thread;
+  return *this;
+}
+
+NodeOptions& NodeOptions::allocator(rcl_allocator_t allocator) {
+  allocator_ = allocator;
+  rcl_node_options_.reset();
+  return *this;
+}
+
+const rcl_node_options_t* NodeOptions::get_rcl_node_options() const {
+  if (!rcl_node_options_) {
+    rcl_node_options_ = make_rcl_node_options();
+  }
+  return rcl_node_options_.get();
+}
+
 std::shared_ptr<const rcl_node_options_t> NodeOptions::make_rcl_node_options() const {
   const std::shared_ptr<rcl_node_options_t> options(new rcl_node_options_t(rcl_node_get_default_options()),
                                                     [](rcl_node_options_t* finished) {
@@ -90,6 +123,7 @@ std::shared_ptr<const rcl_node_options_t> NodeOptions::make_rcl_node_options() c
                                                       }
                                                       delete finished;
                                                     });
+  options->allocator = allocator_;
   options->use_global_arguments = use_global_arguments_;
   options->enable_rosout = enable_rosout_;
   options->rosout_qos = rosout_qos_.get_rmw_qos_profile();

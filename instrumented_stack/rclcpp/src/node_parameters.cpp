@@ -102,7 +102,7 @@ NodeParameters::NodeParameters(NodeBaseInterface::SharedPtr node_base,
     services_ = std::make_unique<ParameterService>(node_base_, node_services, this);
   }
   if (options.start_parameter_event_publisher()) {
-    PublisherOptions events_options;
+    PublisherOptions events_options(options.parameter_event_publisher_options());
     events_options.use_default_callbacks = false;
     events_publisher_ = std::make_shared<Publisher<ParameterEvent>>(node_base_.get(), "/parameter_events",
                                                                     options.parameter_event_qos(), events_options);

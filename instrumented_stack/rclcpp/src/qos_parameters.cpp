@@ -156,4 +156,18 @@ QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces:
   return overridden;
 }
 
+QoS overridden_qos(const QosOverridingOptions& options,
+                   const std::shared_ptr<node_interfaces::NodeParametersInterface>& parameters,
+                   const node_interfaces::NodeBaseInterface& node_base, const std::string& topic_name, const QoS& qos,
+                   QosEntity entity) {
+  if (options.get_policy_kinds().empty()) {
+    return qos;
+  }
+  if (!parameters) {
+    throw std::runtime_error("passed non-default qos overriding options without providing a parameters interface");
+  }
+  return declare_qos_parameters(options, *parameters, node_base.resolve_topic_or_service_name(topic_name, false), qos,
+                                entity);
+}
+
 }  // namespace rclcpp::detail

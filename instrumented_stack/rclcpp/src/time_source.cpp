@@ -1,8 +1,20 @@
-#include "time_source.hpp"
+#include "rclcpp/time_source.hpp"
 
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <rosgraph_msgs/msg/clock.hpp>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "rclcpp/create_subscription.hpp"
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/executors/single_threaded_executor.hpp"
 
-namespace rclcpp::node_interfaces {
+namespace rclcpp {
 
 namespace {
 
@@ -14,46 +26,239 @@ void require_ok(rcl_ret_t ret, const char* what) {
   }
 }
 
+// Receives /clock for one time source, in a group that nothing else serves. It is not ended by what it runs itself:
+// that is called under the lock of the clock, which the end of simulated time needs.
+class ClockThread {
+ public:
+  explicit ClockThread(node_interfaces::NodeBaseInterface::SharedPtr node_base)
+      : group_(node_base->create_callback_group(CallbackGroupType::MutuallyExclusive, false)),
+        executor_(std::make_shared<executors::SingleThreadedExecutor>(options_of(*node_base))) {
+    executor_->add_callback_group(group_, node_base);
+  }
+  ~ClockThread() {
+    end_.set_value();
+    executor_->cancel();
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+  ClockThread(const ClockThread&) = delete;
+  ClockThread& operator=(const ClockThread&) = delete;
+
+  const CallbackGroup::SharedPtr& group() const { return group_; }
+  void start() {
+    thread_ = std::thread(
+        [executor = executor_, end = end_.get_future().share()] { executor->spin_until_future_complete(end); });
+  }
+
+ private:
+  static ExecutorOptions options_of(const node_interfaces::NodeBaseInterface& node_base) {
+    ExecutorOptions options;
+    options.context = node_base.get_context();
+    return options;
+  }
+
+  CallbackGroup::SharedPtr group_;
+  std::shared_ptr<executors::SingleThreadedExecutor> executor_;
+  std::promise<void> end_;
+  std::thread thread_;
+};
+
 }  // namespace
 
-TimeSource::TimeSource(Node& node) : node_(node), clock_(node.get_clock()) {
-  if (!node.has_parameter(kParameter)) {
-    node.declare_parameter(kParameter, false);
-  }
-  use_sim_time(node.get_parameter(kParameter).as_bool());
-  parameter_callback_ = node.add_post_set_parameters_callback([this](const std::vector<Parameter>& parameters) {
-    for (const Parameter& parameter : parameters) {
-      if (parameter.get_name() == kParameter && parameter.get_type() == PARAMETER_BOOL) {
-        use_sim_time(parameter.as_bool());
+class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
+ public:
+  Impl(const QoS& qos, bool use_clock_thread) : qos_(qos), use_clock_thread_(use_clock_thread) {}
+
+  void attach_node(node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                   node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                   node_interfaces::NodeParametersInterface::SharedPtr node_parameters) {
+    detach_node();
+    if (!node_parameters->has_parameter(kParameter)) {
+      node_parameters->declare_parameter(kParameter, ParameterValue(false));
+    }
+    const bool enabled = node_parameters->get_parameter(kParameter).as_bool();
+    // Weakly: the node owns what it calls.
+    auto on_change = [weak = weak_from_this()](const std::vector<Parameter>& parameters) {
+      const auto self = weak.lock();
+      for (const Parameter& parameter : parameters) {
+        if (self && parameter.get_name() == kParameter && parameter.get_type() == PARAMETER_BOOL) {
+          self->use_sim_time(parameter.as_bool());
+        }
       }
+    };
+    // Not under our lock: a parameter that is set calls back under the lock of the node's parameters.
+    auto callback = node_parameters->add_post_set_parameters_callback(std::move(on_change));
+    {
+      const std::lock_guard lock(mutex_);
+      node_base_ = std::move(node_base);
+      node_topics_ = std::move(node_topics);
+      node_parameters_ = std::move(node_parameters);
+      parameter_callback_ = std::move(callback);
     }
-  });
-}
-
-void TimeSource::use_sim_time(bool enabled) {
-  if (clock_->get_clock_type() != RCL_ROS_TIME || enabled == (subscription_ != nullptr)) {
-    return;
+    use_sim_time(enabled);
   }
-  {
-    const std::lock_guard lock(clock_->get_clock_mutex());
+
+  void detach_node() {
+    use_sim_time(false);
+    const std::lock_guard lock(mutex_);
+    parameter_callback_.reset();
+    node_base_.reset();
+    node_topics_.reset();
+    node_parameters_.reset();
+  }
+
+  void attach_clock(const Clock::SharedPtr& clock) {
+    if (clock->get_clock_type() != RCL_ROS_TIME) {
+      throw std::invalid_argument("cannot attach a clock of another type than RCL_ROS_TIME to a time source");
+    }
+    const std::lock_guard lock(mutex_);
+    clocks_.push_back(clock);
+    if (subscription_) {
+      enable(*clock, true);
+      set(*clock, last_time_);
+    }
+  }
+
+  void detach_clock(const Clock::SharedPtr& clock) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find(clocks_.begin(), clocks_.end(), clock);
+    if (found != clocks_.end()) {
+      enable(*clock, false);
+      clocks_.erase(found);
+    }
+  }
+
+  bool get_use_clock_thread() const {
+    const std::lock_guard lock(mutex_);
+    return use_clock_thread_;
+  }
+  void set_use_clock_thread(bool use_clock_thread) {
+    const std::lock_guard lock(mutex_);
+    use_clock_thread_ = use_clock_thread;
+  }
+  bool has_thread() const {
+    const std::lock_guard lock(mutex_);
+    return thread_ != nullptr;
+  }
+
+ private:
+  void use_sim_time(bool enabled) {
+    // Ended after the lock, for which its thread may wait.
+    std::unique_ptr<ClockThread> ended;
+    Subscription<rosgraph_msgs::msg::Clock>::SharedPtr ended_subscription;
+    const std::lock_guard lock(mutex_);
+    if (enabled == (subscription_ != nullptr) || (enabled && !node_base_)) {
+      return;
+    }
+    for (const Clock::SharedPtr& clock : clocks_) {
+      enable(*clock, enabled);
+    }
+    if (!enabled) {
+      ended_subscription.swap(subscription_);
+      ended.swap(thread_);
+      return;
+    }
+    last_time_ = 0;
+    SubscriptionOptions options;
+    if (use_clock_thread_) {
+      thread_ = std::make_unique<ClockThread>(node_base_);
+      options.callback_group = thread_->group();
+    }
+    subscription_ = create_subscription<rosgraph_msgs::msg::Clock>(
+        node_parameters_, node_topics_, "/clock", qos_,
+        [weak = weak_from_this()](const rosgraph_msgs::msg::Clock& message) {
+          if (const auto self = weak.lock()) {
+            self->set_time(Time(message.clock).nanoseconds());
+          }
+        },
+        options);
+    if (thread_) {
+      thread_->start();
+    }
+  }
+
+  void set_time(rcl_time_point_value_t time) {
+    const std::lock_guard lock(mutex_);
+    if (!subscription_) {
+      return;
+    }
+    last_time_ = time;
+    for (const Clock::SharedPtr& clock : clocks_) {
+      set(*clock, time);
+    }
+  }
+
+  static void enable(Clock& clock, bool enabled) {
+    const std::lock_guard lock(clock.get_clock_mutex());
     if (enabled) {
-      require_ok(rcl_enable_ros_time_override(clock_->get_clock_handle()), "failed to enable simulated time");
+      require_ok(rcl_enable_ros_time_override(clock.get_clock_handle()), "failed to enable simulated time");
     } else {
-      require_ok(rcl_disable_ros_time_override(clock_->get_clock_handle()), "failed to disable simulated time");
+      require_ok(rcl_disable_ros_time_override(clock.get_clock_handle()), "failed to disable simulated time");
     }
   }
-  if (enabled) {
-    subscription_ = node_.create_subscription<rosgraph_msgs::msg::Clock>(
-        "/clock", ClockQoS(), [this](const rosgraph_msgs::msg::Clock& message) { set_time(message); });
-  } else {
-    subscription_.reset();
+
+  static void set(Clock& clock, rcl_time_point_value_t time) {
+    const std::lock_guard lock(clock.get_clock_mutex());
+    require_ok(rcl_set_ros_time_override(clock.get_clock_handle(), time), "failed to set simulated time");
   }
+
+  const QoS qos_;
+  mutable std::recursive_mutex mutex_;  // recursive: what waits for a jump of a clock may attach and detach
+  bool use_clock_thread_;
+  node_interfaces::NodeBaseInterface::SharedPtr node_base_;
+  node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
+  node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
+  std::vector<Clock::SharedPtr> clocks_;
+  node_interfaces::PostSetParametersCallbackHandle::SharedPtr parameter_callback_;
+  // While time is simulated. The thread goes first.
+  Subscription<rosgraph_msgs::msg::Clock>::SharedPtr subscription_;
+  std::unique_ptr<ClockThread> thread_;
+  rcl_time_point_value_t last_time_ = 0;
+};
+
+TimeSource::TimeSource(const QoS& qos, bool use_clock_thread) : impl_(std::make_shared<Impl>(qos, use_clock_thread)) {}
+
+TimeSource::TimeSource(const Node::SharedPtr& node, const QoS& qos, bool use_clock_thread)
+    : TimeSource(qos, use_clock_thread) {
+  attachNode(node);
 }
 
-void TimeSource::set_time(const rosgraph_msgs::msg::Clock& message) {
-  const std::lock_guard lock(clock_->get_clock_mutex());
-  require_ok(rcl_set_ros_time_override(clock_->get_clock_handle(), Time(message.clock).nanoseconds()),
-             "failed to set simulated time");
+TimeSource::~TimeSource() {
+  impl_->detach_node();
 }
 
-}  // namespace rclcpp::node_interfaces
+void TimeSource::attachNode(const Node::SharedPtr& node) {
+  impl_->attach_node(node->get_node_base_interface(), node->get_node_topics_interface(),
+                     node->get_node_parameters_interface());
+}
+void TimeSource::attachNode(node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                            node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                            node_interfaces::NodeGraphInterface::SharedPtr /*node_graph*/,
+                            node_interfaces::NodeServicesInterface::SharedPtr /*node_services*/,
+                            node_interfaces::NodeLoggingInterface::SharedPtr /*node_logging*/,
+                            node_interfaces::NodeClockInterface::SharedPtr /*node_clock*/,
+                            node_interfaces::NodeParametersInterface::SharedPtr node_parameters) {
+  impl_->attach_node(std::move(node_base), std::move(node_topics), std::move(node_parameters));
+}
+void TimeSource::detachNode() {
+  impl_->detach_node();
+}
+void TimeSource::attachClock(const Clock::SharedPtr& clock) {
+  impl_->attach_clock(clock);
+}
+void TimeSource::detachClock(const Clock::SharedPtr& clock) {
+  impl_->detach_clock(clock);
+}
+
+bool TimeSource::get_use_clock_thread() {
+  return impl_->get_use_clock_thread();
+}
+void TimeSource::set_use_clock_thread(bool use_clock_thread) {
+  impl_->set_use_clock_thread(use_clock_thread);
+}
+bool TimeSource::clock_thread_is_joinable() {
+  return impl_->has_thread();
+}
+
+}  // namespace rclcpp

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "rclcpp/detail/qos_parameters.hpp"
-#include "rclcpp/node_interfaces/get_node_interface.hpp"
-#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_interfaces/get_node_parameters_interface.hpp"
+#include "rclcpp/node_interfaces/get_node_topics_interface.hpp"
 #include "rclcpp/publisher.hpp"
 
 namespace rclcpp {
 
-// Throws exceptions::InvalidTopicNameError, exceptions::InvalidQosOverridesException, exceptions::RCLError, and what
-// the constructor of PublisherT throws.
+// `node_parameters` may be null if no policy is to be overridden. Throws exceptions::InvalidTopicNameError,
+// exceptions::InvalidQosOverridesException, exceptions::RCLError, and what the constructor of PublisherT throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename PublisherT = Publisher<MessageT, AllocatorT>>
 std::shared_ptr<PublisherT> create_publisher(
@@ -22,27 +22,23 @@ std::shared_ptr<PublisherT> create_publisher(
     const QoS& qos,
     const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
   const auto node_base = node_topics->get_node_base_interface();
-  QoS actual_qos = qos;
-  if (!options.qos_overriding_options.get_policy_kinds().empty()) {
-    actual_qos = detail::declare_qos_parameters(options.qos_overriding_options, *node_parameters,
-                                                node_base->resolve_topic_or_service_name(topic_name, false), qos,
-                                                detail::QosEntity::Publisher);
-  }
+  const QoS actual_qos = detail::overridden_qos(options.qos_overriding_options, node_parameters, *node_base, topic_name,
+                                                qos, detail::QosEntity::Publisher);
   auto publisher = std::make_shared<PublisherT>(node_base.get(), topic_name, actual_qos, options);
   publisher->post_init_setup(node_base.get(), topic_name, actual_qos, options);
   node_topics->add_publisher(publisher, options.callback_group);
   return publisher;
 }
 
-// `node` is a Node, a pointer to one, or the like.
+// `node` is a Node, a pointer to one, or the like, or the topics interface of one alone.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename PublisherT = Publisher<MessageT, AllocatorT>, typename NodeT>
 std::shared_ptr<PublisherT> create_publisher(
     NodeT&& node, const std::string& topic_name, const QoS& qos,
     const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
-  auto& actual_node = node_interfaces::dereferenced(node);
-  return create_publisher<MessageT, AllocatorT, PublisherT>(
-      actual_node.get_node_parameters_interface(), actual_node.get_node_topics_interface(), topic_name, qos, options);
+  return create_publisher<MessageT, AllocatorT, PublisherT>(node_interfaces::find_node_parameters_interface(node),
+                                                            node_interfaces::get_node_topics_interface(node),
+                                                            topic_name, qos, options);
 }
 
 }  // namespace rclcpp

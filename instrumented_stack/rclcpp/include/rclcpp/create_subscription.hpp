@@ -8,13 +8,16 @@
 
 #include "rclcpp/detail/qos_parameters.hpp"
 #include "rclcpp/detail/topic_statistics.hpp"
-#include "rclcpp/node_interfaces/get_node_interface.hpp"
+#include "rclcpp/node_interfaces/get_node_parameters_interface.hpp"
+#include "rclcpp/node_interfaces/get_node_timers_interface.hpp"
+#include "rclcpp/node_interfaces/get_node_topics_interface.hpp"
 #include "rclcpp/subscription.hpp"
 
 namespace rclcpp {
 
-// Without timers there are no statistics. Throws exceptions::InvalidTopicNameError,
-// exceptions::InvalidQosOverridesException, exceptions::RCLError, and what the constructor of SubscriptionT throws.
+// `node_parameters` may be null if no policy is to be overridden. Without timers there are no statistics. Throws
+// exceptions::InvalidTopicNameError, exceptions::InvalidQosOverridesException, exceptions::RCLError, and what the
+// constructor of SubscriptionT throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename SubscriptionT = Subscription<MessageT, AllocatorT>, typename CallbackT>
 std::shared_ptr<SubscriptionT> create_subscription(
@@ -24,12 +27,8 @@ std::shared_ptr<SubscriptionT> create_subscription(
     const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>(),
     const std::shared_ptr<node_interfaces::NodeTimersInterface>& node_timers = nullptr) {
   const auto node_base = node_topics->get_node_base_interface();
-  QoS actual_qos = qos;
-  if (!options.qos_overriding_options.get_policy_kinds().empty()) {
-    actual_qos = detail::declare_qos_parameters(options.qos_overriding_options, *node_parameters,
-                                                node_base->resolve_topic_or_service_name(topic_name, false), qos,
-                                                detail::QosEntity::Subscription);
-  }
+  const QoS actual_qos = detail::overridden_qos(options.qos_overriding_options, node_parameters, *node_base, topic_name,
+                                                qos, detail::QosEntity::Subscription);
   AnySubscriptionCallback<MessageT, AllocatorT> any_callback(*options.get_allocator());
   any_callback.set(std::forward<CallbackT>(callback));
   auto statistics =
@@ -41,17 +40,16 @@ std::shared_ptr<SubscriptionT> create_subscription(
   return subscription;
 }
 
-// `node` is a Node, a pointer to one, or the like. Throws std::invalid_argument for topic statistics with a period that
-// is not positive, and what the function above throws.
+// `node` is a Node, a pointer to one, or the like, or the topics interface of one alone. Throws std::invalid_argument
+// for topic statistics with a period that is not positive, and what the function above throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename SubscriptionT = Subscription<MessageT, AllocatorT>, typename CallbackT, typename NodeT>
 std::shared_ptr<SubscriptionT> create_subscription(
     NodeT&& node, const std::string& topic_name, const QoS& qos, CallbackT&& callback,
     const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
-  auto& actual_node = node_interfaces::dereferenced(node);
   return create_subscription<MessageT, AllocatorT, SubscriptionT>(
-      actual_node.get_node_parameters_interface(), actual_node.get_node_topics_interface(), topic_name, qos,
-      std::forward<CallbackT>(callback), options, actual_node.get_node_timers_interface());
+      node_interfaces::find_node_parameters_interface(node), node_interfaces::get_node_topics_interface(node),
+      topic_name, qos, std::forward<CallbackT>(callback), options, node_interfaces::find_node_timers_interface(node));
 }
 
 }  // namespace rclcpp

@@ -40,9 +40,7 @@
 
 namespace rclcpp {
 
-namespace node_interfaces {
 class TimeSource;
-}
 
 class Node : public std::enable_shared_from_this<Node> {
  public:
@@ -328,7 +326,7 @@ class Node : public std::enable_shared_from_this<Node> {
   node_interfaces::NodeClockInterface::SharedPtr node_clock_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   node_interfaces::NodeTypeDescriptionsInterface::SharedPtr node_type_descriptions_;
-  std::unique_ptr<node_interfaces::TimeSource> time_source_;
+  std::unique_ptr<TimeSource> time_source_;
   std::string sub_namespace_;
   std::string effective_namespace_;
 };

@@ -11,6 +11,7 @@
 #include "rclcpp/context.hpp"
 #include "rclcpp/contexts/default_context.hpp"
 #include "rclcpp/parameter.hpp"
+#include "rclcpp/publisher_options.hpp"
 #include "rclcpp/qos.hpp"
 
 namespace rclcpp {
@@ -66,6 +67,10 @@ class NodeOptions {
   const QoS& parameter_event_qos() const { return parameter_event_qos_; }
   NodeOptions& parameter_event_qos(const QoS& parameter_event_qos);
 
+  // Beside the QoS; its event callbacks, for instance.
+  const PublisherOptionsBase& parameter_event_publisher_options() const { return parameter_event_publisher_options_; }
+  NodeOptions& parameter_event_publisher_options(const PublisherOptionsBase& parameter_event_publisher_options);
+
   // Whether parameters may be set without having been declared. Default false.
   bool allow_undeclared_parameters() const { return allow_undeclared_parameters_; }
   NodeOptions& allow_undeclared_parameters(bool allow_undeclared_parameters);
@@ -80,8 +85,22 @@ class NodeOptions {
   rcl_clock_type_t clock_type() const { return clock_type_; }
   NodeOptions& clock_type(rcl_clock_type_t clock_type);
 
-  // The same for rcl, which owns the parsed arguments. Throws exceptions::UnknownROSArgsError and
-  // exceptions::RCLInvalidROSArgsError.
+  // Of the subscription of /clock while time is simulated.
+  const QoS& clock_qos() const { return clock_qos_; }
+  NodeOptions& clock_qos(const QoS& clock_qos);
+
+  // Whether a thread receives simulated time, or whoever spins the node. Default true.
+  bool use_clock_thread() const { return use_clock_thread_; }
+  NodeOptions& use_clock_thread(bool use_clock_thread);
+
+  // Of the memory of rcl's options.
+  const rcl_allocator_t& allocator() const { return allocator_; }
+  NodeOptions& allocator(rcl_allocator_t allocator);
+
+  // The same for rcl, which owns the parsed arguments; valid until these options are changed or destroyed. Not thread
+  // safe. Throws exceptions::UnknownROSArgsError and exceptions::RCLInvalidROSArgsError.
+  const rcl_node_options_t* get_rcl_node_options() const;
+  // The same, of which the caller is an owner.
   std::shared_ptr<const rcl_node_options_t> make_rcl_node_options() const;
 
  private:
@@ -100,6 +119,11 @@ class NodeOptions {
   bool allow_undeclared_parameters_ = false;
   bool automatically_declare_parameters_from_overrides_ = false;
   rcl_clock_type_t clock_type_ = RCL_ROS_TIME;
+  PublisherOptionsBase parameter_event_publisher_options_;
+  QoS clock_qos_ = ClockQoS();
+  bool use_clock_thread_ = true;
+  rcl_allocator_t allocator_ = rcl_get_default_allocator();
+  mutable std::shared_ptr<const rcl_node_options_t> rcl_node_options_;  // null: not made since a change
 };
 
 }  // namespace rclcpp

@@ -1,10 +1,13 @@
 // Keeps a loop at a frequency: `while (rclcpp::ok()) { …; rate.sleep(); }`.
 #pragma once
 
+#include <chrono>
+
 #include "rclcpp/clock.hpp"
 #include "rclcpp/duration.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/time.hpp"
+#include "rclcpp/utilities.hpp"
 
 namespace rclcpp {
 
@@ -50,6 +53,49 @@ class ROSRate : public Rate {
  public:
   explicit ROSRate(double rate) : Rate(rate, std::make_shared<Clock>(RCL_ROS_TIME)) {}
   explicit ROSRate(const Duration& period) : Rate(period, std::make_shared<Clock>(RCL_ROS_TIME)) {}
+};
+
+// On the clock of a C++ type, as before Rate took clocks.
+template <typename ClockT = std::chrono::high_resolution_clock>
+class [[deprecated("use rclcpp::Rate class instead of GenericRate")]] GenericRate : public RateBase {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(GenericRate)
+
+  explicit GenericRate(double rate)
+      : GenericRate(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(1.0 / rate))) {}
+  explicit GenericRate(std::chrono::nanoseconds period) : period_(period), last_interval_(ClockT::now()) {}
+
+  bool sleep() override {
+    const auto now = ClockT::now();
+    auto next = last_interval_ + std::chrono::duration_cast<typename ClockT::duration>(period_);
+    if (now < last_interval_) {
+      next = now + std::chrono::duration_cast<typename ClockT::duration>(period_);  // time has jumped back
+    }
+    last_interval_ = next;
+    if (next <= now) {
+      if (now > next + period_) {
+        last_interval_ = now;
+      }
+      return false;
+    }
+    return sleep_for(std::chrono::duration_cast<std::chrono::nanoseconds>(next - now));
+  }
+  bool is_steady() const {
+    return ClockT::is_steady;
+  }
+  rcl_clock_type_t get_type() const override {
+    return ClockT::is_steady ? RCL_STEADY_TIME : RCL_SYSTEM_TIME;
+  }
+  void reset() override {
+    last_interval_ = ClockT::now();
+  }
+  std::chrono::nanoseconds period() const {
+    return period_;
+  }
+
+ private:
+  std::chrono::nanoseconds period_;
+  std::chrono::time_point<ClockT> last_interval_;
 };
 
 }  // namespace rclcpp

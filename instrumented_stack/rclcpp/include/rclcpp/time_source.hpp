@@ -1,7 +1,8 @@
 // Drives clocks from the topic /clock while a node's parameter use_sim_time is true.
 //
-// A node's own clock needs none: each node has one. The messages come through the node's default callback group:
-// simulated time advances while the node is spun.
+// A node's own clock needs none: each node has one. Unless told otherwise, the messages are received by a thread that
+// runs as long as time is simulated: it advances whether or not the node is spun, so that a program can sleep until a
+// time of it anywhere.
 #pragma once
 
 #include <memory>
@@ -18,19 +19,33 @@ class TimeSource {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(TimeSource)
 
-  // `use_clock_thread` has no effect: there is no thread of its own.
+  // Without a thread the messages come through the node's default callback group, when the node is spun.
   explicit TimeSource(const QoS& qos = ClockQoS(), bool use_clock_thread = true);
   explicit TimeSource(const Node::SharedPtr& node, const QoS& qos = ClockQoS(), bool use_clock_thread = true);
   ~TimeSource();
 
-  // Replaces the former node. Throws what creating a subscription throws.
+  // Replaces the former node. Declares use_sim_time unless it is declared. Holds on to the interfaces. Throws what
+  // creating a subscription throws, and exceptions::InvalidParameterTypeException if the parameter is no bool.
   void attachNode(const Node::SharedPtr& node);
+  void attachNode(node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                  node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                  node_interfaces::NodeGraphInterface::SharedPtr node_graph,
+                  node_interfaces::NodeServicesInterface::SharedPtr node_services,
+                  node_interfaces::NodeLoggingInterface::SharedPtr node_logging,
+                  node_interfaces::NodeClockInterface::SharedPtr node_clock,
+                  node_interfaces::NodeParametersInterface::SharedPtr node_parameters);
   void detachNode();
 
   // Throws std::invalid_argument unless the clock's type is RCL_ROS_TIME.
   void attachClock(const Clock::SharedPtr& clock);
   // The clock goes on with the system's time.
   void detachClock(const Clock::SharedPtr& clock);
+
+  // Takes effect when time is next simulated.
+  bool get_use_clock_thread();
+  void set_use_clock_thread(bool use_clock_thread);
+  // Whether the thread runs.
+  bool clock_thread_is_joinable();
 
  private:
   class Impl;

@@ -54,4 +54,12 @@ void on_shutdown(std::function<void()> callback, Context::SharedPtr context = nu
 // True after the whole time has passed, false when the context ended first.
 bool sleep_for(const std::chrono::nanoseconds& nanoseconds, Context::SharedPtr context = nullptr);
 
+// The text as C has it: for log macros that are given either.
+inline const char* get_c_string(const char* string) {
+  return string;
+}
+inline const char* get_c_string(const std::string& string) {
+  return string.c_str();
+}
+
 }  // namespace rclcpp

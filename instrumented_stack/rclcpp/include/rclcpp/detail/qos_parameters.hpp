@@ -1,8 +1,10 @@
 // The parameters of qos_overriding_options.hpp.
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "rclcpp/node_interfaces/node_base.hpp"
 #include "rclcpp/node_interfaces/node_parameters.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/qos_overriding_options.hpp"
@@ -16,5 +18,12 @@ enum class QosEntity { Publisher, Subscription };
 // what declaring parameters throws.
 QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces::NodeParametersInterface& parameters,
                            const std::string& topic_name, const QoS& qos, QosEntity entity);
+
+// The same for an entity on `topic_name` as its creator gave it; `qos` itself if `options` has no policy. Without
+// parameters no policy can be overridden: std::runtime_error.
+QoS overridden_qos(const QosOverridingOptions& options,
+                   const std::shared_ptr<node_interfaces::NodeParametersInterface>& parameters,
+                   const node_interfaces::NodeBaseInterface& node_base, const std::string& topic_name, const QoS& qos,
+                   QosEntity entity);
 
 }  // namespace rclcpp::detail

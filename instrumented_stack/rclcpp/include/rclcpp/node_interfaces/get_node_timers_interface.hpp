@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
 #include "rclcpp/node_interfaces/node_timers.hpp"
@@ -23,6 +25,22 @@ inline std::shared_ptr<NodeTimersInterface> get_node_timers_interface(std::share
 inline std::shared_ptr<NodeTimersInterface> get_node_timers_interface(
     std::shared_ptr<NodeTimersInterface>&& interface) {
   return interface;
+}
+
+template <typename NodeT, typename EnableT = void>
+struct HasNodeTimers : std::false_type {};
+template <typename NodeT>
+struct HasNodeTimers<NodeT, std::void_t<decltype(std::declval<NodeT>().get_node_timers_interface())>> : std::true_type {
+};
+
+// Null if there is none.
+template <typename NodeT>
+std::shared_ptr<NodeTimersInterface> find_node_timers_interface(NodeT& node) {
+  if constexpr (HasNodeTimers<decltype(dereferenced(node))>::value) {
+    return dereferenced(node).get_node_timers_interface();
+  } else {
+    return nullptr;
+  }
 }
 
 }  // namespace rclcpp::node_interfaces

@@ -1,0 +1,14 @@
+// The full name of a topic or service.
+#pragma once
+
+#include <string>
+
+namespace rclcpp {
+
+// Expands `name`, which may be relative, private or hold substitutions, as for a node `node_name` in `namespace_`; no
+// remap rule applies. Throws exceptions::InvalidTopicNameError, exceptions::InvalidServiceNameError,
+// exceptions::InvalidNodeNameError, exceptions::InvalidNamespaceError or exceptions::RCLError.
+std::string expand_topic_or_service_name(const std::string& name, const std::string& node_name,
+                                         const std::string& namespace_, bool is_service = false);
+
+}  // namespace rclcpp

@@ -1,0 +1,198 @@
+// How libraries made on rclcpp use it: they take the interfaces of a node one by one, whatever class the node is of.
+#include <rosidl_runtime_c/type_hash.h>
+
+#include <rclcpp/create_publisher.hpp>
+#include <rclcpp/create_subscription.hpp>
+#include <rclcpp/create_timer.hpp>
+#include <rclcpp/expand_topic_or_service_name.hpp>
+#include <std_msgs/msg/string.hpp>
+#include <string>
+
+#include "tests/unit/rclcpp/ros_test.hpp"
+
+namespace {
+
+using rclcpp::node_interfaces::NodeInterfaces;
+using rclcpp::node_interfaces::NodeParametersInterface;
+using rclcpp::node_interfaces::NodeTopicsInterface;
+using std_msgs::msg::String;
+
+class Library : public RosTest {
+ protected:
+  rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("library", "ns");
+};
+
+template <typename ErrorT = std::invalid_argument, typename ActionT>
+std::string error_of(ActionT action) {
+  try {
+    action();
+  } catch (const ErrorT& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// In the manner of message filters: subscribes with what it keeps of a node, and may do so again.
+class Filter {
+ public:
+  using Interfaces = NodeInterfaces<NodeParametersInterface, NodeTopicsInterface>;
+
+  Filter() = default;
+  template <typename NodeT>
+  Filter(std::shared_ptr<NodeT> node, const std::string& topic) {
+    subscribe(*node, topic);
+  }
+  void subscribe(Interfaces interfaces, const std::string& topic) {
+    auto parameters = interfaces.get<NodeParametersInterface>();
+    auto topics = interfaces.get<NodeTopicsInterface>();
+    subscription = rclcpp::create_subscription<String>(
+        parameters, topics, topic, rclcpp::QoS(1),
+        [this](const std::shared_ptr<const String> message) { last = message->data; }, rclcpp::SubscriptionOptions());
+    interfaces_ = interfaces;
+  }
+
+  rclcpp::Subscription<String>::SharedPtr subscription;
+  std::string last;
+
+ private:
+  Interfaces interfaces_;
+};
+
+// In the manner of a diagnostic updater.
+class Updater {
+ public:
+  template <typename NodeT>
+  explicit Updater(NodeT node)
+      : publisher_(rclcpp::create_publisher<String>(node->get_node_topics_interface(), "topic", 1)),
+        period_(rclcpp::Duration::from_seconds(
+            node->get_node_parameters_interface()
+                ->declare_parameter("period", rclcpp::ParameterValue(0.001), rcl_interfaces::msg::ParameterDescriptor())
+                .template get<double>())),
+        timer_(rclcpp::create_timer(node->get_node_base_interface(), node->get_node_timers_interface(),
+                                    node->get_node_clock_interface()->get_clock(), period_,
+                                    std::bind(&Updater::update, this))) {}
+
+ private:
+  void update() {
+    String message;
+    message.data = "update";
+    publisher_->publish(message);
+  }
+
+  rclcpp::Publisher<String>::SharedPtr publisher_;
+  rclcpp::Duration period_;
+  rclcpp::TimerBase::SharedPtr timer_;
+};
+
+TEST_F(Library, WorksWithTheInterfacesOfANode) {
+  Filter filter(node_, "topic");
+  const Updater updater(node_.get());
+  rclcpp::executors::SingleThreadedExecutor executor;
+  executor.add_node(node_);
+  EXPECT_TRUE(spin_until(executor, [&] { return filter.last == "update"; }));
+}
+
+TEST_F(Library, ATopicsInterfaceAloneHasNoParametersToOverrideAQos) {
+  const auto topics = node_->get_node_topics_interface();
+  const auto subscription = rclcpp::create_subscription<String>(topics, "topic", 1, [](const String&) {});
+  EXPECT_STREQ(subscription->get_topic_name(), "/ns/topic");
+  rclcpp::PublisherOptions options;
+  options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
+  EXPECT_EQ(error_of<std::runtime_error>([&] { rclcpp::create_publisher<String>(topics, "topic", 1, options); }),
+            "passed non-default qos overriding options without providing a parameters interface");
+}
+
+TEST_F(Library, TimersNeedAClockAndInterfaces) {
+  const auto base = node_->get_node_base_interface();
+  const auto timers = node_->get_node_timers_interface();
+  const auto make = [](auto node_base, auto node_timers, const rclcpp::Clock::SharedPtr& clock) {
+    return [=] {
+      rclcpp::create_timer<std::function<void()>>(node_base, node_timers, clock, std::chrono::seconds(1), [] {});
+    };
+  };
+  EXPECT_EQ(error_of(make(base, timers, node_->get_clock())), "no error");
+  EXPECT_EQ(error_of(make(base, timers, nullptr)), "clock cannot be null");
+  EXPECT_EQ(error_of(make(nullptr, timers, node_->get_clock())), "input node_base cannot be null");
+  EXPECT_EQ(error_of(make(base, nullptr, node_->get_clock())), "input node_timers cannot be null");
+  EXPECT_EQ(error_of([&] {
+              rclcpp::create_wall_timer(
+                  std::chrono::seconds(1), [] {}, nullptr, base.get(), nullptr);
+            }),
+            "input node_timers cannot be null");
+}
+
+TEST_F(Library, NamesAreExpandedWithoutANode) {
+  EXPECT_EQ(rclcpp::expand_topic_or_service_name("image", "camera", "/left"), "/left/image");
+  EXPECT_EQ(rclcpp::expand_topic_or_service_name("~/image", "camera", "/left"), "/left/camera/image");
+  EXPECT_EQ(rclcpp::expand_topic_or_service_name("{node}/info", "camera", "/", true), "/camera/info");
+  EXPECT_EQ(rclcpp::expand_topic_or_service_name("/image", "camera", "/left"), "/image");
+  EXPECT_THROW(rclcpp::expand_topic_or_service_name("a b", "camera", "/"), rclcpp::exceptions::InvalidTopicNameError);
+  EXPECT_THROW(rclcpp::expand_topic_or_service_name("a b", "camera", "/", true),
+               rclcpp::exceptions::InvalidServiceNameError);
+  EXPECT_THROW(rclcpp::expand_topic_or_service_name("a", "the camera", "/"), rclcpp::exceptions::InvalidNodeNameError);
+  EXPECT_THROW(rclcpp::expand_topic_or_service_name("a", "camera", "left"), rclcpp::exceptions::InvalidNamespaceError);
+}
+
+TEST_F(Library, OptionsOfANodeBecomeThoseOfRcl) {
+  rclcpp::NodeOptions options;
+  options.use_global_arguments(false).clock_qos(rclcpp::QoS(5)).use_clock_thread(false);
+  EXPECT_EQ(options.clock_qos().depth(), 5U);
+  EXPECT_FALSE(options.use_clock_thread());
+  const rcl_node_options_t* rcl_options = options.get_rcl_node_options();
+  EXPECT_FALSE(rcl_options->use_global_arguments);
+  EXPECT_EQ(options.get_rcl_node_options(), rcl_options);
+  options.arguments({"--ros-args", "-r", "__node:=other"}).enable_rosout(false);
+  EXPECT_FALSE(options.get_rcl_node_options()->enable_rosout);
+  EXPECT_STREQ(rclcpp::Node("node", options).get_name(), "other");
+}
+
+TEST_F(Library, EndpointsTellTheHashOfTheirType) {
+  const auto publisher = node_->create_publisher<String>("topic", 1);
+  // That of std_msgs/msg/String in every ROS 2 since Iron.
+  const std::string expected = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
+  const auto other_context = std::make_shared<rclcpp::Context>();
+  other_context->init(0, nullptr);
+  const auto other = std::make_shared<rclcpp::Node>("other", rclcpp::NodeOptions().context(other_context));
+  for (const auto& node : {node_, other}) {
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (node->count_publishers("/ns/topic") == 0 && std::chrono::steady_clock::now() < deadline) {
+      node->wait_for_graph_change(node->get_graph_event(), std::chrono::milliseconds(10));
+    }
+    const auto infos = node->get_publishers_info_by_topic("/ns/topic");
+    ASSERT_EQ(infos.size(), 1U);
+    const rosidl_type_hash_t& hash = infos[0].topic_type_hash();
+    char* text = nullptr;
+    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+    ASSERT_EQ(rosidl_stringify_type_hash(&hash, allocator, &text), RCUTILS_RET_OK);
+    EXPECT_EQ(text, expected);
+    rosidl_type_hash_t parsed;
+    ASSERT_EQ(rosidl_parse_type_hash_string(text, &parsed), RCUTILS_RET_OK);
+    EXPECT_TRUE(parsed.version == 1 && std::equal(parsed.value, std::end(parsed.value), hash.value));
+    allocator.deallocate(text, allocator.state);
+  }
+  other_context->shutdown("done");
+  rosidl_type_hash_t hash;
+  for (const char* text : {"", "RIHS01_", "no hash", (expected + "0").c_str()}) {
+    EXPECT_EQ(rosidl_parse_type_hash_string(text, &hash), RCUTILS_RET_INVALID_ARGUMENT) << text;
+    EXPECT_EQ(hash.version, ROSIDL_TYPE_HASH_VERSION_UNSET);
+  }
+}
+
+TEST_F(Library, OldNamesAreThere) {
+  EXPECT_STREQ(rclcpp::get_c_string("text"), "text");
+  EXPECT_STREQ(rclcpp::get_c_string(std::string("text")), "text");
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+  rclcpp::GenericRate<std::chrono::steady_clock> rate(std::chrono::milliseconds(5));
+#pragma GCC diagnostic pop
+  EXPECT_EQ(rate.get_type(), RCL_STEADY_TIME);
+  EXPECT_EQ(rate.period(), std::chrono::milliseconds(5));
+  const auto start = std::chrono::steady_clock::now();
+  rate.reset();
+  EXPECT_TRUE(rate.sleep());
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(5));
+  rclcpp::sleep_for(std::chrono::milliseconds(12));
+  EXPECT_FALSE(rate.sleep());
+}
+
+}  // namespace
