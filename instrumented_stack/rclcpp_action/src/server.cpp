@@ -51,7 +51,8 @@ ServerBase::ServerBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr nod
       clock_(std::move(clock)),
       logger_(logger.get_child("rclcpp_action")),
       owner_(std::make_shared<Owner>()),
-      server_(rcl_action_get_zero_initialized_server()) {
+      server_(rcl_action_get_zero_initialized_server()),
+      introspected_type_(type_support) {
   owner_->server = this;
   const std::lock_guard clock_lock(clock_->get_clock_mutex());
   const rcl_ret_t ret = rcl_action_server_init(&server_, node_base_->get_rcl_node_handle(), clock_->get_clock_handle(),
@@ -70,6 +71,18 @@ ServerBase::~ServerBase() {
   const std::lock_guard lock(mutex_);
   const std::lock_guard clock_lock(clock_->get_clock_mutex());
   warn(rcl_action_server_fini(&server_, node_base_->get_rcl_node_handle()), "finalize an action server");
+}
+
+void ServerBase::configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
+                                         rcl_service_introspection_state_t introspection_state) {
+  rcl_publisher_options_t options = rcl_publisher_get_default_options();
+  options.qos = qos_service_event_pub.get_rmw_qos_profile();
+  const std::lock_guard lock(mutex_);
+  require_ok(rcl_action_server_configure_action_introspection(&server_, node_base_->get_rcl_node_handle(),
+                                                              clock ? clock->get_clock_handle() : nullptr,
+                                                              introspected_type_, options, introspection_state),
+             "failed to configure action server introspection");
+  introspection_clock_ = std::move(clock);
 }
 
 size_t ServerBase::get_number_of_ready_timers() {
