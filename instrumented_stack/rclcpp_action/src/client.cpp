@@ -101,18 +101,6 @@ bool ClientBase::wait_for_action_server_nanoseconds(nanoseconds timeout) {
   return false;
 }
 
-void ClientBase::configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
-                                         rcl_service_introspection_state_t introspection_state) {
-  rcl_publisher_options_t options = rcl_publisher_get_default_options();
-  options.qos = qos_service_event_pub.get_rmw_qos_profile();
-  const std::lock_guard lock(mutex_);
-  require_ok(rcl_action_client_configure_action_introspection(&client_, node_base_->get_rcl_node_handle(),
-                                                              clock ? clock->get_clock_handle() : nullptr,
-                                                              introspected_type_, options, introspection_state),
-             "failed to configure action client introspection");
-  introspection_clock_ = std::move(clock);
-}
-
 size_t ClientBase::get_number_of_ready_subscriptions() {
   return 2;
 }

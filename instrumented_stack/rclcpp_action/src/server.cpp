@@ -73,18 +73,6 @@ ServerBase::~ServerBase() {
   warn(rcl_action_server_fini(&server_, node_base_->get_rcl_node_handle()), "finalize an action server");
 }
 
-void ServerBase::configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
-                                         rcl_service_introspection_state_t introspection_state) {
-  rcl_publisher_options_t options = rcl_publisher_get_default_options();
-  options.qos = qos_service_event_pub.get_rmw_qos_profile();
-  const std::lock_guard lock(mutex_);
-  require_ok(rcl_action_server_configure_action_introspection(&server_, node_base_->get_rcl_node_handle(),
-                                                              clock ? clock->get_clock_handle() : nullptr,
-                                                              introspected_type_, options, introspection_state),
-             "failed to configure action server introspection");
-  introspection_clock_ = std::move(clock);
-}
-
 size_t ServerBase::get_number_of_ready_timers() {
   return 1;
 }

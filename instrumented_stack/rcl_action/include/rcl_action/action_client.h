@@ -76,7 +76,7 @@ rcl_ret_t rcl_action_client_set_status_subscription_callback(const rcl_action_cl
                                                              rcl_event_callback_t callback, const void* user_data);
 
 // rcl_client_configure_service_introspection() for the three services: requests that were sent and responses that were
-// taken. `type_support` is that of the action. If it fails for one, the ones after it stay as they are.
+// taken. `type_support` is that of the action. After a failure either nothing has changed or it is off.
 rcl_ret_t rcl_action_client_configure_action_introspection(rcl_action_client_t* action_client, rcl_node_t* node,
                                                            rcl_clock_t* clock,
                                                            const rosidl_action_type_support_t* type_support,

@@ -113,7 +113,7 @@ rcl_ret_t rcl_action_server_get_goal_handles(const rcl_action_server_t* action_s
                                              rcl_action_goal_handle_t*** goal_handles, size_t* num_goals);
 
 // rcl_service_configure_service_introspection() for the three services: requests that were taken and responses that
-// were sent. `type_support` is that of the action. If it fails for one, the ones after it stay as they are.
+// were sent. `type_support` is that of the action. After a failure either nothing has changed or it is off.
 rcl_ret_t rcl_action_server_configure_action_introspection(rcl_action_server_t* action_server, rcl_node_t* node,
                                                            rcl_clock_t* clock,
                                                            const rosidl_action_type_support_t* type_support,
