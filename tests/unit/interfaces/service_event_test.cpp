@@ -1,7 +1,7 @@
 // The messages that tell of the calls of a service.
 #include <gtest/gtest.h>
-#include <rosidl_typesupport_cpp/service_type_support.hpp>
 
+#include <rosidl_typesupport_cpp/service_type_support.hpp>
 #include <stdexcept>
 #include <type_traits>
 
@@ -112,8 +112,7 @@ TEST(ServiceEvent, HasTheBytesOfItsMembers) {
 
 TEST(ServiceEvent, TypeSupportIsThatOfAMessage) {
   const auto* handle = rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>();
-  EXPECT_EQ(handle->event_typesupport,
-            rosidl_typesupport_cpp::get_message_type_support_handle<AddTwoInts::Event>());
+  EXPECT_EQ(handle->event_typesupport, rosidl_typesupport_cpp::get_message_type_support_handle<AddTwoInts::Event>());
   EXPECT_STREQ(callbacks<AddTwoInts::Event>().message_namespace_, "test_interfaces::srv");
   EXPECT_STREQ(callbacks<AddTwoInts::Event>().message_name_, "AddTwoInts_Event");
   EXPECT_STREQ(rosidl_generator_traits::name<AddTwoInts::Event>(), "test_interfaces/srv/AddTwoInts_Event");

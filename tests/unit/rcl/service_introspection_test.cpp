@@ -99,8 +99,9 @@ TEST_F(RclServiceIntrospection, WrongArgumentsAreRefused) {
   EXPECT_EQ(refused(&service_, nullptr, &clock_, type_support(), kOn), "11: node argument is null");
   EXPECT_EQ(refused(&service_, &node_.handle, nullptr, type_support(), kOn), "11: clock argument is null");
   EXPECT_EQ(refused(&service_, &node_.handle, &clock_, nullptr, kOn), "11: type_support argument is null");
-  EXPECT_EQ(refused(&service_, &node_.handle, &clock_, type_support(), static_cast<rcl_service_introspection_state_t>(3)),
-            "11: there is no such state of service introspection");
+  EXPECT_EQ(
+      refused(&service_, &node_.handle, &clock_, type_support(), static_cast<rcl_service_introspection_state_t>(3)),
+      "11: there is no such state of service introspection");
   rcl_clock_t no_clock{};
   EXPECT_EQ(refused(&service_, &node_.handle, &no_clock, type_support(), kOn), "11: the clock is not initialized");
   rcl_node_t no_node = rcl_get_zero_initialized_node();
@@ -112,8 +113,9 @@ TEST_F(RclServiceIntrospection, WrongArgumentsAreRefused) {
   EXPECT_EQ(publishers(), 0u);
 
   rcl_client_t no_client = rcl_get_zero_initialized_client();
-  EXPECT_EQ(rcl_client_configure_service_introspection(&no_client, &node_.handle, &clock_, type_support(), options, kOn),
-            RCL_RET_CLIENT_INVALID);
+  EXPECT_EQ(
+      rcl_client_configure_service_introspection(&no_client, &node_.handle, &clock_, type_support(), options, kOn),
+      RCL_RET_CLIENT_INVALID);
   EXPECT_EQ(take_error(), "the client is not initialized");
   EXPECT_EQ(rcl_client_configure_service_introspection(&client_, &node_.handle, nullptr, type_support(), options, kOn),
             RCL_RET_INVALID_ARGUMENT);
@@ -125,10 +127,10 @@ TEST_F(RclServiceIntrospection, FailureLeavesItAsItWas) {
   EXPECT_EQ(configure_service(static_cast<rcl_service_introspection_state_t>(3)), RCL_RET_INVALID_ARGUMENT);
   rcl_reset_error();
   rcl_node_t no_node = rcl_get_zero_initialized_node();
-  EXPECT_EQ(rcl_service_configure_service_introspection(&service_, &no_node, &clock_, type_support(),
-                                                        rcl_publisher_get_default_options(),
-                                                        RCL_SERVICE_INTROSPECTION_OFF),
-            RCL_RET_NODE_INVALID);
+  EXPECT_EQ(
+      rcl_service_configure_service_introspection(&service_, &no_node, &clock_, type_support(),
+                                                  rcl_publisher_get_default_options(), RCL_SERVICE_INTROSPECTION_OFF),
+      RCL_RET_NODE_INVALID);
   rcl_reset_error();
   EXPECT_EQ(publishers(), 1u);
   EXPECT_EQ(configure_service(RCL_SERVICE_INTROSPECTION_OFF), RCL_RET_OK);

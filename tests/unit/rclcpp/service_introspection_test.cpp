@@ -208,12 +208,12 @@ TEST_F(ServiceIntrospection, NeedsAClock) {
 
 TEST_F(ServiceIntrospection, ServicesWhoseTypeIsKnownAtRunTimeHaveItToo) {
   service_.reset();
-  const auto service = node_->create_generic_service(
-      "add_two_ints", "example_interfaces/srv/AddTwoInts",
-      [](std::shared_ptr<void> request, std::shared_ptr<void> response) {
-        const auto& asked = *static_cast<AddTwoInts::Request*>(request.get());
-        static_cast<AddTwoInts::Response*>(response.get())->sum = asked.a + asked.b;
-      });
+  const auto service =
+      node_->create_generic_service("add_two_ints", "example_interfaces/srv/AddTwoInts",
+                                    [](std::shared_ptr<void> request, std::shared_ptr<void> response) {
+                                      const auto& asked = *static_cast<AddTwoInts::Request*>(request.get());
+                                      static_cast<AddTwoInts::Response*>(response.get())->sum = asked.a + asked.b;
+                                    });
   ASSERT_TRUE(client_->wait_for_service(kPatience));
   configure(*service, RCL_SERVICE_INTROSPECTION_CONTENTS);
   listen();
@@ -228,8 +228,8 @@ TEST_F(ServiceIntrospection, MayChangeWhileCallsGoOn) {
   std::atomic_bool done{false};
   std::thread changing([&] {
     while (!done) {
-      for (const auto state : {RCL_SERVICE_INTROSPECTION_CONTENTS, RCL_SERVICE_INTROSPECTION_METADATA,
-                               RCL_SERVICE_INTROSPECTION_OFF}) {
+      for (const auto state :
+           {RCL_SERVICE_INTROSPECTION_CONTENTS, RCL_SERVICE_INTROSPECTION_METADATA, RCL_SERVICE_INTROSPECTION_OFF}) {
         configure(*service_, state);
         configure(*client_, state);
       }

@@ -89,9 +89,8 @@ TEST_F(ActionIntrospection, TellsOfTheThreeServices) {
   Watcher<CancelGoal> cancel(*node_, "cancel_goal");
   Watcher<GetResult> result(*node_, "get_result");
   run_goal();
-  EXPECT_TRUE(spin_until(executor_, [&] {
-    return goal.told.size() >= 4 && cancel.told.size() >= 4 && result.told.size() >= 4;
-  }));
+  EXPECT_TRUE(spin_until(executor_,
+                         [&] { return goal.told.size() >= 4 && cancel.told.size() >= 4 && result.told.size() >= 4; }));
   EXPECT_THAT(goal.told, UnorderedElementsAre("0: 0/0", "1: 1/0", "2: 0/1", "3: 0/0"));
   EXPECT_THAT(cancel.told, UnorderedElementsAre("0: 0/0", "1: 1/0", "2: 0/1", "3: 0/0"));
   EXPECT_THAT(result.told, UnorderedElementsAre("0: 0/0", "1: 1/0", "2: 0/1", "3: 0/0"));
