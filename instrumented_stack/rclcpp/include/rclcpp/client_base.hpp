@@ -66,7 +66,7 @@ class ClientBase {
 
   // Lets the client publish what happens to its calls (requests sent and responses taken) on its name and
   // "/_service_event", or ends that. `qos_service_event_pub` counts when it is off so far; the clock gives the events
-  // their times. Any thread. Throws exceptions::RCLError, for a clock that is null among others.
+  // their times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a clock that is null.
   void configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
                                rcl_service_introspection_state_t introspection_state);
 
