@@ -4,7 +4,11 @@
 #include "rcl/node_type_cache.h"
 #include "rmw/rmw.h"
 #include "rmw/type_description.h"
+#include "service_event_publisher.hpp"
+#include "service_msgs/msg/service_event_info.hpp"
 #include "tracetools/tracetools.h"
+
+using service_msgs::msg::ServiceEventInfo;
 
 struct rcl_client_impl_s {
   rcl_client_options_t options;
@@ -12,7 +16,20 @@ struct rcl_client_impl_s {
   rmw_qos_profile_t response_qos;
   rmw_client_t* rmw_handle;
   const rosidl_type_description_t* type;
+  rcl::ServiceEventPublisher events{};
 };
+
+namespace {
+
+void tell(const rcl_client_t& client, uint8_t event_type, int64_t sequence_number, const void* message) {
+  if (client.impl->events.is_on()) {
+    rmw_gid_t gid{};
+    (void)rmw_get_gid_for_client(client.impl->rmw_handle, &gid);
+    client.impl->events.publish(event_type, gid.data, sequence_number, message);
+  }
+}
+
+}  // namespace
 
 rcl_client_t rcl_get_zero_initialized_client(void) {
   return {};
@@ -76,7 +93,9 @@ rcl_ret_t rcl_client_fini(rcl_client_t* client, rcl_node_t* node) {
   if (client->impl != nullptr) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_client_fini, static_cast<const void*>(client));
     (void)rcl_node_type_cache_unregister_type(node, client->impl->type);
+    const rcl_ret_t turned_off = client->impl->events.turn_off(node);
     result = rmw_destroy_client(rcl_node_get_rmw_handle(node), client->impl->rmw_handle);
+    result = result == RMW_RET_OK ? turned_off : result;
     delete client->impl;
     client->impl = nullptr;
   }
@@ -87,7 +106,11 @@ rcl_ret_t rcl_send_request(const rcl_client_t* client, const void* ros_request, 
   if (!rcl_client_is_valid(client)) {
     return RCL_RET_CLIENT_INVALID;
   }
-  return rmw_send_request(client->impl->rmw_handle, ros_request, sequence_number);
+  const rmw_ret_t result = rmw_send_request(client->impl->rmw_handle, ros_request, sequence_number);
+  if (result == RMW_RET_OK) {
+    tell(*client, ServiceEventInfo::REQUEST_SENT, *sequence_number, ros_request);
+  }
+  return result;
 }
 
 rcl_ret_t rcl_take_response_with_info(const rcl_client_t* client, rmw_service_info_t* request_header,
@@ -102,7 +125,11 @@ rcl_ret_t rcl_take_response_with_info(const rcl_client_t* client, rmw_service_in
   if (result != RMW_RET_OK) {
     return result;
   }
-  return taken ? RCL_RET_OK : RCL_RET_CLIENT_TAKE_FAILED;
+  if (!taken) {
+    return RCL_RET_CLIENT_TAKE_FAILED;
+  }
+  tell(*client, ServiceEventInfo::RESPONSE_RECEIVED, request_header->request_id.sequence_number, ros_response);
+  return RCL_RET_OK;
 }
 
 rcl_ret_t rcl_take_response(const rcl_client_t* client, rmw_request_id_t* request_header, void* ros_response) {
@@ -146,4 +173,15 @@ rcl_ret_t rcl_client_set_on_new_response_callback(const rcl_client_t* client, rc
     return RCL_RET_CLIENT_INVALID;
   }
   return rmw_client_set_on_new_response_callback(client->impl->rmw_handle, callback, user_data);
+}
+
+rcl_ret_t rcl_client_configure_service_introspection(rcl_client_t* client, rcl_node_t* node, rcl_clock_t* clock,
+                                                     const rosidl_service_type_support_t* type_support,
+                                                     const rcl_publisher_options_t publisher_options,
+                                                     rcl_service_introspection_state_t introspection_state) {
+  if (!rcl_client_is_valid(client)) {
+    return RCL_RET_CLIENT_INVALID;
+  }
+  return client->impl->events.configure(node, clock, type_support, rcl_client_get_service_name(client),
+                                        publisher_options, introspection_state);
 }

@@ -4,7 +4,11 @@
 #include "rcl/node_type_cache.h"
 #include "rmw/rmw.h"
 #include "rmw/type_description.h"
+#include "service_event_publisher.hpp"
+#include "service_msgs/msg/service_event_info.hpp"
 #include "tracetools/tracetools.h"
+
+using service_msgs::msg::ServiceEventInfo;
 
 struct rcl_service_impl_s {
   rcl_service_options_t options;
@@ -12,7 +16,19 @@ struct rcl_service_impl_s {
   rmw_qos_profile_t response_qos;
   rmw_service_t* rmw_handle;
   const rosidl_type_description_t* type;
+  rcl::ServiceEventPublisher events{};
 };
+
+namespace {
+
+void tell(const rcl_service_t& service, uint8_t event_type, const rmw_request_id_t& id, const void* message) {
+  if (service.impl->events.is_on()) {
+    service.impl->events.publish(event_type, reinterpret_cast<const uint8_t*>(id.writer_guid), id.sequence_number,
+                                 message);
+  }
+}
+
+}  // namespace
 
 rcl_service_t rcl_get_zero_initialized_service(void) {
   return {};
@@ -76,7 +92,9 @@ rcl_ret_t rcl_service_fini(rcl_service_t* service, rcl_node_t* node) {
   if (service->impl != nullptr) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_service_fini, static_cast<const void*>(service));
     (void)rcl_node_type_cache_unregister_type(node, service->impl->type);
+    const rcl_ret_t turned_off = service->impl->events.turn_off(node);
     result = rmw_destroy_service(rcl_node_get_rmw_handle(node), service->impl->rmw_handle);
+    result = result == RMW_RET_OK ? turned_off : result;
     delete service->impl;
     service->impl = nullptr;
   }
@@ -95,7 +113,11 @@ rcl_ret_t rcl_take_request_with_info(const rcl_service_t* service, rmw_service_i
   if (result != RMW_RET_OK) {
     return result;
   }
-  return taken ? RCL_RET_OK : RCL_RET_SERVICE_TAKE_FAILED;
+  if (!taken) {
+    return RCL_RET_SERVICE_TAKE_FAILED;
+  }
+  tell(*service, ServiceEventInfo::REQUEST_RECEIVED, request_header->request_id, ros_request);
+  return RCL_RET_OK;
 }
 
 rcl_ret_t rcl_take_request(const rcl_service_t* service, rmw_request_id_t* request_header, void* ros_request) {
@@ -111,7 +133,11 @@ rcl_ret_t rcl_send_response(const rcl_service_t* service, rmw_request_id_t* resp
   if (!rcl_service_is_valid(service)) {
     return RCL_RET_SERVICE_INVALID;
   }
-  return rmw_send_response(service->impl->rmw_handle, response_header, ros_response);
+  const rmw_ret_t result = rmw_send_response(service->impl->rmw_handle, response_header, ros_response);
+  if (result == RMW_RET_OK) {
+    tell(*service, ServiceEventInfo::RESPONSE_SENT, *response_header, ros_response);
+  }
+  return result;
 }
 
 const char* rcl_service_get_service_name(const rcl_service_t* service) {
@@ -146,4 +172,15 @@ rcl_ret_t rcl_service_set_on_new_request_callback(const rcl_service_t* service, 
     return RCL_RET_SERVICE_INVALID;
   }
   return rmw_service_set_on_new_request_callback(service->impl->rmw_handle, callback, user_data);
+}
+
+rcl_ret_t rcl_service_configure_service_introspection(rcl_service_t* service, rcl_node_t* node, rcl_clock_t* clock,
+                                                      const rosidl_service_type_support_t* type_support,
+                                                      const rcl_publisher_options_t publisher_options,
+                                                      rcl_service_introspection_state_t introspection_state) {
+  if (!rcl_service_is_valid(service)) {
+    return RCL_RET_SERVICE_INVALID;
+  }
+  return service->impl->events.configure(node, clock, type_support, rcl_service_get_service_name(service),
+                                         publisher_options, introspection_state);
 }

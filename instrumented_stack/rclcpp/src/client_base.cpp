@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "rclcpp/clock.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -28,7 +29,9 @@ QoS to_qos(const rmw_qos_profile_t* profile) {
 
 ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
                        const std::string& service_name, const QoS& qos)
-    : node_handle_(node_base->get_shared_rcl_node_handle()), context_(node_base->get_context()) {
+    : node_handle_(node_base->get_shared_rcl_node_handle()),
+      context_(node_base->get_context()),
+      introspected_type_(&type_support) {
   rcl_client_options_t options = rcl_client_get_default_options();
   options.qos = qos.get_rmw_qos_profile();
 
@@ -145,6 +148,20 @@ int64_t ClientBase::send_type_erased_request(const void* request) {
     exceptions::throw_from_rcl_error(ret, "failed to send request");
   }
   return sequence_number;
+}
+
+void ClientBase::configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
+                                         rcl_service_introspection_state_t introspection_state) {
+  rcl_publisher_options_t options = rcl_publisher_get_default_options();
+  options.qos = qos_service_event_pub.get_rmw_qos_profile();
+  const std::lock_guard lock(introspection_mutex_);
+  const rcl_ret_t ret = rcl_client_configure_service_introspection(client_handle_.get(), node_handle_.get(),
+                                                                   clock ? clock->get_clock_handle() : nullptr,
+                                                                   introspected_type_, options, introspection_state);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to configure client introspection");
+  }
+  introspection_clock_ = std::move(clock);
 }
 
 void ClientBase::set_on_new_response_callback(std::function<void(size_t)> callback) {

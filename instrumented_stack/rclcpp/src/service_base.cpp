@@ -2,6 +2,7 @@
 
 #include <tracetools/tracetools.h>
 
+#include "rclcpp/clock.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -21,21 +22,21 @@ QoS to_qos(const rmw_qos_profile_t* profile) {
 
 ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
                          const rosidl_service_type_support_t& type_support, const std::string& service_name,
-                         const QoS& qos) {
-  const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
+                         const QoS& qos)
+    : node_handle_(node_base->get_shared_rcl_node_handle()), introspected_type_(&type_support) {
   rcl_service_options_t options = rcl_service_get_default_options();
   options.qos = qos.get_rmw_qos_profile();
 
   auto service = std::make_unique<rcl_service_t>(rcl_get_zero_initialized_service());
   const rcl_ret_t ret =
-      rcl_service_init(service.get(), node_handle.get(), &type_support, service_name.c_str(), &options);
+      rcl_service_init(service.get(), node_handle_.get(), &type_support, service_name.c_str(), &options);
   if (ret == RCL_RET_SERVICE_NAME_INVALID) {
     detail::throw_invalid_service_name(service_name);
   }
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "could not create service '" + service_name + "'");
   }
-  service_handle_.reset(service.release(), [node_handle](rcl_service_t* handle) {
+  service_handle_.reset(service.release(), [node_handle = node_handle_](rcl_service_t* handle) {
     if (rcl_service_fini(handle, node_handle.get()) != RCL_RET_OK) {
       RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a service: %s", rcl_get_error_string().str);
       rcl_reset_error();
@@ -113,6 +114,20 @@ void ServiceBase::trace_creation(const AnyServiceCallbackBase& callback) {
   TRACETOOLS_TRACEPOINT(rclcpp_service_callback_added, static_cast<const void*>(service_handle_.get()),
                         static_cast<const void*>(&callback));
   callback.trace_registration();
+}
+
+void ServiceBase::configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
+                                          rcl_service_introspection_state_t introspection_state) {
+  rcl_publisher_options_t options = rcl_publisher_get_default_options();
+  options.qos = qos_service_event_pub.get_rmw_qos_profile();
+  const std::lock_guard lock(introspection_mutex_);
+  const rcl_ret_t ret = rcl_service_configure_service_introspection(service_handle_.get(), node_handle_.get(),
+                                                                    clock ? clock->get_clock_handle() : nullptr,
+                                                                    introspected_type_, options, introspection_state);
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, "failed to configure service introspection");
+  }
+  introspection_clock_ = std::move(clock);
 }
 
 void ServiceBase::set_on_new_request_callback(std::function<void(size_t)> callback) {

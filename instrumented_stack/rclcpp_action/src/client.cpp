@@ -53,7 +53,8 @@ ClientBase::ClientBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr nod
                        const rcl_action_client_options_t& options)
     : node_base_(std::move(node_base)),
       logger_(logger.get_child("rclcpp_action")),
-      client_(rcl_action_get_zero_initialized_client()) {
+      client_(rcl_action_get_zero_initialized_client()),
+      introspected_type_(type_support) {
   const rcl_ret_t ret =
       rcl_action_client_init(&client_, node_base_->get_rcl_node_handle(), type_support, name.c_str(), &options);
   if (ret != RCL_RET_OK) {

@@ -51,7 +51,8 @@ ServerBase::ServerBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr nod
       clock_(std::move(clock)),
       logger_(logger.get_child("rclcpp_action")),
       owner_(std::make_shared<Owner>()),
-      server_(rcl_action_get_zero_initialized_server()) {
+      server_(rcl_action_get_zero_initialized_server()),
+      introspected_type_(type_support) {
   owner_->server = this;
   const std::lock_guard clock_lock(clock_->get_clock_mutex());
   const rcl_ret_t ret = rcl_action_server_init(&server_, node_base_->get_rcl_node_handle(), clock_->get_clock_handle(),

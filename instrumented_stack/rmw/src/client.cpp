@@ -129,6 +129,15 @@ rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* requ
   return RMW_RET_OK;
 }
 
+rmw_ret_t rmw_get_gid_for_client(const rmw_client_t* client, rmw_gid_t* gid) {
+  RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(gid, RMW_RET_INVALID_ARGUMENT);
+  const auto& bytes = client_of(*client).reader_gid();
+  gid->implementation_identifier = kIdentifier;
+  std::copy(bytes.begin(), bytes.end(), gid->data);
+  return RMW_RET_OK;
+}
+
 rmw_ret_t rmw_client_request_publisher_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos) {
   RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
   return client_of(*client).get_writer_qos(qos);

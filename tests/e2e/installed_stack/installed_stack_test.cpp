@@ -41,6 +41,7 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessagesAndComponents) {
   run({CMAKE, "--build", build.string()});
   const CommandResult result = run({(build / "station").string()});
   EXPECT_EQ(result.out,
+            "weather/srv/Forecast_Event\n"
             "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"\"}, temperature: 20.5, sky: \"clear\"}\ntracing on\n");
 
   // What the project installs is a package of the same shape.

@@ -6,7 +6,8 @@ from rosidl_generator.cpp_types import literal, string_literal
 from rosidl_generator.interface_definition import Type, snake_case
 from rosidl_generator.interface_parser import InterfaceError, parse_file
 
-KNOWN = {'pkg/msg/Point', 'pkg/msg/Pose', 'std_msgs/msg/Header', 'builtin_interfaces/msg/Time'}
+KNOWN = {'pkg/msg/Point', 'pkg/msg/Pose', 'std_msgs/msg/Header', 'builtin_interfaces/msg/Time',
+         'service_msgs/msg/ServiceEventInfo'}
 
 
 def message(text, name='Test'):
@@ -62,8 +63,12 @@ class AcceptedText(unittest.TestCase):
 
     def test_service(self):
         file = parse_file('srv/Add.srv', 'int64 a\n---\nint64 sum\n', 'pkg', 'srv', KNOWN)
-        self.assertEqual([m.name for m in file.messages], ['Add_Request', 'Add_Response'])
+        self.assertEqual([m.name for m in file.messages], ['Add_Request', 'Add_Response', 'Add_Event'])
         self.assertEqual(file.services[0].response.fields[0].name, 'sum')
+        self.assertEqual([(f.name, f.type) for f in file.services[0].event.fields], [
+            ('info', Type('ServiceEventInfo', 'service_msgs')),
+            ('request', Type('Add_Request', 'pkg', is_sequence=True, sequence_bound=1, namespace='srv')),
+            ('response', Type('Add_Response', 'pkg', is_sequence=True, sequence_bound=1, namespace='srv'))])
 
     def test_action(self):
         file = parse_file('action/Count.action', 'int32 to\n---\nPoint end\n---\nint32 at\n', 'pkg', 'action',
@@ -71,19 +76,24 @@ class AcceptedText(unittest.TestCase):
         fields = {m.name: [(f'{f.type.package}/{f.type.namespace}/{f.type.name}' if f.type.is_message else f.type.name,
                             f.name) for f in m.fields] for m in file.messages}
         goal_id = ('unique_identifier_msgs/msg/UUID', 'goal_id')
+        info = ('service_msgs/msg/ServiceEventInfo', 'info')
         self.assertEqual(fields, {
             'Count_Goal': [('int32', 'to')],
             'Count_Result': [('pkg/msg/Point', 'end')],
             'Count_Feedback': [('int32', 'at')],
             'Count_SendGoal_Request': [goal_id, ('pkg/action/Count_Goal', 'goal')],
             'Count_SendGoal_Response': [('bool', 'accepted'), ('builtin_interfaces/msg/Time', 'stamp')],
+            'Count_SendGoal_Event': [info, ('pkg/action/Count_SendGoal_Request', 'request'),
+                                     ('pkg/action/Count_SendGoal_Response', 'response')],
             'Count_GetResult_Request': [goal_id],
             'Count_GetResult_Response': [('int8', 'status'), ('pkg/action/Count_Result', 'result')],
+            'Count_GetResult_Event': [info, ('pkg/action/Count_GetResult_Request', 'request'),
+                                      ('pkg/action/Count_GetResult_Response', 'response')],
             'Count_FeedbackMessage': [goal_id, ('pkg/action/Count_Feedback', 'feedback')]})
         self.assertEqual([s.cpp for s in file.services],
                          ['pkg::action::Count_SendGoal', 'pkg::action::Count_GetResult'])
         self.assertEqual(file.action.cpp, 'pkg::action::Count')
-        self.assertEqual([t.name for t in file.messages_of_others], ['Point', 'UUID', 'Time'])
+        self.assertEqual([t.name for t in file.messages_of_others], ['Point', 'UUID', 'Time', 'ServiceEventInfo'])
 
     def test_file_names_are_those_of_ros(self):
         for name, expected in (('String', 'string'), ('ColorRGBA', 'color_rgba'), ('PointCloud2', 'point_cloud2'),
@@ -95,9 +105,9 @@ class AcceptedText(unittest.TestCase):
 class Mistakes(unittest.TestCase):
     maxDiff = None
 
-    def check(self, text, expected, path='msg/Test.msg', namespace='msg'):
+    def check(self, text, expected, path='msg/Test.msg', namespace='msg', known=None):
         with self.assertRaises(InterfaceError) as caught:
-            parse_file(path, text, 'pkg', namespace, KNOWN)
+            parse_file(path, text, 'pkg', namespace, KNOWN if known is None else known)
         self.assertEqual(str(caught.exception), expected)
 
     def test_unknown_type_is_shown_with_its_line_and_a_suggestion(self):
@@ -163,6 +173,9 @@ class Mistakes(unittest.TestCase):
                    path='srv/Add.srv', namespace='srv')
         self.check('---\n---', "srv/Add.srv:2:1: error: only a .srv file has '---', and only one\n  ---\n  ^",
                    path='srv/Add.srv', namespace='srv')
+        self.check('int8 a\n---', "srv/Add.srv:1:1: error: a service uses service_msgs/msg/ServiceEventInfo: name "
+                   "'service_msgs' among the DEPENDENCIES of rosidl_generate_interfaces\n  int8 a\n  ^",
+                   'srv/Add.srv', 'srv', known={'std_msgs/msg/Header'})
         self.check('---\nint8 a',
                    "action/Do.action:2:1: error: no '---' between the result and the feedback\n  int8 a\n  ^",
                    'action/Do.action', 'action')

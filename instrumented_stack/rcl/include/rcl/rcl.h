@@ -3,7 +3,7 @@
 //   init.h context.h init_options.h arguments.h       start of a process, --ros-args
 //   node.h node_options.h                              nodes
 //   publisher.h subscription.h                         topics
-//   service.h client.h                                 services
+//   service.h client.h service_introspection.h         services
 //   timer.h time.h guard_condition.h wait.h            waiting
 //   graph.h                                            who else is there
 //   remap.h expand_topic_name.h validate_topic_name.h  names
@@ -30,6 +30,7 @@
 #include "rcl/publisher.h"
 #include "rcl/remap.h"
 #include "rcl/service.h"
+#include "rcl/service_introspection.h"
 #include "rcl/subscription.h"
 #include "rcl/time.h"
 #include "rcl/timer.h"

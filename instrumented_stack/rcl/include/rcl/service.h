@@ -5,6 +5,9 @@
 
 #include "rcl/event_callback.h"
 #include "rcl/node.h"
+#include "rcl/publisher.h"
+#include "rcl/service_introspection.h"
+#include "rcl/time.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
 
 #ifdef __cplusplus
@@ -52,6 +55,16 @@ bool rcl_service_is_valid(const rcl_service_t* service);
 // none is going on any more when this returns. Not to be called from the callback.
 rcl_ret_t rcl_service_set_on_new_request_callback(const rcl_service_t* service, rcl_event_callback_t callback,
                                                   const void* user_data);
+
+// Lets the service publish what happens to its calls on the service's name and RCL_SERVICE_INTROSPECTION_TOPIC_POSTFIX,
+// changes what it publishes of them, or ends that: requests that were taken and responses that were sent.
+// `type_support` is that of the service. The publisher options count when it is off so far. The clock gives the events
+// their times and must live until it is off or the service is finalized. Thread safe. RCL_RET_SERVICE_INVALID,
+// RCL_RET_INVALID_ARGUMENT, and what rcl_publisher_init() returns.
+rcl_ret_t rcl_service_configure_service_introspection(rcl_service_t* service, rcl_node_t* node, rcl_clock_t* clock,
+                                                      const rosidl_service_type_support_t* type_support,
+                                                      const rcl_publisher_options_t publisher_options,
+                                                      rcl_service_introspection_state_t introspection_state);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,9 @@
 #include "rcl/allocator.h"
 #include "rcl/event_callback.h"
 #include "rcl/node.h"
+#include "rcl/publisher.h"
+#include "rcl/service_introspection.h"
+#include "rcl/time.h"
 #include "rcl_action/types.h"
 #include "rosidl_runtime_c/action_type_support_struct.h"
 
@@ -71,6 +74,14 @@ rcl_ret_t rcl_action_client_set_feedback_subscription_callback(const rcl_action_
                                                                rcl_event_callback_t callback, const void* user_data);
 rcl_ret_t rcl_action_client_set_status_subscription_callback(const rcl_action_client_t* action_client,
                                                              rcl_event_callback_t callback, const void* user_data);
+
+// rcl_client_configure_service_introspection() for the three services: requests that were sent and responses that were
+// taken. `type_support` is that of the action. After a failure either nothing has changed or it is off.
+rcl_ret_t rcl_action_client_configure_action_introspection(rcl_action_client_t* action_client, rcl_node_t* node,
+                                                           rcl_clock_t* clock,
+                                                           const rosidl_action_type_support_t* type_support,
+                                                           const rcl_publisher_options_t publisher_options,
+                                                           rcl_service_introspection_state_t introspection_state);
 
 const char* rcl_action_client_get_action_name(const rcl_action_client_t* action_client);
 const rcl_action_client_options_t* rcl_action_client_get_options(const rcl_action_client_t* action_client);

@@ -10,6 +10,8 @@
 #include "rcl/allocator.h"
 #include "rcl/event_callback.h"
 #include "rcl/node.h"
+#include "rcl/publisher.h"
+#include "rcl/service_introspection.h"
 #include "rcl/time.h"
 #include "rcl/timer.h"
 #include "rcl_action/goal_handle.h"
@@ -109,6 +111,14 @@ bool rcl_action_server_goal_exists(const rcl_action_server_t* action_server, con
 // The goals of the server, in memory of the server, valid until the next call on it.
 rcl_ret_t rcl_action_server_get_goal_handles(const rcl_action_server_t* action_server,
                                              rcl_action_goal_handle_t*** goal_handles, size_t* num_goals);
+
+// rcl_service_configure_service_introspection() for the three services: requests that were taken and responses that
+// were sent. `type_support` is that of the action. After a failure either nothing has changed or it is off.
+rcl_ret_t rcl_action_server_configure_action_introspection(rcl_action_server_t* action_server, rcl_node_t* node,
+                                                           rcl_clock_t* clock,
+                                                           const rosidl_action_type_support_t* type_support,
+                                                           const rcl_publisher_options_t publisher_options,
+                                                           rcl_service_introspection_state_t introspection_state);
 
 // The name after expansion and remapping is that of the services; this is the one given.
 const char* rcl_action_server_get_action_name(const rcl_action_server_t* action_server);

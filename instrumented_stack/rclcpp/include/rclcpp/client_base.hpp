@@ -2,12 +2,14 @@
 #pragma once
 
 #include <rcl/client.h>
+#include <rcl/service_introspection.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -18,6 +20,8 @@
 #include "rclcpp/qos.hpp"
 
 namespace rclcpp {
+
+class Clock;
 
 class ClientBase {
  public:
@@ -60,6 +64,12 @@ class ClientBase {
   // Sets whether a wait set uses this; the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
+  // Lets the client publish what happens to its calls (requests sent and responses taken) on its name and
+  // "/_service_event", or ends that. `qos_service_event_pub` counts when it is off so far; the clock gives the events
+  // their times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a clock that is null.
+  void configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
+                               rcl_service_introspection_state_t introspection_state);
+
   // The group that serves this client, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
@@ -79,6 +89,9 @@ class ClientBase {
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  const rosidl_service_type_support_t* const introspected_type_;
+  std::mutex introspection_mutex_;              // of the clock
+  std::shared_ptr<Clock> introspection_clock_;  // rcl has a pointer to what is in it
 };
 
 }  // namespace rclcpp

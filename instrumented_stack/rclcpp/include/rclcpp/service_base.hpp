@@ -2,10 +2,12 @@
 #pragma once
 
 #include <rcl/service.h>
+#include <rcl/service_introspection.h>
 
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -17,6 +19,8 @@
 #include "rclcpp/qos.hpp"
 
 namespace rclcpp {
+
+class Clock;
 
 class ServiceBase {
  public:
@@ -50,6 +54,12 @@ class ServiceBase {
   // Sets whether a wait set uses this; the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
+  // Lets the service publish what happens to its calls (requests taken and responses sent) on its name and
+  // "/_service_event", or ends that. `qos_service_event_pub` counts when it is off so far; the clock gives the events
+  // their times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a clock that is null.
+  void configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
+                               rcl_service_introspection_state_t introspection_state);
+
   // The group that serves this service, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
@@ -64,11 +74,15 @@ class ServiceBase {
   void trace_creation(const AnyServiceCallbackBase& callback);
 
  private:
+  std::shared_ptr<rcl_node_t> node_handle_;
   std::shared_ptr<rcl_service_t> service_handle_;
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
-  const void* traced_callback_ = nullptr;  // as trace_creation() told it
+  const rosidl_service_type_support_t* const introspected_type_;
+  std::mutex introspection_mutex_;              // of the clock
+  std::shared_ptr<Clock> introspection_clock_;  // rcl has a pointer to what is in it
+  const void* traced_callback_ = nullptr;       // as trace_creation() told it
 };
 
 }  // namespace rclcpp

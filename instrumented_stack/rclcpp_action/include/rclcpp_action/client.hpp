@@ -15,10 +15,12 @@
 
 #include "action_msgs/msg/goal_status_array.hpp"
 #include "action_msgs/srv/cancel_goal.hpp"
+#include "rclcpp/clock.hpp"
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/logger.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/qos.hpp"
 #include "rclcpp/waitable.hpp"
 #include "rclcpp_action/client_goal_handle.hpp"
 #include "rosidl_typesupport_cpp/action_type_support.hpp"
@@ -50,6 +52,11 @@ class ClientBase : public rclcpp::Waitable {
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
   void execute(const std::shared_ptr<void>& data) override;
+
+  // Lets the client publish what happens to the calls of its three services, each on the service's name and
+  // "/_service_event", or ends that; see rclcpp::ClientBase::configure_introspection().
+  void configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
+                               rcl_service_introspection_state_t introspection_state);
 
  protected:
   using ResponseCallback = std::function<void(std::shared_ptr<void> response)>;
@@ -100,10 +107,12 @@ class ClientBase : public rclcpp::Waitable {
   rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   const rclcpp::Logger logger_;
   rcl_action_client_t client_;
+  const rosidl_action_type_support_t* const introspected_type_;
   std::array<rclcpp::detail::OnReadyCallback, 5> on_ready_;  // by EntityType
 
   std::mutex mutex_;  // of everything below
   Ready ready_;
+  rclcpp::Clock::SharedPtr introspection_clock_;  // rcl has a pointer to what is in it
   Pending pending_goals_;
   Pending pending_results_;
   Pending pending_cancels_;

@@ -17,6 +17,7 @@
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/logger.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/qos.hpp"
 #include "rclcpp/timer.hpp"
 #include "rclcpp/waitable.hpp"
 #include "rclcpp_action/server_goal_handle.hpp"
@@ -53,6 +54,11 @@ class ServerBase : public rclcpp::Waitable {
   void execute(const std::shared_ptr<void>& data) override;
   // One that forgets results after their time, for executors that do not wait for the timer of rcl.
   std::vector<std::shared_ptr<rclcpp::TimerBase>> get_timers() const override;
+
+  // Lets the server publish what happens to the calls of its three services, each on the service's name and
+  // "/_service_event", or ends that; see rclcpp::ServiceBase::configure_introspection().
+  void configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
+                               rcl_service_introspection_state_t introspection_state);
 
  protected:
   // Throws rclcpp::exceptions::RCLError, for a wrong name among others.
@@ -113,6 +119,8 @@ class ServerBase : public rclcpp::Waitable {
 
   mutable std::mutex mutex_;  // of everything below, the rcl server included
   rcl_action_server_t server_;
+  const rosidl_action_type_support_t* const introspected_type_;
+  rclcpp::Clock::SharedPtr introspection_clock_;  // rcl has a pointer to what is in it
   Ready ready_;
   mutable rclcpp::TimerBase::SharedPtr expiry_;                           // null until somebody asks for it
   std::map<GoalUUID, std::shared_ptr<rcl_action_goal_handle_t>> goals_;   // until they expire

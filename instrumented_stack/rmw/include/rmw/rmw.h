@@ -143,6 +143,9 @@ rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_typ
                                 const char* service_name, const rmw_qos_profile_t* qos_policies);
 rmw_ret_t rmw_destroy_client(rmw_node_t* node, rmw_client_t* client);
 
+// The identity of the client that services find in rmw_request_id_t::writer_guid.
+rmw_ret_t rmw_get_gid_for_client(const rmw_client_t* client, rmw_gid_t* gid);
+
 // `sequence_id` gets the number that the response will carry.
 rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, int64_t* sequence_id);
 // Takes the next response without waiting; `taken` is false when there is none, and also when the next one was for

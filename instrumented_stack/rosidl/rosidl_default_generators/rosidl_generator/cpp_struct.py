@@ -15,7 +15,8 @@ def struct_header(file: InterfaceFile) -> str:
     body = '\n'.join(_struct(message) for message in file.messages)
     for service in file.services:
         name = service.name
-        body += f'\nstruct {name} {{\n  using Request = {name}_Request;\n  using Response = {name}_Response;\n}};\n'
+        body += (f'\nstruct {name} {{\n  using Request = {name}_Request;\n  using Response = {name}_Response;\n'
+                 f'  using Event = {name}_Event;\n}};\n')
     if file.action:
         body += _action(file.action)
     body = cpp_types.namespace_blocks(file.package, file.namespace, body)

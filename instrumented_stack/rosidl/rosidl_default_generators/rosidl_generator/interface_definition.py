@@ -94,6 +94,20 @@ class Service:
     def cpp(self) -> str:
         return f'{self.package}::{self.namespace}::{self.name}'
 
+    @property
+    def event(self) -> Message:
+        """What is published of a call when the service is watched: the request or the response, or neither."""
+        def at_most_one(message: Message) -> Type:
+            return Type(message.name, message.package, sequence_bound=1, is_sequence=True, namespace=message.namespace)
+
+        return Message(self.package, self.namespace, f'{self.name}_Event', [
+            Field(Type('ServiceEventInfo', 'service_msgs'), 'info'),
+            Field(at_most_one(self.request), 'request'), Field(at_most_one(self.response), 'response')])
+
+    @property
+    def messages(self) -> List[Message]:
+        return [self.request, self.response, self.event]
+
 
 @dataclass
 class Action:
@@ -113,8 +127,8 @@ class Action:
 class InterfaceFile:
     """One file: its messages and what is made of them.
 
-    A .msg file has one message, a .srv file the request and response of its service. An .action file has goal, result
-    and feedback, and what carries them: two services and the feedback message.
+    A .msg file has one message, a .srv file the request, the response and the event of its service. An .action file has
+    goal, result and feedback, and what carries them: two services and the feedback message.
     """
 
     package: str
@@ -158,6 +172,5 @@ def action_file(package: str, name: str, goal: Message, result: Message, feedbac
                          make('GetResult_Request', goal_id),
                          make('GetResult_Response', Field(Type('int8'), 'status'), Field(part(result), 'result')))
     feedback_message = make('FeedbackMessage', goal_id, Field(part(feedback), 'feedback'))
-    messages = [goal, result, feedback, send_goal.request, send_goal.response, get_result.request, get_result.response,
-                feedback_message]
+    messages = [goal, result, feedback, *send_goal.messages, *get_result.messages, feedback_message]
     return InterfaceFile(package, 'action', name, messages, [send_goal, get_result], Action(package, name))

@@ -25,6 +25,10 @@ PACKAGE_NAME = re.compile(r'(?!.*__)[a-z]([a-z0-9_]*[a-z0-9])?')
 PARTS = {'msg': (), 'srv': ('Request', 'Response'), 'action': ('Goal', 'Result', 'Feedback')}
 TOO_MANY_PARTS = {'msg': "a .msg file has no '---'", 'srv': "only a .srv file has '---', and only one",
                   'action': "an .action file has two '---'"}
+# What a file uses without naming it.
+IMPLIED = {'msg': ('a message', ()), 'srv': ('a service', ('service_msgs/msg/ServiceEventInfo',)),
+           'action': ('an action', ('unique_identifier_msgs/msg/UUID', 'builtin_interfaces/msg/Time',
+                                    'service_msgs/msg/ServiceEventInfo'))}
 ESCAPES = {'n': '\n', 't': '\t', 'r': '\r', '\\': '\\', '"': '"', "'": "'"}
 
 
@@ -63,15 +67,18 @@ def parse_file(path: str, text: str, package: str, namespace: str, known_types: 
     if part + 1 < len(parts):
         raise InterfaceError(path, max(len(lines), 1), 0, lines[-1] if lines else '',
                              "no '---' between the {} and the {}".format(*PARTS[namespace][part:part + 2]).lower())
+    kind, implied = IMPLIED[namespace]
+    for used in implied:
+        if used not in known_types:
+            raise InterfaceError(path, 1, 0, lines[0] if lines else '',
+                                 f"{kind} uses {used}: name '{used.split('/')[0]}' among the DEPENDENCIES of "
+                                 'rosidl_generate_interfaces')
     if namespace == 'action':
-        for used in ('unique_identifier_msgs/msg/UUID', 'builtin_interfaces/msg/Time'):
-            if used not in known_types:
-                raise InterfaceError(path, 1, 0, lines[0] if lines else '',
-                                     f"an action uses {used}: name '{used.split('/')[0]}' among the DEPENDENCIES of "
-                                     'rosidl_generate_interfaces')
         return action_file(package, name, *parts)
-    services = [Service(package, namespace, name, *parts)] if namespace == 'srv' else []
-    return InterfaceFile(package, namespace, name, parts, services)
+    if namespace == 'srv':
+        service = Service(package, namespace, name, *parts)
+        return InterfaceFile(package, namespace, name, service.messages, [service])
+    return InterfaceFile(package, namespace, name, parts)
 
 
 class _Line:

@@ -23,10 +23,10 @@ Description = Dict[str, Any]  # of one interface: its name, and name and type of
 
 
 def describe_file(file: InterfaceFile) -> List[Description]:
-    """Everything that a file defines: its messages, its services and their events, its action."""
+    """Everything that a file defines: its messages, its services, its action."""
     descriptions = [describe(message) for message in file.messages]
     for service in file.services:
-        descriptions += _describe_service(service)
+        descriptions.append(_describe_service(service))
     if file.action:
         name = f'{file.package}/action/{file.name}'
         parts = ('goal', 'Goal'), ('result', 'Result'), ('feedback', 'Feedback'), ('send_goal_service', 'SendGoal'), (
@@ -40,20 +40,15 @@ def describe(message: Message) -> Description:
             'fields': [{'name': field.name, 'type': _describe_type(field.type)} for field in message.members]}
 
 
-def _describe_service(service: Service) -> List[Description]:
-    """The service as an interface of three messages, and the third of them, by which services can be watched."""
+def _describe_service(service: Service) -> Description:
+    """The service as an interface of three messages."""
     name = f'{service.package}/{service.namespace}/{service.name}'
-    request, response, event = (f'{name}_{part}' for part in ('Request', 'Response', 'Event'))
-    return [
-        {'type_name': event, 'fields': [_nested('info', 'service_msgs/msg/ServiceEventInfo'),
-                                        _nested('request', request, BOUNDED_SEQUENCE, 1),
-                                        _nested('response', response, BOUNDED_SEQUENCE, 1)]},
-        {'type_name': name, 'fields': [_nested('request_message', request), _nested('response_message', response),
-                                       _nested('event_message', event)]}]
+    parts = ('request_message', 'Request'), ('response_message', 'Response'), ('event_message', 'Event')
+    return {'type_name': name, 'fields': [_nested(field, f'{name}_{part}') for field, part in parts]}
 
 
-def _nested(field: str, type_name: str, many: int = 0, capacity: int = 0) -> Dict[str, Any]:
-    return {'name': field, 'type': {'type_id': NESTED_TYPE + many, 'capacity': capacity, 'string_capacity': 0,
+def _nested(field: str, type_name: str) -> Dict[str, Any]:
+    return {'name': field, 'type': {'type_id': NESTED_TYPE, 'capacity': 0, 'string_capacity': 0,
                                     'nested_type_name': type_name}}
 
 

@@ -1,6 +1,8 @@
 #ifndef ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_
 #define ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_
 
+#include <stdint.h>
+
 #include "rosidl_runtime_c/message_type_support_struct.h"
 
 #ifdef __cplusplus
@@ -13,6 +15,23 @@ typedef struct rosidl_service_type_support_t rosidl_service_type_support_t;
 typedef const rosidl_service_type_support_t* (*rosidl_service_typesupport_handle_function)(
     const rosidl_service_type_support_t* handle, const char* identifier);
 
+/// What happened to a call of a service: the fields of service_msgs/msg/ServiceEventInfo.
+typedef struct rosidl_service_introspection_info_s {
+  uint8_t event_type;
+  int32_t stamp_sec;
+  uint32_t stamp_nanosec;
+  uint8_t client_gid[16];
+  int64_t sequence_number;
+} rosidl_service_introspection_info_t;
+
+/// A new event message of the service with `info` and copies of those messages that are not null. Null if there is no
+/// memory for it.
+typedef void* (*rosidl_service_introspection_event_create_function)(const rosidl_service_introspection_info_t* info,
+                                                                    const void* request_message,
+                                                                    const void* response_message);
+
+typedef void (*rosidl_service_introspection_event_destroy_function)(void* event_message);
+
 /// What a middleware needs to know about a service type. It has static storage duration.
 struct rosidl_service_type_support_t {
   /// Says what `data` is: rosidl_typesupport_fastrtps_cpp's identifier and service_type_support_callbacks_t here.
@@ -21,6 +40,10 @@ struct rosidl_service_type_support_t {
   rosidl_service_typesupport_handle_function func;
   const rosidl_message_type_support_t* request_typesupport;
   const rosidl_message_type_support_t* response_typesupport;
+  /// Of the message that tells of the service's calls, and how to make one.
+  const rosidl_message_type_support_t* event_typesupport;
+  rosidl_service_introspection_event_create_function event_message_create_handle_function;
+  rosidl_service_introspection_event_destroy_function event_message_destroy_handle_function;
 };
 
 static inline const rosidl_service_type_support_t* get_service_typesupport_handle(

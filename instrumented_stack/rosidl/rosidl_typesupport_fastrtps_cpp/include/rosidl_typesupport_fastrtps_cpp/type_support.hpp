@@ -1,8 +1,12 @@
 #ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_
 #define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
+#include <iterator>
+#include <memory>
+#include <new>
 
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/cdr_members.hpp"
@@ -66,6 +70,31 @@ const rosidl_message_type_support_t* message_type_support(const char* message_na
   return &handle;
 }
 
+/// The event messages of a service, for whoever knows its type by its handle only.
+template <typename Service>
+struct EventFunctions {
+  static void* create(const rosidl_service_introspection_info_t* info, const void* request, const void* response) {
+    try {
+      auto event = std::make_unique<typename Service::Event>();
+      event->info.event_type = info->event_type;
+      event->info.stamp.sec = info->stamp_sec;
+      event->info.stamp.nanosec = info->stamp_nanosec;
+      std::copy(std::begin(info->client_gid), std::end(info->client_gid), event->info.client_gid.begin());
+      event->info.sequence_number = info->sequence_number;
+      if (request != nullptr) {
+        event->request.push_back(*static_cast<const typename Service::Request*>(request));
+      }
+      if (response != nullptr) {
+        event->response.push_back(*static_cast<const typename Service::Response*>(response));
+      }
+      return event.release();
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+  }
+  static void destroy(void* event) { delete static_cast<typename Service::Event*>(event); }
+};
+
 template <typename Service>
 const rosidl_service_type_support_t* service_type_support(const char* service_namespace, const char* service_name,
                                                           const rosidl_type_description_t& description) {
@@ -73,9 +102,14 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
   static const service_type_support_callbacks_t callbacks{
       service_namespace, service_name, get_message_type_support_handle<typename Service::Request>(),
       get_message_type_support_handle<typename Service::Response>(), &description};
-  static const rosidl_service_type_support_t handle{typesupport_identifier, &callbacks,
-                                                    itself<rosidl_service_type_support_t>, callbacks.request_members_,
-                                                    callbacks.response_members_};
+  static const rosidl_service_type_support_t handle{typesupport_identifier,
+                                                    &callbacks,
+                                                    itself<rosidl_service_type_support_t>,
+                                                    callbacks.request_members_,
+                                                    callbacks.response_members_,
+                                                    get_message_type_support_handle<typename Service::Event>(),
+                                                    EventFunctions<Service>::create,
+                                                    EventFunctions<Service>::destroy};
   return &handle;
 }
 
