@@ -55,6 +55,9 @@ void Waiter::watch(const std::vector<Waitable*>& waitables) {
   stale_ = false;
   to_ask_.few.clear();
   to_ask_.all = true;
+  // What was destroyed is among no waitables any more, and would be looked for again and again.
+  const std::lock_guard candidates_lock(mutex_);
+  woken_by_.few.clear();
 }
 
 bool Waiter::watches(const std::vector<Waitable*>& waitables) const {
