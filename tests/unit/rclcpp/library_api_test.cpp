@@ -172,8 +172,8 @@ TEST_F(Library, EndpointsTellTheHashOfTheirType) {
   }
   other_context->shutdown("done");
   rosidl_type_hash_t hash;
-  for (const char* text : {"", "RIHS01_", "no hash", (expected + "0").c_str()}) {
-    EXPECT_EQ(rosidl_parse_type_hash_string(text, &hash), RCUTILS_RET_INVALID_ARGUMENT) << text;
+  for (const std::string& text : {std::string(), std::string("RIHS01_"), std::string("no hash"), expected + "0"}) {
+    EXPECT_EQ(rosidl_parse_type_hash_string(text.c_str(), &hash), RCUTILS_RET_INVALID_ARGUMENT) << text;
     EXPECT_EQ(hash.version, ROSIDL_TYPE_HASH_VERSION_UNSET);
   }
 }
