@@ -151,19 +151,20 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     if (enabled == (subscription_ != nullptr) || (enabled && !node_base_)) {
       return;
     }
-    for (const Clock::SharedPtr& clock : clocks_) {
-      enable(*clock, enabled);
-    }
     if (!enabled) {
+      for (const Clock::SharedPtr& clock : clocks_) {
+        enable(*clock, false);
+      }
       ended_subscription.swap(subscription_);
       ended.swap(thread_);
       return;
     }
     last_time_ = 0;
     SubscriptionOptions options;
+    std::unique_ptr<ClockThread> thread;
     if (use_clock_thread_) {
-      thread_ = std::make_unique<ClockThread>(node_base_);
-      options.callback_group = thread_->group();
+      thread = std::make_unique<ClockThread>(node_base_);
+      options.callback_group = thread->group();
     }
     subscription_ = create_subscription<rosgraph_msgs::msg::Clock>(
         node_parameters_, node_topics_, "/clock", qos_,
@@ -173,6 +174,11 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
           }
         },
         options);
+    // Nothing has changed if that failed.
+    thread_ = std::move(thread);
+    for (const Clock::SharedPtr& clock : clocks_) {
+      enable(*clock, true);
+    }
     if (thread_) {
       thread_->start();
     }

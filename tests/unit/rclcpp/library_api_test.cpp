@@ -178,21 +178,41 @@ TEST_F(Library, EndpointsTellTheHashOfTheirType) {
   }
 }
 
-TEST_F(Library, OldNamesAreThere) {
+TEST_F(Library, IsGivenStringsAsCHasThem) {
   EXPECT_STREQ(rclcpp::get_c_string("text"), "text");
   EXPECT_STREQ(rclcpp::get_c_string(std::string("text")), "text");
+}
+
+struct MadeClock {
+  using duration = std::chrono::nanoseconds;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<MadeClock>;
+  static constexpr bool is_steady = true;
+  static time_point now() { return time_point(time); }
+
+  static inline duration time{0};
+};
+
+TEST_F(Library, MayHaveARateOnAClockOfCpp) {
+  using std::chrono::microseconds;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-  rclcpp::GenericRate<std::chrono::steady_clock> rate(std::chrono::milliseconds(5));
+  rclcpp::GenericRate<MadeClock> rate(microseconds(1000));
+  EXPECT_EQ(rclcpp::GenericRate<MadeClock>(200.0).period(), std::chrono::milliseconds(5));
 #pragma GCC diagnostic pop
   EXPECT_EQ(rate.get_type(), RCL_STEADY_TIME);
-  EXPECT_EQ(rate.period(), std::chrono::milliseconds(5));
-  const auto start = std::chrono::steady_clock::now();
+  const auto sleeps_at = [&rate](int64_t time) {
+    MadeClock::time = microseconds(time);
+    return rate.sleep();
+  };
+  EXPECT_TRUE(sleeps_at(0));
+  EXPECT_FALSE(sleeps_at(2000));  // just over
+  EXPECT_FALSE(sleeps_at(5000));  // more than an interval too late: the next one starts now
+  EXPECT_TRUE(sleeps_at(5500));
+  EXPECT_TRUE(sleeps_at(100));  // time has jumped back
   rate.reset();
-  EXPECT_TRUE(rate.sleep());
-  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(5));
-  rclcpp::sleep_for(std::chrono::milliseconds(12));
-  EXPECT_FALSE(rate.sleep());
+  EXPECT_TRUE(sleeps_at(900));
 }
 
 }  // namespace
