@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <arg name="…" default="…"/> and <bool_arg …/>: declare a launch argument. A value that is already there is kept.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

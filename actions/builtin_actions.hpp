@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every action that launch files can use.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The <composable_node> items of <node_container> and <load_composable_node>.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <depends_on …/> of a process: what it waits for before it starts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <on_process_start>, <on_process_exit>, <on_process_io>, <on_shutdown>, <on_state_transition>: visit actions when
 // something happens.
 #include <fmt/format.h>

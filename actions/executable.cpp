@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <executable cmd="…"/>: runs any program.
 #include "actions/process_fields.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <group>: actions in a scope of their own.
 #include "actions/ros_names.hpp"
 #include "launcher/core/fields.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <include file="…"/>: visits another launch file here, in the scope that is there.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <lifecycle_node …>: runs a ROS node with a managed life cycle.
 #include "actions/node_process.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <lifecycle_transition node="…" transitions="configure activate"/>: changes the state of a managed node.
 #include <fmt/format.h>
 

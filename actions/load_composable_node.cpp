@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <load_composable_node target="…">: loads nodes into a container that runs already.
 #include "actions/composable_nodes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <log message="…" level="…"/> and <log_info message="…"/> with its sisters: print a message.
 #include <fmt/format.h>
 

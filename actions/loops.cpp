@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <for len="…" name="…"> and <for_each values="…">: visit actions several times.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <node pkg="…" exec="…"/>: runs a ROS node: a program that understands --ros-args.
 #include "actions/node_process.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <node_container …>: runs a component container and loads nodes into it.
 #include "actions/composable_nodes.hpp"
 #include "actions/node_process.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "actions/node_process.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What <node>, <node_container> and <lifecycle_node> have in common: a process that understands --ros-args.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the parameters of one node from a parameter file, as a launcher must for nodes that are loaded into a
 // container.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "actions/parameter_value.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The typed value of a parameter: read at load, finished at visit when it holds substitutions, written as YAML.
 //
 // The pipeline is ros2 launch's: XML text is typed by YAML 1.1 rules at load (YAML files come typed), substitutions in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameters as text: in parameter files, and on the command line of a node.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The <param> items of a node: values, nested values and parameter files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <stop>, <restart>, <signal>: end, start again or signal a process that runs.
 #include <fmt/format.h>
 

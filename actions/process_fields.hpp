@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What <executable> and <node> have in common: how a process runs, where its output goes, when it runs again.
 #pragma once
 

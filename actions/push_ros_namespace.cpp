@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <push_ros_namespace namespace="…"/>: every later node of the scope lives below the namespace.
 #include "actions/ros_names.hpp"
 #include "launcher/core/fields.hpp"

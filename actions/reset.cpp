@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <reset>: forgets the launch configurations, but for those to keep.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"

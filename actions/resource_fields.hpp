@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scheduling and limits of a process, as <executable> and <node> tell them.
 #pragma once
 

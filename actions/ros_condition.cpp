@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "actions/ros_condition.hpp"
 
 #include <fmt/format.h>

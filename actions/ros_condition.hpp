@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A condition of the ROS graph, as <depends_on> and <wait_for> write it: a node, a topic or a service, and what of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the ROS graph: which are valid, and how namespaces combine.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <set_parameter> and <set_parameters_from_file>: parameters of every later node of the scope.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <set_ros_log_dir new_log_dir="…"/>: where later nodes write their log files.
 #include <filesystem>
 

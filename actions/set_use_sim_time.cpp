@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <set_use_sim_time value="…"/>: whether the launcher's own ros_timer counts simulated time.
 #include <fmt/format.h>
 

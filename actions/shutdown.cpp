@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <shutdown/>: ends the whole launch.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <timer period="…"> and <ros_timer period="…">: visit actions once, after a delay.
 #include "launcher/core/fields.hpp"
 #include "launcher/core/launch_context.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <trace session-name="…"/>: records the run. Takes effect before any process starts, wherever it stands in the file.
 #include <fmt/format.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <channel> in <trace>: buffers of their own for some events.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // max-overhead of a <trace>: watches what recording costs, and puts every cut into the trace itself.
 #pragma once
 

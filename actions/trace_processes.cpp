@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which processes a <trace> records, and what they are given for it.
 #include <fmt/format.h>
 #include <fnmatch.h>

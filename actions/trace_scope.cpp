@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "actions/trace_scope.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A trace session around a run: started before the first process, finished after the last one has gone.
 #pragma once
 

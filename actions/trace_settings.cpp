@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a <trace> was evaluated to, for --dry-run.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <wait_for topic="…">: visits its actions once the ROS graph shows something.
 #include "actions/ros_condition.hpp"
 

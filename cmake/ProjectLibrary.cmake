@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # project_library(<target> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])
 #
 # One library for the current folder. Its headers are included by their path from the top of the repository

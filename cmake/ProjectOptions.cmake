@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Compile options of every target of this project, as one interface target.
 set(SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread")
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // launch: runs launch files; `launch trace` and `launch report` record and describe traces.
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What makes a folder a ROS package: its library, its executables, and its place in a prefix.
 #
 # The build tree holds a prefix of the same shape as the installed one, ${PROJECT_BINARY_DIR}/prefix, so that whatever

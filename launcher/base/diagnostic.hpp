@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors and warnings for a person at a terminal: place, line, caret, suggestion, include chain.
 #pragma once
 

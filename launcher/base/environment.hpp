@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The variables of a process's environment.
 //
 // Copies share their variables until one of them is changed: a launch keeps the environment of each of its scopes and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a piece of text stands in a launch file.
 //
 // Every Entity, attribute value and template fragment carries a SourceRange, so that errors of any phase can point at

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading UTF-8, one character at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether the launch arguments of the command line mean anything to the launch file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch check`: finds the errors of launch files without running them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `launch check` finds in a launch file without running anything.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch complete`: what the shells' completion (launcher/cli/completion/) offers for the last word of a command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/diagnostic_output.hpp"
 
 #include <nlohmann/json.hpp>

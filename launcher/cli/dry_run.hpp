@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `launch --dry-run` prints.
 #pragma once
 

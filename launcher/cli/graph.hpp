@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `launch graph` draws: the nodes and other processes of a launch, by namespace, with the files that ask for them
 // and the topics that they are remapped to.
 #pragma once

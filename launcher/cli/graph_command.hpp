@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch graph`: draws what a launch file would run.
 #pragma once
 

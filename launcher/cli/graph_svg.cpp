@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The picture of a graph: three columns, in each of which everything stands below one another. All lengths are pixels.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/launch_tracepoints.hpp"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Puts what the launcher does into the traces of the run: liblaunch_trace.so, opened when the first session records.
 #pragma once
 

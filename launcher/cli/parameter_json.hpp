@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ROS parameters as JSON, for --dry-run=json.
 #pragma once
 

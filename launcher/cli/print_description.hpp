@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `launch --print` prints: the actions of a launch file as they stand in it, included files in place.
 #pragma once
 

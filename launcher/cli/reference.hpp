@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference page of the launch language, made from the declarations.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch FILE`: loads a launch file and runs it, or prints what it asks for.
 #pragma once
 

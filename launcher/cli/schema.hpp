@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Schemas of the launch language, made from the declarations of the actions, for editors to complete and check by.
 //
 // They say which elements and attributes there are, which are required, and what each is for. What a substitution may

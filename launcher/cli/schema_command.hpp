@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch schema`: prints a schema of the launch language, for editors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `launch --dry-run=shell` prints, and how a shell writes words and environments.
 #pragma once
 

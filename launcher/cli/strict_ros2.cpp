@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/strict_ros2.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of a launch file `ros2 launch` would not know (docs/extensions.md).
 #pragma once
 

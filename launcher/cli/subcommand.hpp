@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line of the commands that look at launch files without running them: check, graph, schema.
 #pragma once
 

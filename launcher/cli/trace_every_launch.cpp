@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/trace_every_launch.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch --trace`: records a launch whose file asks for no trace.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/xml_text.hpp"
 
 namespace launch {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/core/action.hpp"
 
 #include "launcher/core/launch_context.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One thing that a launch file asks for.
 //
 // An action is made once, while its file is loaded, and never changes: what it does it does to the LaunchContext, each

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks an entity tree against the declarations of the registry and makes its actions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a launch asks of component containers and of nodes with a managed life cycle.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The `if` and `unless` of an action.
 #pragma once
 

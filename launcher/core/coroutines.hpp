@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coroutines of Python launch files, which run beside the processes, on the launch's own loop.
 #pragma once
 

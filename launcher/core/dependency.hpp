@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a process waits for before it starts: one `depends_on` of a launch file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which process each `depends_on` of a traversal speaks of.
 #include <fmt/format.h>
 

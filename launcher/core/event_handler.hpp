@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An event of a launch file: what it waits for and what is visited then.
 #pragma once
 

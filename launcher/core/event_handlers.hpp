@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The event handlers that are registered, and which of them an event concerns.
 #pragma once
 

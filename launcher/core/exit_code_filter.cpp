@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/core/exit_code_filter.hpp"
 
 #include <fmt/format.h>

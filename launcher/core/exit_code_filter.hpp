@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which exit codes a launch file means: "0", "nonzero", "1, 2, SIGSEGV".
 #pragma once
 

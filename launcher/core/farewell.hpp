@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What on_shutdown handlers may ask for: no more than can still be carried out.
 #pragma once
 

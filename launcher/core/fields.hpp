@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an action's declaration found in the file: attributes by name, parsed by their declared type.
 #pragma once
 

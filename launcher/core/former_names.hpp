@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What to write in ROS 2 for what ROS 1's roslaunch, or an engine beside it, calls otherwise.
 #pragma once
 

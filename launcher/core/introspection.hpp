@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What can be said about a launch file without visiting it: its arguments, with those of the files that it includes.
 #pragma once
 

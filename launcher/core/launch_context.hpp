@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state that actions are visited in, and what they ask for.
 //
 // Visiting changes nothing outside: an action reads and changes the scope and leaves requests. Whoever drives the visit

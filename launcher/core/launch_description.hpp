@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A loaded launch file: its actions, made and checked, nothing visited yet.
 #pragma once
 

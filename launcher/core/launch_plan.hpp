@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a launch would do, found by visiting it without carrying anything out.
 #pragma once
 

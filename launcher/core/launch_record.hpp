@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the launcher itself did and when, for a trace of the run: LTTng provider `launch`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a launch: visits, begins scopes, starts processes, ends everything in the opposite order.
 //
 // Each traversal (the file, later the children of a timer or of an event handler) leaves Requests. They are carried out

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The end of a launch: what on_shutdown handlers ask for, the processes, the scopes.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Event handlers and coroutines of a launch: how handlers are registered, and visited when their event has happened.
 #include <fmt/format.h>
 

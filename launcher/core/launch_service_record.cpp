@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the launch tells its recorder and its scopes.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a launch file asks to be done to processes that run: `stop`, `restart`, `signal`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every process that a launch was asked for, by the names that a launch file may use, and what has become of it.
 //
 // The names of a process are its label ("talker-2", once it has started), the label without its number, and for a ROS

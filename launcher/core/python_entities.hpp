@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns what a Python launch file builds into entities, with places in the file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The launch as Python sees it while it runs.
 #pragma once
 

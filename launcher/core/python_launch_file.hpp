@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Python launch files: run by the launcher's CPython (launcher/python/), they give the same actions as XML and YAML.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Something outside that a process may have to wait for before it starts, such as a service that is offered.
 //
 // `depends_on` (start_order.hpp) watches it from the moment at which the waiting process was asked for. What other

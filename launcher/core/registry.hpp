@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One declaration per action: its tag, its attributes and items with their types, a line of help, and how to make it.
 //
 // Parsing, the errors for unknown or missing attributes, and the reference page all come from the declaration.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a launch asks of the ROS graph. The seam between the launcher, which links no middleware, and the program
 // launch-ros-client (launcher/ros_client/), which does.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/core/ros_readiness.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conditions of the ROS graph that a process may have to wait for before it starts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Carries out what a launch asks of nodes by their services: components are loaded, states are changed.
 //
 // The steps of one request follow one another, different requests go on side by side, as in launch_ros. Each step waits

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Something that must begin before every process of a launch and end after the last has gone, like a trace session.
 #pragma once
 

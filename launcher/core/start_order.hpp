@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Processes that wait for others, or for something outside, before they start (`depends_on`).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The handlers of nodes with a managed life cycle. Each node is watched once, so that its handlers hear of a change
 // together, in the order of their registration.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The neutral tree that XML and YAML launch files are read into.
 //
 // Entities are plain data: what a tag or an attribute means is declared by the actions (launcher/core/registry.hpp),

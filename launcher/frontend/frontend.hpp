@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads launch files into Entity trees.
 #pragma once
 

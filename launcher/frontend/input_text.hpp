@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What both file formats demand of a text before it is parsed.
 #pragma once
 

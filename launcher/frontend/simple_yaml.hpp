@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads YAML that is written the ordinary way, many times faster than yaml-cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A place in the text of a YAML file, and what is asked of the line that it stands in.
 #pragma once
 

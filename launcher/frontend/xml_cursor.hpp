@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A place in the text of an XML file, and what the parts of the scanner share: blanks, names, errors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds where the tags and attributes of an XML file stand, and checks that the file is well-formed.
 //
 // tinyxml2 gives the tree, but no columns, and it accepts files that conforming parsers (expat, and with it ROS 2)

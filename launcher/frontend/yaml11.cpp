@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The types of YAML 1.1 as PyYAML resolves them (yaml/resolver.py, yaml/constructor.py). yaml-cpp's own conversions
 // follow YAML 1.2 and differ in octal, sexagesimal and exponent forms.
 #include <fmt/format.h>

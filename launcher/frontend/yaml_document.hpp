@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads YAML text into a plain tree, as PyYAML's safe loader does: YAML 1.1 types, aliases and merge keys resolved.
 #pragma once
 

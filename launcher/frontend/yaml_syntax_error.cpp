@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/frontend/yaml_syntax_error.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Says in the words of a launch file what is wrong with YAML that can't be parsed.
 #pragma once
 

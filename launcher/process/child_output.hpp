@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Standard output and error of one child, on their way from its pipes to the OutputRouter.
 #pragma once
 

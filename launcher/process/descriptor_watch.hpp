@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Readiness of many descriptors, batch by batch: one epoll(7) instance that stands in the event loop as one source.
 //
 // sd-event dispatches one source for each epoll_wait(), asks for all ready descriptors each time, and keeps no order

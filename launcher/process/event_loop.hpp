@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loop that everything of a launch runs on: children, pipes, timers, signals.
 #pragma once
 

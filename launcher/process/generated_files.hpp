@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that processes read, in a directory that only this user can enter and that ends with the launch.
 #pragma once
 

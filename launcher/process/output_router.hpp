@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Takes whole lines of children and of the launcher to the screen and to log files.
 #pragma once
 

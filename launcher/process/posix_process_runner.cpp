@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ProcessRunner on posix_spawn(3). Never fork(2): the launcher has threads.
 #include <fcntl.h>
 #include <linux/close_range.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a supervised process is asked to end, and what is left of it when it has.
 #include <signal.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Says what happens to processes, in the words of ROS 2 launch.
 #pragma once
 

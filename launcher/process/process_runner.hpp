@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starts and signals operating system processes. The seam between the supervisor and the kernel.
 #pragma once
 

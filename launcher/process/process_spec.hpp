@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What to run, fully evaluated; what runs; how it ended. Three types, because they have three lives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Owns the state of every process of a launch, from the request to start it to its last exit.
 //
 // A process is a row of the State x Event table in process_supervisor.cpp. Whoever wants to know (console, logs, launch

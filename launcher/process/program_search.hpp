@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the program of a process, as execvp(3) would, but on the PATH of the process instead of the launcher's.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long to wait between an exit and the next start: always the same time, or longer after each run that was short.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The EventLoop on sd-event(3). It needs libsystemd only; systemd itself need not run.
 #include <pthread.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Explains why posix_spawn(3) failed. The kernel's one error number stands for several mistakes: "No such file or
 // directory" may mean the program, the interpreter of a script or the working directory.
 #pragma once

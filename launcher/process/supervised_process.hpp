@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inside of the supervisor: what it keeps of each process, and what happens to one. For process_supervisor.cpp,
 // which has the table of states and events, and process_end.cpp alone.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/python/engine_module.hpp"
 
 #include <pybind11/embed.h>

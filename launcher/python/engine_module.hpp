@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module `_launch_engine`: the launch that called Python, for the Python package `launch`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/python/entity_reader.hpp"
 
 #include "launcher/python/engine_module.hpp"

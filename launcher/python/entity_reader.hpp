@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads what the Python package `launch` tells of its objects.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns Python's exceptions into errors with a place.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // liblaunch_python.so: CPython for $(eval …) and Python launch files. Loaded with dlopen on first use, so that
 // launching without Python costs and needs no Python.
 #include <dlfcn.h>

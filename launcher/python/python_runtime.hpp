@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the launcher and liblaunch_python.so know of each other: plain data one way, two small interfaces.
 //
 // The module runs Python and turns what a launch file builds into the entities below, each with the place at which it

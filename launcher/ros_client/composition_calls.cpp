@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls of a component container's services (composition_interfaces).
 #include <algorithm>
 #include <composition_interfaces/srv/list_nodes.hpp>

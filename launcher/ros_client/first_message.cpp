@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting for the first message on a topic of any type.
 //
 // The message is not read, so its type need not be known when this program is built: the type's name, which the graph

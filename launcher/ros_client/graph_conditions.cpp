@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting for what the graph shows: a node, a publisher, a service.
 #include <algorithm>
 #include <functional>

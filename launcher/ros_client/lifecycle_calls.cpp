@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls of a managed node's services, and what it tells of its transitions (lifecycle_msgs).
 #include <chrono>
 #include <lifecycle_msgs/msg/transition.hpp>

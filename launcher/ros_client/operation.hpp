@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One request while launch-ros-client works on it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The work of launch-ros-client: takes requests, looks after all that are under way whenever something changes, and
 // answers them.
 #pragma once

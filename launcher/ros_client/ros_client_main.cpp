@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // launch-ros-client NODE: answers requests about the ROS graph until its standard input, a socket, closes.
 #include <fmt/format.h>
 #include <signal.h>

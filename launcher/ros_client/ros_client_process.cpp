@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/ros_client/ros_client_process.hpp"
 
 #include <fcntl.h>

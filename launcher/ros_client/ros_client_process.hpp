@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The launcher's end of launch-ros-client: starts the program when the first request comes, one for each ROS graph that
 // requests are about, and talks to it over a socket (ros_protocol.hpp).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the launcher and launch-ros-client say to each other: one JSON object a line, both ways.
 //
 //   {"id": 1, "do": "load_node", "container": "/c", "node": {"package": "demo", …}}       a request

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two ways in which launch files read a text as a boolean, and when two texts are equal.
 #pragma once
 

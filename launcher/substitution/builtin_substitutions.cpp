@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The built-in substitutions: one function and one row of the table at the end for each.
 #include <fmt/format.h>
 

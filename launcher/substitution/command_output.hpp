@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a command to its end and keeps what it writes.
 #pragma once
 

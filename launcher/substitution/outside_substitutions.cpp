@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Substitutions that look beyond the launch files: at commands, files, Python, and the name of this run.
 #include <fmt/format.h>
 #include <unistd.h>

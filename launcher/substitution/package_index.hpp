@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds packages and their programs through the ament index.
 #pragma once
 

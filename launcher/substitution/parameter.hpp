@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of ROS parameters, and those that a scope gives to every later node.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/substitution/python_expression.hpp"
 
 #include "launcher/substitution/python_module.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Python expressions, evaluated by a CPython that is loaded when the first one is met.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The CPython of this launcher: liblaunch_python.so, loaded when the first Python is met.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What substitutions can see: the plain state of a launch at one moment.
 #pragma once
 

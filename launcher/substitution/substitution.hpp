@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Substitutions: the $(…) of launch files, parsed at load and performed at visit.
 #pragma once
 

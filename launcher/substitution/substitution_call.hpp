@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One use of a built-in substitution while it is performed, and the functions that perform them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The template grammar: text with $(name arg …) inside, escapes and quoting.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What supervision costs: starts and stops N sleeping children with the supervisor on the real loop, and with bare
 // posix_spawn(3), kill(2) and waitpid(2), in turns in the same run. Prints medians and their ratios.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch --dry-run=json` agrees with the recorded behaviour of the reference engine, launch file by launch file.
 //
 // The records and the program that compares (`compare`) come with the files. deliberate_differences.tsv lists the

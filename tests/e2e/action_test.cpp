@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An action between two processes, and what its trace tells.
 #include <gmock/gmock.h>
 

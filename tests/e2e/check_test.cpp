@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What can be said of launch files without running them: check, print, graph, schema, dry runs as scripts, completion.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line of the launcher, and what it says to files that it can't read: exit code 1, the place, nothing
 // started.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Components in real containers: loaded, traced, loaded again, refused, waited for.
 #include <gmock/gmock.h>
 #include <signal.h>

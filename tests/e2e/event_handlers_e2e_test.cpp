@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Event handlers, commands and the start order with real processes.
 #include <gmock/gmock.h>
 #include <signal.h>

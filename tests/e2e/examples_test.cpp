@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every example runs, in both formats, and does what the table of launch_examples/README.md says.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the trace tells of an executor with several threads.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps three threads of an executor busy, for executor_threads_trace_test.cpp: two timers of one group, which take
 // turns, and a subscription whose callbacks run at the same time.
 #include <condition_variable>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What provider ros2_ext adds: the end of every object, what executors do with services and clients, and what clients
 // do with responses.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """
 Launch files with errors, each with all that is said about it: tests/golden/errors, FILE and FILE.expected.
 

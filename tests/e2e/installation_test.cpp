@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole product installed and moved: the launcher finds its own packages, guardian and report where they are now.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the trace tells of messages that stay in their process.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Publishes to itself in each of the ways that intra_process_trace_test.cpp looks for in the trace.
 #include <memory>
 #include <rclcpp/experimental/create_intra_process_buffer.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernel events recorded by LTTng's own modules. Runs in a guest that has them: `./dev test-kernel`.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events of the kernel beside those of userspace, recorded through tracefs where LTTng's modules are not there.
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tracing that starts when the system runs already: the trace is as readable as one from the beginning.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Managed nodes in a launch: started automatically, waited for, led through their states; and what the graph must show
 // before a process starts.
 #include <gmock/gmock.h>

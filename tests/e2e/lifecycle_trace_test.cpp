@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the trace tells of a managed node: its state machine, and every step that it takes.
 #include <gmock/gmock.h>
 

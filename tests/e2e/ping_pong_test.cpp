@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole line of the product: launch file, session, two nodes over DDS, and a trace that reads as ROS 2's does.
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Python launch files, with real processes and real traces.
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole trace in memory, for tests: every event with its fields by name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the trace tells of services: those that every node has, and one that a client asks.
 #include <gmock/gmock.h>
 

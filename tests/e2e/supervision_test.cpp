@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Real processes that misbehave: what ignores signals, crashes, can't start, or leaves children.
 #include <gmock/gmock.h>
 #include <signal.h>

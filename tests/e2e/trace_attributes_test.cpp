@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each attribute of <trace>, from the launch file to what the session daemon says of the session: a process of the
 // launch asks it. Context fields, which the daemon does not list, are looked up in the trace.
 #include <gmock/gmock.h>

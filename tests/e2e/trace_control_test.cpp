@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What <trace> does in a launch: the launcher's own events, processes that stay out, snapshots when something goes
 // wrong.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a trace costs and what it has lost, as the verdict tells it; the limit of the cost; deadlines.
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every value of an entity tree is taken as what an action could take it for.
 #pragma once
 

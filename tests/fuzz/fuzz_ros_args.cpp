@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line of a node: one argument per line of the input.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Templates of attributes: $(name arg …), escapes, command lines. They are parsed, not performed.
 #include "launcher/substitution/template_parser.hpp"
 #include "tests/fuzz/fuzz_input.hpp"

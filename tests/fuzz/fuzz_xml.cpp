@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The front end of XML launch files.
 #include "tests/fuzz/fuzz_frontend.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs programs for end-to-end tests and waits for what they print.
 #pragma once
 

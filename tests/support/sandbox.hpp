@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A corner of the machine for one end-to-end test: its own LTTng, network, ROS directories and process tree.
 #pragma once
 

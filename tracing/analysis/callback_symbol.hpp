@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the demangled symbol of a callback readable.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pairs the starts and ends of callbacks and measures the time between.
 //
 // An instance is known by process, thread and callback: a reentrant callback may run in several threads at once with

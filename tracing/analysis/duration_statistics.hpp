@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Count, mean, spread and percentiles of durations, in bounded memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts what executors serve of services, clients and waitables, and measures how long services and clients take.
 //
 // An executor tells what it serves next, and not that it is done. A service is done when it has sent its response, in

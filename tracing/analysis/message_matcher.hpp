@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows messages from the publisher to the callback that gets them, by topic and source timestamp.
 #pragma once
 

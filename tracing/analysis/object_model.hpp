@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ROS 2 objects of a trace, built from its initialisation events as they come by.
 //
 // Handles are addresses: two processes may use the same one, and one process may use it again for another object. An

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts the events of a trace by name and process, and adds up its losses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an analysis of a trace found, as plain data. All times are nanoseconds; points in time are since the epoch on
 // the tracer's clock.
 #pragma once

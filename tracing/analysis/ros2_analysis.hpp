@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Callback durations, topic latencies and calls of services from the events of ros2_tracing.
 //
 // Feed the events of all processes in the order of time, then ask once for the results. The memory grows with the

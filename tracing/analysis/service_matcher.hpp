@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows requests from a client to a service and their responses back, by the client's gid and the sequence number.
 //
 // A client records rmw_send_request when the request is on its way, for only then it has a number: the service may have

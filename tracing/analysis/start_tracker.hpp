@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long processes take from their start to a node and to the first wait for work, from the launcher's events and
 // theirs.
 //

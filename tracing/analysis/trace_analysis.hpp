@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Everything that is analysed of a trace, as the sink of one reading.
 //
 //   TraceAnalysis analysis;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes events of the kernel as a CTF 1.8 trace, as LTTng's kernel tracer would: one stream file per processor, domain
 // "kernel", the clock of a userspace trace beside it.
 #pragma once

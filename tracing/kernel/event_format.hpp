@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an event of the kernel looks like in memory, from the file `format` of tracefs (Documentation/trace/events.rst).
 #pragma once
 

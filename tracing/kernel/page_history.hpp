@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The newest pages of each processor's ring buffer, without a gap between them: what a snapshot is written from.
 #pragma once
 

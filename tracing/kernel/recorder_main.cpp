@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME | context FIELD | snapshots]…
 //
 // Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. SIGUSR1 pauses it, with

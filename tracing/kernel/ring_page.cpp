@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/kernel/ring_page.hpp"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A page of the kernel's trace ring buffer, as `trace_pipe_raw` gives it (Documentation/trace/ring-buffer-design.rst
 // and events/header_page, events/header_event of tracefs).
 #pragma once

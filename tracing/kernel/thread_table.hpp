@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whose thread it was and what it was called when an event was recorded: the kernel's records tell the thread alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An instance of the kernel's own tracer: ring buffers, enabled events and a clock apart from everybody else's
 // (Documentation/trace/ftrace.rst, "Instances").
 #pragma once

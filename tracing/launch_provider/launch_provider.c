@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch_provider.h"
 
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The functions of liblaunch_trace.so, which the launcher opens when a session records: so it has neither LTTng-UST
    nor its threads without one. */
 #pragma once

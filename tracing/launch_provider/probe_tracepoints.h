@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The events of launch-trace-probe.
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER launch_probe

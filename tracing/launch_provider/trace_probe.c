@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* launch-trace-probe: registers with LTTng's session daemon as every traced program does, fires launch_probe:fired
    once, and ends.
 

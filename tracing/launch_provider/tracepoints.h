@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Provider `launch`: what the launcher does. `time` is CLOCK_MONOTONIC in nanoseconds of when it happened or began,
 // `duration` nanoseconds: what comes before the session exists is fired once it does. `file` and `line` are the place
 // in the launch file that asked for it, "" and 0 without one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Keeps a process out of every trace of userspace events: preloaded, it stands before LTTng-UST 2.13 (and later) where
    tracepoint providers register their probes, so that the process has no event that a session could enable. No
    environment variable of LTTng does this, for root's session daemon is found whatever LTTNG_HOME says, nor a tracker:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libbabeltrace2 for C++: owned references, and its errors as exceptions. Private to the reader.
 #pragma once
 

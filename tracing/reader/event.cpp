@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/reader/event.hpp"
 
 #include <babeltrace2/babeltrace.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One recorded event as the reader shows it: views into the reader's memory, nothing is copied.
 //
 // Everything in an Event is valid until TraceSink::on_event returns; its EventClass and Stream live as long as the

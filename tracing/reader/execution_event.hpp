@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What executors and clients do that ROS 2 has no event for, and provider `ros2_ext` records.
 #pragma once
 

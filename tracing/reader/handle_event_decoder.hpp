@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recognises events of provider `ros2_ext` whose first field is the handle of what they tell of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/reader/message_translator.hpp"
 
 #include <fmt/format.h>

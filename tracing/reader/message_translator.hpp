@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns libbabeltrace2's messages into events and losses. Private to the reader.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ends of ROS 2 objects, which provider `ros2_ext` records. ROS 2 itself tells of beginnings only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns recorded events of ros2_tracing into structs.
 #pragma once
 

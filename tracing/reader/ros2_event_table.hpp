@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The 42 events of the tracepoint provider `ros2`, as tracetools of ros2_tracing 8.10 declares them.
 //
 // This table is the only place that lists them: the structs, the decoder and the tests come from it. Use:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The events of ros2_tracing as structs, one per event, generated from ros2_event_table.hpp.
 //
 // A field that a trace does not hold (recorded by another version of ros2_tracing) has its zero value, which no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the CTF traces below a directory. Private to the reader.
 #pragma once
 

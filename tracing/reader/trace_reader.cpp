@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/reader/trace_reader.hpp"
 
 #include <fmt/format.h>

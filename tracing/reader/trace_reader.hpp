@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the CTF traces below a directory and gives their events in the order of time.
 //
 // Several traces below the directory (userspace and kernel, the two halves of a dual session, several snapshots) are

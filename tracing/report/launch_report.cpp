@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch report DIRECTORY`: reads a trace and prints what it tells. An executable of its own, which `launch` executes,
 // so that the launcher doesn't carry the reading libraries while a system runs.
 #include <fmt/format.h>

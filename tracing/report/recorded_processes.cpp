@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/report/recorded_processes.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts what a trace holds of each process, for whoever knows what they have fired.
 #pragma once
 

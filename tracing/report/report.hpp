@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders the results of an analysis: for people, for programs, and in one line.
 #pragma once
 

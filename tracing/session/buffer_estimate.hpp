@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether buffers will hold, before anything has run: from the number of nodes, at the rate of busy ones.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which channels a trace has, how large their buffers are, and what is recorded into each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sets the channels of a session up at the session daemon.
 #pragma once
 

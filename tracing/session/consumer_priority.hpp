@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lets LTTng's consumer keep up on a busy machine.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether events can be recorded with the context fields that are asked for. LTTng records none at all, and says
 // nothing, when a thread's performance counter can't be opened.
 #pragma once

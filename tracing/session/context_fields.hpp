@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of context fields ("vpid", "perf:thread:cycles", "$app.provider:type") and what LTTng calls them.
 #pragma once
 

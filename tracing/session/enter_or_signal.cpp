@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/session/enter_or_signal.hpp"
 
 #include <poll.h>

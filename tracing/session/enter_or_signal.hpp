@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waits for Enter on stdin or for a signal to end, whichever comes first.
 #pragma once
 

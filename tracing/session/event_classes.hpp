@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The run-time events of ROS 2 in classes, for a trace that must not cost more than it is given: a class is dropped as
 // a whole, so that what remains can still be understood.
 #pragma once

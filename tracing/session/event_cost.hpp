@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What it costs a traced thread to record one event, measured on this machine and remembered.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many events the processes of a launch have fired, as they say themselves while they run: the counter files of
 // libtracetools (docs/tracetools.md).
 #pragma once

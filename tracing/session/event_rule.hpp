@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an entry of events-ust or events-kernel asks for:
 //
 //   PATTERN [except PATTERN[,PATTERN]…] [level [=]LEVEL] [if FILTER]

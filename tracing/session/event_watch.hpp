@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tells when an event of a running program matches a rule, without reading a trace: LTTng's triggers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes snapshots of a snapshot session when something has gone wrong: what happened before is in them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programs that are installed beside this one, in lib/launch.
 #pragma once
 

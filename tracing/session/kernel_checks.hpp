@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What LTTng's kernel modules can record, and what they would get wrong. All throw TraceError.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/session/kernel_recorder.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records events of the kernel without LTTng's modules: runs launch-kernel-recorder beside a session.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds shared libraries where the dynamic linker would.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads what the tracer's counters say about events that it could not keep.
 #pragma once
 

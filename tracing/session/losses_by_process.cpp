@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/session/losses_by_process.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which process lost how much, found out at the end of a session.
 #pragma once
 

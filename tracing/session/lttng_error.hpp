@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place where a result of liblttng-ctl becomes a TraceError.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 #include <lttng/lttng.h>
 #include <sys/sysinfo.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A session that is being set up.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps what recording costs within a budget: drops classes of events, one after the other, while they are too many.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/session/packet_index.hpp"
 
 #include <endian.h>

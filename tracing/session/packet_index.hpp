@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams, or the
 // streams.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/session/perf_counters.hpp"
 
 #include <linux/perf_event.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of Linux performance counters, as in perf-list(1) and lttng-add-context(1), to perf_event_open(2)'s numbers.
 #pragma once
 

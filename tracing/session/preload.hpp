@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which LTTng helper libraries a process must preload for its userspace events to fire, and to fork safely with them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which process how many of a session's lost events are of, and what each process fired.
 //
 // Buffers for each process: the packets say it. Buffers that processes share: a process counts what it hands to LTTng

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/session/session_daemon.hpp"
 
 #include <fcntl.h>

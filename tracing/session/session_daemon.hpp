@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The LTTng session daemon: found, started when none runs, and known to be usable.
 #pragma once
 

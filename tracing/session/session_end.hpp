@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The end of a session: stopped, written to the last byte, destroyed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the session daemon knows: the sessions that exist, one of them in detail, and what can be recorded now.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps the configuration of a session in a file, in LTTng's own format: `lttng save` and `lttng load` read it, too.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What can be known to fail before a session is created. All throw TraceError.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The output of snapshot sessions, and recording one.
 #pragma once
 

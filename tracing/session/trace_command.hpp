@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch trace`: tracing from the command line, as `ros2 trace` does it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the shells offer on the command line of `launch trace`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One trace, fully described: what `<trace>` and `launch trace` evaluate to.
 #pragma once
 

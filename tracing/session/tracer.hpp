@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Controls trace sessions. The seam between the product and LTTng.
 #pragma once
 

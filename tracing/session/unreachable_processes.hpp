@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs that could be traced and never notice that they may be.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Data that LTTng's consumer could not write: on a full file system or beyond a disk quota it gives up the stream of a
 // processor, for good and without telling anybody.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a trace is complete, and if not: what is missing, and which buffers would have held it.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_cmake: what the CMakeLists.txt of a ROS 2 package calls. Each function is in the file of its name or family.
 foreach(_ament_module IN ITEMS package_xml target_dependencies export environment_hooks index version_header package)
   include(${CMAKE_CURRENT_LIST_DIR}/ament_${_ament_module}.cmake)

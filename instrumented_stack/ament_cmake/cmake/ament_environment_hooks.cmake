@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_environment_hooks(<file>...)
 #
 # Installs scripts for who sets up an environment, in share/<pkg>/environment; one that ends in .in is configured first.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What find_package() of this package gives to others. Collected here, written by ament_package().
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)

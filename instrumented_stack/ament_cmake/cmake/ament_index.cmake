@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Entries of the ament index beside the package itself.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)

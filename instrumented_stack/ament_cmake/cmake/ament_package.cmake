@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_package([CONFIG_EXTRAS <file>...] [CONFIG_EXTRAS_POST <file>...])
 #
 # Last in the CMakeLists.txt of a package: enters it into the ament index, installs its package.xml, and writes what

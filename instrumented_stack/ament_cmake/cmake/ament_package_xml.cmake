@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What the package.xml of the project says.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_target_dependencies(<target> [PUBLIC|PRIVATE|INTERFACE] [SYSTEM] <pkg>...)
 #
 # Lets a target use packages that were found: their targets, and what they name in <pkg>_LIBRARIES, _INCLUDE_DIRS,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_generate_version_header(<target> [HEADER_PATH <path>] [INSTALL_PATH <dir>])
 #
 # Lets a target include <pkg>/version.h, with <PKG>_VERSION_MAJOR, _MINOR, _PATCH, _STR and <PKG>_VERSION_GTE(major,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_cmake_auto: a package whose CMakeLists.txt takes its dependencies from its package.xml.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_cmake_gtest: tests with GoogleTest, run by ctest.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_cmake_python: Python modules in a package that is built by CMake.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)

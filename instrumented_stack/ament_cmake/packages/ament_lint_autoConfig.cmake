@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ament_lint_auto: the linters that package.xml names as test dependencies. None of them comes with this stack.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)

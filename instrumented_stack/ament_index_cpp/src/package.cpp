@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ament_index_cpp/get_package_prefix.hpp"
 #include "ament_index_cpp/get_package_share_directory.hpp"
 #include "ament_index_cpp/get_packages_with_prefixes.hpp"

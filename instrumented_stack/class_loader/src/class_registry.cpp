@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "class_loader/detail/class_registry.hpp"
 
 #include <dlfcn.h>

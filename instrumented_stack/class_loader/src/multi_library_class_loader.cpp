@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "class_loader/multi_library_class_loader.hpp"
 
 namespace class_loader {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "composition/node_like_listener_component.hpp"
 
 #include <memory>

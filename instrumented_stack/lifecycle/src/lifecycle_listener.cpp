@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints what node lc_talker says and through which states it goes.
 #include <cstdio>
 #include <cstdlib>

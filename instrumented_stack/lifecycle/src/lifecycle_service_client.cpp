@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leads a managed node once through its life: configure, activate, deactivate, cleanup, shutdown.
 //
 // Parameters: node       name of the managed node (default lc_talker)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks service add_two_ints for a sum, again and again, and ends when all answers have come.
 //
 // Parameters: a, b   what to add (default 2 and 3)

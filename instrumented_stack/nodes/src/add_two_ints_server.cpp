@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds two numbers for whoever asks on service add_two_ints.
 //
 // Parameter: count  end after this many requests (default 0: until interrupted)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks action fibonacci for a sequence, prints what there is of it so far, and ends with the result.
 //
 // Parameters: order         how many numbers after the first (default 10)

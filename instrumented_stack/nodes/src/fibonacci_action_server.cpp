@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes Fibonacci sequences for clients of action fibonacci, a number at a time, several goals side by side.
 //
 // Parameter: period_ms  time between two numbers (default 1000)

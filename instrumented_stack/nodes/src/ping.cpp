@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends numbers on topic ping, waits for each to come back on topic pong, and ends when all have.
 //
 // Parameters: count      how many replies to wait for (default 10, 0: until interrupted)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends every number that arrives on topic ping back on topic pong.
 //
 // Parameter: count  end after the reply to this number (default 0: until interrupted)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Says hello on topic chatter once a second: the component of demo_nodes_cpp.
 #include "rclcpp_components/single_threaded_node_main.hpp"
 

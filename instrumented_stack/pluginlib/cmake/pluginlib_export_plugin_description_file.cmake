@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # pluginlib_export_plugin_description_file(<package of the base class> <file relative to the current source folder>)
 #
 # Installs the description under share/<this package>/ and enters it in the ament index, where the loaders of that package

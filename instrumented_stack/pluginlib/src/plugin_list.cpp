@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "pluginlib/detail/plugin_list.hpp"
 
 #include <tinyxml2.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strings that are handed out through the C interface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file in which a process keeps its log lines, as rcl_logging_spdlog names it.
 #pragma once
 

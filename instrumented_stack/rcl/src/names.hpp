@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of topics and services: expansion and checks, as values and exceptions.
 #pragma once
 

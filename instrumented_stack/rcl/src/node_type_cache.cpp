@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rcl/node_type_cache.h"
 
 #include "rcl/error_handling.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameter values and files as YAML, typed by ROS 2's own rules (rcl_yaml_param_parser), which are neither YAML 1.1's
 // nor 1.2's: `y` and `on` are booleans, integers may be hexadecimal or octal, `1e3` and `inf` are floating point
 // numbers, `null` and `~` are strings.

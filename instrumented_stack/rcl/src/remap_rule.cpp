@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "remap_rule.hpp"
 
 #include <cctype>

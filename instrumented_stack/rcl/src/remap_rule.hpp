@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One remap rule of a command line: `[node:]FROM:=TO`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an end of a service publishes of its calls while its introspection is on.
 #pragma once
 

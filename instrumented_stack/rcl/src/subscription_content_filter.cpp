@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Content filters, in the options of a subscription that is to be made and of one that there is.
 #include <new>
 

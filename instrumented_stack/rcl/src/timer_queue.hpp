@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The timers that a wait set keeps, by the time at which they are due, so that a wait looks at the next ones and not at
 // all.
 #pragma once

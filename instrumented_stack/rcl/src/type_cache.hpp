@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The types in use by a node, by their hashes.
 #pragma once
 

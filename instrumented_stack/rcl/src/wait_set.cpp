@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wait sets: what is in them, and what of it stays from wait to wait.
 #include <algorithm>
 #include <type_traits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rcl_action/action_client.h"
 
 #include "action_client_impl.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rcl_action/action_server.h"
 
 #include <cstring>

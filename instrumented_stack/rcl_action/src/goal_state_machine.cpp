@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rcl_action/goal_state_machine.h"
 
 rcl_action_goal_info_t rcl_action_get_zero_initialized_goal_info(void) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Introspection of an action is that of its three services.
 #include <array>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The goals of a server: from being accepted to expiring.
 #include <algorithm>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rcl_lifecycle/default_state_machine.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/any_service_callback.hpp"
 
 #include <tracetools/tracetools.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/any_subscription_callback.hpp"
 
 #include <tracetools/tracetools.h>

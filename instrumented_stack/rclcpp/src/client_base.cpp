@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/client_base.hpp"
 
 #include <rcl/graph.h>

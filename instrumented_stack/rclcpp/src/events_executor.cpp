@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
 
 #include <tracetools/tracetools.h>

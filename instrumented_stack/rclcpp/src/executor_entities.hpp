@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an executor serves: the nodes and groups it was given, the entities in them, and the wait set.
 //
 // The list of entities is rebuilt only after something changed. It holds the rcl handles, so that a wait never looks at

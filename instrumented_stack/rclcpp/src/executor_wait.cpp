@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How an executor waits for its entities.
 #include <rcl/wait_restore.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/expand_topic_or_service_name.hpp"
 
 #include <rcl/expand_topic_name.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/generic_service.hpp"
 
 #include "rclcpp/detail/message_memory.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/init_options.hpp"
 
 #include "rclcpp/exceptions.hpp"

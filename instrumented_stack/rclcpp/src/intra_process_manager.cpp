@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/experimental/intra_process_manager.hpp"
 
 #include <rmw/qos_profiles.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/intra_process_trace.hpp"
 
 #include <tracetools/tracetools.h>

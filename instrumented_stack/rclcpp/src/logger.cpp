@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/logger.hpp"
 
 #include <rcl/logging_directory.hpp>

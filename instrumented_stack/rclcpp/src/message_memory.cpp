@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/message_memory.hpp"
 
 #include <rmw/message_memory.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/executors/multi_threaded_executor.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rcl tells of the graph, as C++.
 #pragma once
 

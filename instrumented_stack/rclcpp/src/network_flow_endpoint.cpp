@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/network_flow_endpoint.hpp"
 
 #include <rcl/allocator.h>

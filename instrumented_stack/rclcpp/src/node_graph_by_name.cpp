@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What NodeGraph tells of one node or one topic.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What can be asked of a node's parameters; node_parameters.cpp changes them.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/node_interfaces/node_type_descriptions.hpp"
 
 #include <rcl/node_type_cache.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/node_interfaces/node_waitables.hpp"
 
 #include <stdexcept>

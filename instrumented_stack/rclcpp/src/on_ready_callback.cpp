@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/on_ready_callback.hpp"
 
 #include <exception>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a value is one that a parameter's descriptor allows.
 #pragma once
 

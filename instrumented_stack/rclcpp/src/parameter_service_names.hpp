@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the parameter services, below the name of their node.
 #pragma once
 

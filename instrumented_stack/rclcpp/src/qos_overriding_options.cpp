@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/qos_overriding_options.hpp"
 
 #include <utility>

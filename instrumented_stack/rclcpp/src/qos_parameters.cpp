@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/qos_parameters.hpp"
 
 #include <algorithm>

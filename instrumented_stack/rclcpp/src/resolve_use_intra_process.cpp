@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/resolve_use_intra_process.hpp"
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/serialized_message.hpp"
 
 #include <rmw/serialized_message.h>

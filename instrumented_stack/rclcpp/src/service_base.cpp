@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/service_base.hpp"
 
 #include <tracetools/tracetools.h>

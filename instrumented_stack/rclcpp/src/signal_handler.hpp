@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns SIGINT and SIGTERM into the shutdown of the contexts that want it.
 //
 // The handler itself only writes to an eventfd. A thread of its own reads it and shuts the contexts down, where locks

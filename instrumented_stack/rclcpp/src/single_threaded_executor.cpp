@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/executors/single_threaded_executor.hpp"
 
 namespace rclcpp::executors {

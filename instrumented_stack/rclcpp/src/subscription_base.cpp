@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/subscription_base.hpp"
 
 #include <rmw/rmw.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/experimental/subscription_intra_process_base.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/topic_statistics/subscription_topic_statistics.hpp"
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/topic_name.hpp"
 
 #include <rcl/validate_topic_name.h>

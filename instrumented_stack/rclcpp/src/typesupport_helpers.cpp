@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/typesupport_helpers.hpp"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/wait_set_entities.hpp"
 
 #include <algorithm>

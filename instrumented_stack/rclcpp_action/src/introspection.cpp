@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Introspection of clients and servers of actions.
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp_action/client.hpp"

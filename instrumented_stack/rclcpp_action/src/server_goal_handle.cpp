@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp_action/server_goal_handle.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Tells containers which components a library has, and makes programs of components.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A process for components, which share one thread that is told of what comes instead of asking for it.
 #include "container_main.hpp"
 #include "rclcpp/experimental/executors/events_executor/events_executor.hpp"

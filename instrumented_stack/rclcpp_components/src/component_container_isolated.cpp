@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A process for components, each with an executor and a thread of its own.
 //
 // Option: --use_multi_threaded_executor  each with several threads

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A process for components, which share several threads.
 //
 // Parameter: thread_num  how many (default: one per processor)

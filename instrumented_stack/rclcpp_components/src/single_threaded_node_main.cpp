@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp_components/single_threaded_node_main.hpp"
 
 #include "rclcpp_components/node_main.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rclcpp_lifecycle/lifecycle_node.hpp"
 
 #include <rcl_lifecycle/default_state_machine.h>

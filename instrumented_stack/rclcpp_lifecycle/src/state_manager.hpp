@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leads a node through its transitions: the state machine of rcl_lifecycle with the callbacks of the node.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The format of a console line: RCUTILS_CONSOLE_OUTPUT_FORMAT parsed once, filled in for each message.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clients: the end of a service that sends requests and takes responses.
 #include <algorithm>
 #include <atomic>

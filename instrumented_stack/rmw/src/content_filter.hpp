@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDS topics of which a reader gets only what its filter lets through.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A DDS DataReader that rmw_wait() can wait for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between the GUID of Fast DDS and ours.
 #pragma once
 

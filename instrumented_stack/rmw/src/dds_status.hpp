@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the statuses that DDS tells, whose changes count since the last call, to those of rmw, whose changes count since
 // somebody took them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The structure of a message type, as the content filters of Fast DDS need it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "discovery_range.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>

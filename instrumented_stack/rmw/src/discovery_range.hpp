@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far participants look for one another: RMW_AUTOMATIC_DISCOVERY_RANGE_… and static peers.
 #pragma once
 

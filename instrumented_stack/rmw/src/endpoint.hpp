@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Creation of publishers and subscriptions without a node: what rmw_create_publisher() and ros_discovery_info share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events in general. Those of a publisher or subscription are initialised beside it.
 #include "rmw/event.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Identity of an endpoint or participant: the bytes of its DDS GUID.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Questions about the graph, answered from the cache.
 #include <new>
 #include <string>

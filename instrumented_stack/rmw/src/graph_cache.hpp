@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who is there: the participants, nodes and endpoints that discovery has found so far, and those of this process.
 //
 // Endpoints come from DDS discovery, nodes from the topic ros_discovery_info, in which every participant tells the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts the changes of the graph, for any number of threads that wait for one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The topic ros_discovery_info: tells other participants of the nodes of this one, and listens to theirs.
 //
 // Its publisher and subscription have no rcl counterpart. A thread of its own takes what arrives; it ends each wake-up

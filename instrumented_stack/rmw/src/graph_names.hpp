@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the graph on their way to those who asked: from DDS to ROS, and into C structures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Marks handles as made by this implementation; compared by address.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Init options and contexts.
 #include "rmw/init.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How Fast DDS serializes ROS messages: an adapter from its TopicDataType to the type support callbacks.
 #pragma once
 

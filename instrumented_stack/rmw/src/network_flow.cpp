@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "network_flow.hpp"
 
 #include <fastrtps/utils/IPLocator.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Locators of DDS as endpoints of network flows.
 #pragma once
 

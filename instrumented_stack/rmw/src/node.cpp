@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes and the endpoints that they own: every change is announced on ros_discovery_info.
 #include "node.hpp"
 

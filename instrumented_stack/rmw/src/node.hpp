@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the creation of every entity of a node shares. The mutex of the node's context must be held.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The DDS participant of a context, with its topics, and what discovery tells it.
 #pragma once
 

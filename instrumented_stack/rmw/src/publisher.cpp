@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Publishers: a DDS DataWriter each.
 #include <time.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between ROS profiles and the quality of service of Fast DDS, as rmw_fastrtps_cpp maps them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether two profiles match: the request-versus-offer rules of the DDS specification, 2.2.3.
 #include <cstdio>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What DDS tells of a DataReader, as messages and events of a subscription.
 #pragma once
 

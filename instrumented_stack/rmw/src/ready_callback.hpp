@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whom a Waitable tells that something came, beside those who wait for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services: the end of a service that takes requests and sends responses.
 #include <algorithm>
 #include <chrono>

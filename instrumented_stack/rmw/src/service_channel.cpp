@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "service_channel.hpp"
 
 #include <fastdds/dds/publisher/Publisher.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two topics of a service as one end sees them: a reader of what comes, a writer of what goes.
 #pragma once
 

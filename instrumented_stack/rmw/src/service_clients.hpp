@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clients that a service has heard of: whether a response to one would arrive.
 #pragma once
 

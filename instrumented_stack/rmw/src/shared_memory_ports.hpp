@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ports in shared memory that no process has had before.
 #pragma once
 

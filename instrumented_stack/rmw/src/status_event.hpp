@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An event of a publisher or subscription that rmw_wait() can wait for: the status that DDS tells, gathered until
 // somebody takes it.
 #pragma once

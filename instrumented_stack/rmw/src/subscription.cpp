@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subscriptions: a DDS DataReader each.
 #include "subscription.hpp"
 

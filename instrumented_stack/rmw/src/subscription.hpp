@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a subscription is made of, shared by the files about it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Content filters that change while a subscription is in use.
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <stdexcept>

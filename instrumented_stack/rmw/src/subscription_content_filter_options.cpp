@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rmw/subscription_content_filter_options.h"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Publishers and subscriptions of a topic.
 #include "rmw/topic_endpoint_info.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between ROS names and DDS names.
 #pragma once
 

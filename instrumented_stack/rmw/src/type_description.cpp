@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rmw/type_description.h"
 
 #include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Initial values of the plain types, and arithmetic of rmw_time_t.
 #include "rmw/types.h"
 

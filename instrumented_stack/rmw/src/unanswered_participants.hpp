@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Participants that were discovered and may not have discovered us.
 //
 // Fast DDS 2.9 announces a participant before it listens: who is quick to answer a new one is not heard. As nobody

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rules for names, as in ROS 2's rmw: what DDS can carry and what other tools expect.
 #include <cctype>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Guard conditions, wait sets and rmw_wait().
 #include <algorithm>
 #include <array>

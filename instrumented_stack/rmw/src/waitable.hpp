@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rmw_wait() sleeps on: a Waiter per wait set, known to every Waitable that the wait set waits for.
 //
 // They stay known to each other between waits, so that a wait for the same entities as before locks none of them. A

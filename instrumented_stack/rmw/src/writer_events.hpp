@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What DDS tells of a DataWriter, as events of a publisher.
 #pragma once
 

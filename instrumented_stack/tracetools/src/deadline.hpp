@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__DEADLINE_HPP_
 #define TRACETOOLS__DEADLINE_HPP_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__EVENT_COUNTERS_HPP_
 #define TRACETOOLS__EVENT_COUNTERS_HPP_
 

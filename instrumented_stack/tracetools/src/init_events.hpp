@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__INIT_EVENTS_HPP_
 #define TRACETOOLS__INIT_EVENTS_HPP_
 

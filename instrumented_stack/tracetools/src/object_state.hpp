@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__OBJECT_STATE_HPP_
 #define TRACETOOLS__OBJECT_STATE_HPP_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The payload of every event of provider `ros2`: field names, order, types and display bases are what the readers of
  * ROS 2 traces rely on. Rows of tracetools/events.h hand over the arguments in the same order.
  *

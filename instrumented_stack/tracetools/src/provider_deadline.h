@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The payload of the events of provider `ros2_deadline`: what took longer than it may. About the unusual guards see
  * provider.h. */
 #undef LTTNG_UST_TRACEPOINT_PROVIDER

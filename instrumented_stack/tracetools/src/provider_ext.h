@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The payload of every event of provider `ros2_ext`. Rows of tracetools/events_ext.h hand over the arguments in the
  * same order. About the unusual guards see provider.h. */
 #undef LTTNG_UST_TRACEPOINT_PROVIDER

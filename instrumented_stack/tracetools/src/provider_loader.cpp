@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Opens the probes when libtracetools.so is loaded. They are a library of their own so that a process that opts out
 /// (TRACETOOLS_RUNTIME_DISABLE=1) gets neither lttng-ust nor its two threads.
 #include "provider_loader.hpp"

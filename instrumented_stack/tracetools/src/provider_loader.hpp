@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__PROVIDER_LOADER_HPP_
 #define TRACETOOLS__PROVIDER_LOADER_HPP_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* lttng-ust tells the state of a process (which files are loaded where) to each session that starts: the tracepoint
  * lttng_ust_statedump:start is the beginning of that. It has no public hook for the state of applications, but any
  * function can be attached to a tracepoint, and this one fires in every process, without thread or polling of ours.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef STATE_DUMP_REQUEST_H_
 #define STATE_DUMP_REQUEST_H_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// Says whether a process that starts in this environment can be traced: exit status 0 if so, 1 if not.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The functions of tracetools.h, one trio per row of events.h and events_ext.h, and the definitions of their
 /// tracepoints. The probes that write the records are in libtracetools_provider.so: see provider_loader.cpp.
 #include "tracetools/tracetools.h"

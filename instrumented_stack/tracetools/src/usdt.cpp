@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The functions of tracetools.h for tools that probe programs in user space: each event is an SDT note of this library
 /// (`readelf -n`), which perf, bpftrace and SystemTap see. A probe that nobody uses is one `nop`.
 ///

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Completion of launch(1) for bash.
 _launch() {
   local line=${COMP_LINE:0:COMP_POINT} words current prefix

@@ -1,4 +1,5 @@
 #compdef launch
+# SPDX-License-Identifier: Apache-2.0
 # Completion of launch(1) for zsh.
 local -a candidates
 candidates=("${(@f)$($words[1] complete "${(@)words[2,CURRENT]}" 2>/dev/null)}")

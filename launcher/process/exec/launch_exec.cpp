@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // launch-exec: applies scheduling and limits to itself, then becomes another program.
 //
 // Between its start and its first instruction a program can already have read its limits and made its threads, so they

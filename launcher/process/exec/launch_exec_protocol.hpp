@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What launch-exec and the launcher say to each other.
 //
 //   launch-exec STEP… - PROGRAM ARGV0 ARG…

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An EventLoop for tests: time passes only when the test says so.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/fake/fake_process_runner.hpp"
 
 #include <fcntl.h>

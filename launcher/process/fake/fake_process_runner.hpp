@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ProcessRunner for tests: processes that follow a script, on the virtual time of a FakeEventLoop.
 #pragma once
 

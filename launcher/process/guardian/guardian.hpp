@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sees to it that no process survives the launcher, whatever ends the launcher: also kill -9.
 #pragma once
 

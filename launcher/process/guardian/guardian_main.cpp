@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // launch-guardian GRACE_MILLISECONDS: ends what a launcher leaves behind when it is killed.
 //
 // Standard input is a socket to the launcher, which tells of each process group that it starts and of each that it has

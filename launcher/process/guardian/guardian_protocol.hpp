@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the launcher tells launch-guardian: one record for each message of a sequenced-packet socket.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long a message takes from publish() to the end of its callback in a single-threaded executor, with few idle
 // subscriptions beside the one that gets it, with many, and with as many idle timers. The executors are in one process
 // and take turns, batch by batch, so that whatever the machine does meanwhile meets all.

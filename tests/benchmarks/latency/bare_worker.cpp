@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The floor: the same exchange on nothing but Fast DDS, with the quality of service that the stack's rmw asks for.
 //   latency_bare publisher|wait_set|listener
 // The subscriber `wait_set` has the stack's threads: one that waits in a wait set, woken by the one that receives. The

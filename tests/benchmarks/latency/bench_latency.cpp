@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long a message takes from publish() to the callback of a subscription in another process, through the stack and
 // through bare Fast DDS, and what recording every ros2 event adds to it.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A publishing and a subscribing process, and the latencies between them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measured program: rclcpp publishers, or rclcpp subscriptions in a single-threaded executor.
 //   latency_stack publisher|subscriber
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tracepoints between publish() and the callback cost. Answers each PathRequest on stdin with the PathCosts on
 // stdout.
 #include <tracetools/tracetools.h>

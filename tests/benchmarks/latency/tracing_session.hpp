@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An LTTng session that records every ros2 event, on a session daemon of the benchmark's own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the publishing and subscribing programs of the latency benchmark have in common, whatever they are built on: the
 // sizes, the pace, and the conversation with bench_latency over stdin and stdout.
 #pragma once

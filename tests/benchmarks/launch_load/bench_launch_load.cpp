@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long it takes to load and visit launch files, up to the list of what would run: many nodes in one file, a chain
 // of includes, and a tree of real launch files with what conditions leave out. The floor is the bare parser of the
 // format, tinyxml2 or yaml-cpp, over the same text. Processor time of this process, in turns in the same run; prints

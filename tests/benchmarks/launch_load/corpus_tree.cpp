@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/launch_load/corpus_tree.hpp"
 
 #include <fmt/format.h>

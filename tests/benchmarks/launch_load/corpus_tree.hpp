@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The largest tree of launch files among the real ones, made ready to be loaded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/launch_load/made_launch_files.hpp"
 
 #include <fmt/format.h>

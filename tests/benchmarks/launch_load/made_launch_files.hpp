@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Launch files of any size, made for measuring.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long it takes from starting `launch FILE` until both of its processes run, and how much memory the launcher then
 // holds, beside a bare loop that starts the same two programs.
 #include <fcntl.h>

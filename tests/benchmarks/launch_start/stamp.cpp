@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the time at which its main began to the pipe that the environment names, then waits for a signal.
 #include <fcntl.h>
 #include <time.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads one generated trace of a million events with babeltrace2, with our reader, and with launch-report, and prints
 // their speeds as ratios to `babeltrace2 -o dummy`, which decodes the same events and throws them away.
 //

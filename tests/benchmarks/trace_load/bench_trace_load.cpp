@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER]]]]
 //
 // Whether the default buffers hold: the events of NODES processes, first those of their creation all at once, then

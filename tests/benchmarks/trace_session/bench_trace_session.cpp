@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Usage: bench_trace_session [RUNS]
 //
 // What a <trace> adds to a launch of two nodes that takes a second, by `launch --timing`: to its start with a session

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an instrumented line of a program pays for one tracepoint with two pointers (rcl_publish).
 //
 // Without a session all cases are idle: `LibraryTracepoint` is what the stack does, `EmptyCall` a function of another

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stack as its users have it: installed, moved, and found by a project of their own.
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 
 namespace tracing::testing {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The events of two processes that exchange one message each way, as an instrumented stack records them.
 //
 // `ping` (71) has a 500 ms timer that publishes /ping, and a subscription to /pong; `pong` (72) answers /ping from

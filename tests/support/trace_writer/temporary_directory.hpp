@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A new, empty directory that is removed with everything in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a CTF 1.8 trace with the layout of LTTng-UST 2.13 (large event header, contexts per event, one stream file
 // per CPU), so that readers can be tested on exactly known events, losses and damage without a tracer.
 #pragma once

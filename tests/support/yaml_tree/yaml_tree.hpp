@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A YAML tree as text, with the place of each node: equal texts are equal trees.
 #pragma once
 

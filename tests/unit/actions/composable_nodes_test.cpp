@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // node_container and load_composable_node: what is asked to be loaded and started.
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // depends_on: what it may name, and what is wrong with the rest.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How event handlers, commands and dependencies are written: both formats, and what is refused at load.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

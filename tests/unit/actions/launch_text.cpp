@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/unit/actions/launch_text.hpp"
 
 #include "actions/builtin_actions.hpp"

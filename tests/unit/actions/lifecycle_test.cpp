@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lifecycle_transition: which node, which transitions, and what is wrong with others.
 #include <gmock/gmock.h>
 

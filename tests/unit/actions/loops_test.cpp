@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // for and for_each, and the smaller entities: log_*, bool_arg, unset, append_env, reset_env, rep_env.
 #include <gmock/gmock.h>
 

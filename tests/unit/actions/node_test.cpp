@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <node>: its argv, names, namespaces, remaps and parameter files.
 #include <gmock/gmock.h>
 #include <stdlib.h>

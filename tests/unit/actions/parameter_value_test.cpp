@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the text of a parameter becomes a typed value.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <executable>: command lines, environment, and what it shares with <node>.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scheduling, limits, environment and output of a process, and namespaces of groups and includes.
 #include <gmock/gmock.h>
 #include <sched.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // let, arg, group, conditions, log, timer, shutdown: what is visible where and when.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // <trace>: what its attributes evaluate to, and that it takes effect for every process of the file.
 #include <gmock/gmock.h>
 

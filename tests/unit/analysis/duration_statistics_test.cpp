@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/analysis/duration_statistics.hpp"
 
 #include <gtest/gtest.h>

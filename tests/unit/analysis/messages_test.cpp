@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages: from the publisher to the callback.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which object an event belongs to when addresses are used again.
 #include <gtest/gtest.h>
 

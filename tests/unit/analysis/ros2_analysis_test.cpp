@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Callbacks: whose they are and how long they take.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feeds Ros2Analysis with events that follow one another.
 #pragma once
 

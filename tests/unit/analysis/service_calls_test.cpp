@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who called whom: requests, responses and what executors and clients did with them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When processes that the launcher has started had a node and were ready.
 #include "tracing/analysis/start_tracker.hpp"
 

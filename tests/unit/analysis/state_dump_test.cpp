@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects that a state dump tells again.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Event handlers: when they are visited, in which scope, and what they may ask for.
 #include <signal.h>
 

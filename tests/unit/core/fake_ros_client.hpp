@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A RosClient for tests: writes down what it is asked and answers when the test says so.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --show-args and the check for required arguments, over real files.
 #include "launcher/core/introspection.hpp"
 

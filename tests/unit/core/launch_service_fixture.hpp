@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A launch on virtual time, with processes and scopes that follow scripts, which writes down what happens.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order of a run: scopes, processes, the end; on virtual time, with processes that follow scripts.
 #include "launcher/core/launch_service.hpp"
 

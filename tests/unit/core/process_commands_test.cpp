@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // stop, restart, signal, and processes that are required.
 #include <signal.h>
 

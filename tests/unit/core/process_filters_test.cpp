@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exit codes and lines as launch files name them.
 #include <gmock/gmock.h>
 #include <signal.h>

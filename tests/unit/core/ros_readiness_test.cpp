@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conditions of the graph that a start may wait for.
 #include "launcher/core/ros_readiness.hpp"
 

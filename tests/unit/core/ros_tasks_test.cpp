@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loading components and changing states, as a launch does it: order, messages, respawn, shutdown. On virtual time.
 #include "launcher/core/ros_tasks.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // depends_on: who waits for what, and what happens when it can't come true.
 #include <signal.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Handlers of the states of nodes, and handlers that are unregistered. On virtual time.
 #include "launcher/core/state_handlers.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Real launch files of many projects: their syntax is fine, so both front ends must accept them all.
 #include <gtest/gtest.h>
 

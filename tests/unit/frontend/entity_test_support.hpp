@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Entity trees from text, for the tests of the front ends.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of ordinary YAML agrees with yaml-cpp, places included, and leaves the rest to it.
 #include "launcher/frontend/simple_yaml.hpp"
 

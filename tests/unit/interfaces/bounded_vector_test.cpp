@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "rosidl_runtime_cpp/bounded_vector.hpp"
 
 #include <gtest/gtest.h>

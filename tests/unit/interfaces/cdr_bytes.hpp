@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bytes of messages in tests: a payload without its encapsulation header, little-endian.
 #pragma once
 

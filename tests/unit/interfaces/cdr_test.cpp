@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The wire format of ROS 2, byte by byte: expected bytes were written by hand from the CDR rules.
 #include <gtest/gtest.h>
 

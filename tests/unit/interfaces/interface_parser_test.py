@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the parser of .msg, .srv and .action files accepts, and what it says about mistakes."""
 
 import unittest

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages that tell of the calls of a service.
 #include <gtest/gtest.h>
 

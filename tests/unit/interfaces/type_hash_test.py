@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The hashes of definitions are those that ROS 2 systems announce."""
 
 import glob

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/kernel/event_format.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which pages a snapshot is written from.
 #include "tracing/kernel/page_history.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pages made by hand, record by record.
 #include "tracing/kernel/ring_page.hpp"
 

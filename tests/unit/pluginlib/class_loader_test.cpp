@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Libraries that are loaded at run time, and objects of the classes in them.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plugins that packages export through the ament index.
 #include <gmock/gmock.h>
 

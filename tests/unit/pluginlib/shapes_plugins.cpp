@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A library of plugins.
 #include <pluginlib/class_list_macros.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What happens to the group of a process when the process itself exits first. That its number is never used after the
 // process was reaped is checked by FakeProcessRunner, which throws then.
 #include "supervisor_fixture.hpp"

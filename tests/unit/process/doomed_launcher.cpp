@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // doomed_launcher GUARDIAN GRACE_MILLISECONDS SCRIPT...: starts a guarded shell for each script, prints the pids of
 // guardian and shells, and waits to be killed.
 #include <fmt/format.h>

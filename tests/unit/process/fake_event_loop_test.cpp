@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/fake/fake_event_loop.hpp"
 
 #include <gtest/gtest.h>

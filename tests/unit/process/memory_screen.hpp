@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A screen whose text a test can read back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/process_messages.hpp"
 
 #include "launcher/base/source.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The posix runner on real processes. Each test waits for descriptors, never for time.
 #include "launcher/process/process_runner.hpp"
 

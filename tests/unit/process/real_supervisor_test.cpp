@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Supervisor, real loop and real processes together.
 #include <fcntl.h>
 #include <gtest/gtest.h>

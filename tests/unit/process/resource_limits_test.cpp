@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits and scheduling of real processes, applied by launch-exec.
 #include "launcher/process/resource_limits.hpp"
 

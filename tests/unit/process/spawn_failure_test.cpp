@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the user reads when a process cannot be started.
 #include "launcher/process/spawn_failure.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // stop(), restart() and respawn delays that grow.
 #include "supervisor_fixture.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A supervisor on fakes that writes down what its observers are told.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Python launch files that are wrong, each with all that is said about it: tests/golden/python/FILE and FILE.expected.
 // LAUNCH_UPDATE_GOLDEN=1 writes the expected texts anew; read them before committing.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What only Python launch files can do.
 #include <gmock/gmock.h>
 

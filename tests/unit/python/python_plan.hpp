@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans Python launch files that stand in the test as text.
 #pragma once
 

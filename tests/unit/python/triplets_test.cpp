@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same launch file in XML, YAML and Python asks for the same: tests/golden/triplets/NAME.launch.{xml,yaml,py}.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Contexts, nodes and topics on the real middleware.
 #include <algorithm>
 #include <functional>

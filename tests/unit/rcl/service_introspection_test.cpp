@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Introspection of services and clients in rcl: the topic, and what is refused.
 #include <string>
 

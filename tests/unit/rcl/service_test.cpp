@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services and clients of rcl: names, and a call through a wait set.
 #include "rcl_test.hpp"
 #include "rosidl_typesupport_cpp/service_type_support.hpp"

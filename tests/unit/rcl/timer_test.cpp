@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Timers on simulated time: every moment is set by the test.
 #include "rcl/wait_restore.h"
 #include "rcl_test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a wait set tells of the kept entities that it left, for subscriptions.
 #include <gmock/gmock.h>
 

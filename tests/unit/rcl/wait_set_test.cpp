@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting again for what a wait set keeps.
 #include <gmock/gmock.h>
 

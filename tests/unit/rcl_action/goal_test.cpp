@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The states of goals and the names of what carries an action.
 #include <gmock/gmock.h>
 #include <rcl/error_handling.h>

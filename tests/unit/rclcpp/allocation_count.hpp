@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts what a thread allocates, and tells on whose behalf. Linking it replaces malloc() in the whole program.
 #pragma once
 

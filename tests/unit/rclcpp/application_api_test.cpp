@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What applications written for ROS 2 use beside the nodes themselves.
 #include <rclcpp/version.h>
 

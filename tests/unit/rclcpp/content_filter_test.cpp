@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Content filters: which messages a subscription gets, and how the filter changes while it is used.
 #include <gmock/gmock.h>
 

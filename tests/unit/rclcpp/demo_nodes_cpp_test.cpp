@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nodes of demo_nodes_cpp as launch files of others start them.
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The demo nodes as a user runs them.
 #include <gmock/gmock.h>
 #include <signal.h>

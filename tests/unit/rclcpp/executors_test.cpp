@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every executor does alike.
 #include <example_interfaces/srv/add_two_ints.hpp>
 #include <future>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clients and services of types that are known by name only.
 #include <gmock/gmock.h>
 

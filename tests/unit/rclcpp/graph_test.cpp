@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a node knows of the system, and waiting for it to change.
 #include <gmock/gmock.h>
 

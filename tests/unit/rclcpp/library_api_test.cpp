@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How libraries made on rclcpp use it: they take the interfaces of a node one by one, whatever class the node is of.
 #include <rosidl_runtime_c/type_hash.h>
 

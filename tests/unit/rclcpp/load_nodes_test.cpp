@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // perf_test and reference_system as a user runs them.
 #include <gmock/gmock.h>
 

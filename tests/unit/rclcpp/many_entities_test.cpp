@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A process with as many nodes, publishers and subscriptions as a whole robot.
 #include <atomic>
 #include <chrono>

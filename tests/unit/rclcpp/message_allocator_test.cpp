@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages in memory of a user's allocator.
 #include <cstddef>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameters of one node, read and changed from another.
 #include <fstream>
 #include <thread>

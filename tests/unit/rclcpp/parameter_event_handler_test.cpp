@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes of parameters, heard by another node.
 #include "rclcpp/parameter_event_handler.hpp"
 

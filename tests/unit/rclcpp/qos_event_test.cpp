@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events of publishers and subscriptions, from the middleware to the callbacks in the options.
 #include <gmock/gmock.h>
 #include <rcutils/logging.h>

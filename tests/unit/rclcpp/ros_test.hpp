@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A test with an initialised rclcpp in a network of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What services and clients publish of their calls.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services and clients: every form of callback and of request, and what happens when somebody is not there.
 #include <example_interfaces/srv/add_two_ints.hpp>
 #include <thread>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated time that comes although nobody spins the node.
 #include <future>
 #include <rclcpp/time_source.hpp>

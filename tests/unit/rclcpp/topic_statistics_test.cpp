@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a subscription tells of the messages that it receives.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a node tells of the types that it uses.
 #include <rmw/type_description.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What servers and clients of actions publish of the calls of their services.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where packages and resources are found.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The containers and the programs of components, as a launch file starts them.
 #include <gmock/gmock.h>
 #include <signal.h>

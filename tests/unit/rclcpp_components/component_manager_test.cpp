@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loading, unloading and listing components, in the process of the test.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Components that misbehave, or tell what they were made with.
 #include <pthread.h>
 

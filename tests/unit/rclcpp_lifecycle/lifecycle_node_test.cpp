@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transitions that a program triggers itself, their callbacks and their results.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The managed demo node, as a program and as a component, led and heard by the other demo programs.
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A managed node that others ask and lead.
 #include <gmock/gmock.h>
 

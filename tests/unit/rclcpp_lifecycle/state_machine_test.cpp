@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The states and transitions of rcl_lifecycle.
 #include <gmock/gmock.h>
 #include <rcl/error_handling.h>

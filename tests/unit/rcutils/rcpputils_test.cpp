@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The small C++ functions that applications use.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads what LTTng records of programs that fire ros2 events.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

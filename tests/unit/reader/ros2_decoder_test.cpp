@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tracing/reader/ros2_decoder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A DDS type for tests with plain Fast DDS.
 #pragma once
 

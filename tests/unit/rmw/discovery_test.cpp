@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rmw adds to Fast DDS's discovery.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events of publishers and subscriptions, and being told instead of waiting.
 #include <atomic>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a subscription makes of samples that get lost on the way, from a writer of plain Fast DDS whose transport loses
 // what the test wants.
 #include <fastrtps/transport/test_UDPv4TransportDescriptor.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of rmw share: owners for its handles, with failures as test failures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Requests and responses between contexts, which are different participants.
 #include <algorithm>
 #include <future>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Publishing and taking between contexts, which are different participants.
 #include <chrono>
 #include <thread>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of rmw that need no middleware: names, compatibility of profiles, time.
 #include <gtest/gtest.h>
 

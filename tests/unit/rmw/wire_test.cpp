@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What other DDS applications see of us, and we of them: checked with a participant of plain Fast DDS.
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 

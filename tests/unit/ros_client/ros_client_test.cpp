@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // launch-ros-client as the launcher sees it: the real program asks nodes of this test over DDS.
 #include <gmock/gmock.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines between the launcher and launch-ros-client.
 #include "launcher/ros_client/ros_protocol.hpp"
 

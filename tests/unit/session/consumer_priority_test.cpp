@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The priority of LTTng's consumers, on a process that only has their name.
 #include "tracing/session/consumer_priority.hpp"
 

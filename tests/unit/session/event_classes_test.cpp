@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What max-overhead may drop of a trace.
 #include "tracing/session/event_classes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What LTTng's kernel tracer would get wrong without a word, found before a session exists.
 #include "tracing/session/kernel_checks.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/unit/session/listed_session.hpp"
 
 #include <lttng/lttng.h>

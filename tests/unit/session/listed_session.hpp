@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A session as the session daemon lists it, read with liblttng-ctl and nothing of ours.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The real tracer on a session daemon of the test's own.
 #pragma once
 

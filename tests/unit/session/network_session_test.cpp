@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traces that go to a relay daemon, and live sessions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

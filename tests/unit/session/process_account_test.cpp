@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which process the lost events are of, from what processes fired and what a trace holds.
 #include "tracing/session/process_account.hpp"
 

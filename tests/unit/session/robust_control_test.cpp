@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What may go wrong around a session: each is one clear error, blocks nobody, and leaves no session.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each attribute of a trace, read back from the session daemon; and that it does what it says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sessions that can't be set up or ended: each is an error that says what to do, and leaves nothing behind.
 #include <gmock/gmock.h>
 #include <poll.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What fails before LTTng is asked: names, directories, context fields, sizes.
 #include "tracing/session/setup_checks.hpp"
 

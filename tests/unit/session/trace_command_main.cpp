@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch trace` as a program of its own, so that its tests need nothing else of launch.
 #include "tracing/session/trace_command.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `launch trace` on a tracer without LTTng.
 #include "tracing/session/trace_command.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a function says when it refuses something.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of this folder ask babeltrace2 and lttng, which know nothing of our code.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Usage: traced_app COUNT BYTES [abort]
 // Fires one ros2:rcl_init and COUNT events ros2:rclcpp_callback_register with a symbol of BYTES characters and says
 // "fired". For every line on stdin it fires COUNT events more and says so again; it ends when stdin does. With `abort`

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two events of provider ros2, declared as in tracetools: enough for a program to be traced.
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER ros2

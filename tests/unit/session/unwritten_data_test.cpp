@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is said of a trace whose streams end before its session.
 #include "tracing/session/unwritten_data.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is said about a trace that lost events, from index files written here.
 #include "tracing/session/verdict.hpp"
 

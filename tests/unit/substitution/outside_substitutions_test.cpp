@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // eval, command, file-content, anon, param, for-var, index: substitutions that look beyond the text.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launcher/substitution/template_parser.hpp"
 
 #include <gtest/gtest.h>

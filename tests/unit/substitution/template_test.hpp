@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of substitutions share: a scope with known content, and templates parsed from a string.
 #pragma once
 

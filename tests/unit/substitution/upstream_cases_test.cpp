@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cases of the reference implementation's own tests that concern substitutions.
 #include <gtest/gtest.h>
 

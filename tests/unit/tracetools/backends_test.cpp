@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Libraries that take the place of one another: nothing is built again but the library itself.
 #include <dlfcn.h>
 #include <gtest/gtest.h>

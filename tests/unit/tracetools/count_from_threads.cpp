@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fires one ros2:rcl_init; 1000 ros2:rcl_take from each of 100 threads at once, and again one thread after the other;
 // then seven ros2:rclcpp_take from the child of a fork.
 #include <sys/wait.h>

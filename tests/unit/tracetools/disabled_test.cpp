@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // With TRACETOOLS_DISABLED nothing is left of the macros, and no library is linked.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What processes say about the events that they fire, as the launcher reads it.
 #include "tracing/session/event_counters.hpp"
 

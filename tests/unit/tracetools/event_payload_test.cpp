@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The events of ROS 2, compared with what LTTng wrote and babeltrace2 reads: neither is ours.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fires every event once, with arguments that event_payload_test.cpp expects in the trace, and prints how many threads
 // the process has. With --stay nothing ends the objects, and the process waits for the end of its input, so that a
 // session can start late; with --stay-empty all objects end first.

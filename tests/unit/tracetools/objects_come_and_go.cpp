@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Four threads make and end objects until the end of input; then the objects 0x1 and 0x2 live, and nothing happens
 // until the process is ended by a signal. No handle is used twice.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loading libtracetools_provider.so, seen from outside: each case is a process of its own.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A session that starts while a process runs already gets the objects that live then.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A Tracer without LTTng, for tests: records its calls, and fails or blocks where it is told to.
 #pragma once
 

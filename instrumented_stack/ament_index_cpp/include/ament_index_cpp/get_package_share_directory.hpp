@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the files of a package are that are no programs and no libraries.
 #pragma once
 

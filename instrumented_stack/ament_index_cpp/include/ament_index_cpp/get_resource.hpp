@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The content of a resource: the file share/ament_index/resource_index/TYPE/NAME.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Creates objects of the classes in one shared library, which is loaded at run time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Creates objects of the classes in any number of shared libraries.
 #pragma once
 

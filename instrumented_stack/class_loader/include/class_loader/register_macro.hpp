@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes a class of this library one that loaders can create:
 //
 //   CLASS_LOADER_REGISTER_CLASS(shapes::Square, shapes::Shape)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks service add_two_ints for a sum every two seconds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A listener that has a node instead of being one: a component needs no more than get_node_base_interface().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A managed node that says hello on topic lifecycle_chatter while it is active.
 #pragma once
 

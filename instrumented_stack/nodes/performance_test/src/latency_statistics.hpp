@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Latencies of messages and what can be said of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of perf_test as a table (.csv) or for programs (.json).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the latency of messages from publish() to the callback, and how many are lost, in the manner of
 // performance_test. Publishers and subscribers may be in one process or in several of one host.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What perf_test is told by parameters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which nodes the system has and what they listen to: that of the Autoware reference system of the ROS 2 real-time
 // working group. A node publishes on the topic of its own name.
 #pragma once

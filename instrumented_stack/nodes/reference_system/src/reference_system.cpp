@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The autonomous driving system of graph.hpp, or some of its nodes, in one process:
 //
 //   reference_system [--number-crunch-limit N] [--intra-process] [--messages N] [--list] [NODE…]

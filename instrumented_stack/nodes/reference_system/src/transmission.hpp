@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The way that messages have come, which they carry with them, and what can be read from it.
 #pragma once
 

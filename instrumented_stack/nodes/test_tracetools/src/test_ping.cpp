@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks on topic ping until it is answered on topic pong, and ends; with the argument do_more it goes on.
 //
 // The node of this name that the launch files of ros2_tracing start.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Answers on topic pong what comes on topic ping, once, and ends; with the argument do_more it goes on.
 //
 // The node of this name that the launch files of ros2_tracing start.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a package tells of one of its plugins.
 #pragma once
 

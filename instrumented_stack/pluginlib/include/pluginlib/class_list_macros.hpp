@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes a class of this library a plugin:
 //
 //   PLUGINLIB_EXPORT_CLASS(shapes::Square, shapes::Shape)

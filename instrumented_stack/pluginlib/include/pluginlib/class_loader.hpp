@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Creates objects of the plugins that packages export for a base class.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What loaders of plugins throw.
 #pragma once
 

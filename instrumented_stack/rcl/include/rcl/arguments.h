@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parsing of the ROS part of a command line.
 //
 // Everything between `--ros-args` and `--` (or the end) belongs to ROS; both may occur several times. The flags:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state between rcl_init() and rcl_shutdown().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and the older ROS_LOCALHOST_ONLY.
 #pragma once
 

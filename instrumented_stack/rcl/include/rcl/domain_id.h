@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ROS_DOMAIN_ID.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events of publishers and subscriptions beside messages.
 #pragma once
 

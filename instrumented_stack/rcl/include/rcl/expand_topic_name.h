@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a name as written in a program to a full name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nodes, topics, services and endpoints that are known in the whole system.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A condition that any thread can trigger to wake a wait set.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rcl_init() is given beside the command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logging of a process as its ROS arguments want it: levels, console, log file and /rosout.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages of a node's logger on /rosout.
 //
 // A message of logger `ns.node` or `ns.node.child` is published by the node `/ns/node`.

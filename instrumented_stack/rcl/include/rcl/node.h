@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A node: a name in the graph that owns publishers and subscriptions.
 #pragma once
 

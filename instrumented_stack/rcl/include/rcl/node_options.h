@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a node is created with beside its name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef RCL__NODE_TYPE_CACHE_H_
 #define RCL__NODE_TYPE_CACHE_H_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameter values given on a command line and in parameter files, and the ones that apply to a node.
 //
 // Values are kept per node pattern (`/**`, `/ns/*`, `/ns/node`, or a bare node name from `-p node:name:=value`), in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ROS client library below rclcpp: everything of this layer.
 //
 //   init.h context.h init_options.h arguments.h       start of a process, --ros-args

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Applying remap rules. The first rule that matches wins; `local_arguments` (a node's own) come before
 // `global_arguments` (the process's). Either may be null. The output is null when no rule matched, else free it with
 // the allocator.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Watching the calls of a service: what its two ends publish of them on a topic beside it.
 //
 // rcl_service_configure_service_introspection() and rcl_client_configure_service_introspection() turn it on and off.

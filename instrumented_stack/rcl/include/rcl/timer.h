@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A timer on a clock: due at equal distances, called by whoever waits for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Check of topic names before expansion: relative names, `~` and `{substitutions}` are allowed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting for subscriptions, guard conditions, timers, clients, services and events.
 //
 // Each round: rcl_wait_set_clear(), add everything, rcl_wait(); afterwards the entries that are not ready are null.

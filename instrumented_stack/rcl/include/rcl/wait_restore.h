@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting again for the same entities without adding each of them again: what an executor does all the time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The client of an action: three clients of its services, and subscriptions to its two topics.
 //
 // Messages are passed as pointers to the structs of the action's types.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The server of an action: three services, two topics, and the goals that it has accepted.
 //
 // Messages are passed as pointers to the structs of the action's types. The functions on one server may not be called

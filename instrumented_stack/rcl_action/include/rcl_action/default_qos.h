@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quality of service of the status topic: who comes late gets the last states.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A goal on its server. Between init and fini its functions may be called from any thread.
 #pragma once
 

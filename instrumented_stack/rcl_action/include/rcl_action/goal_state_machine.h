@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The states through which a goal goes on its server.
 #pragma once
 

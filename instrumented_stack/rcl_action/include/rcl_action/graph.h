@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which actions there are. An action is seen by the topics and services that carry it.
 #pragma once
 

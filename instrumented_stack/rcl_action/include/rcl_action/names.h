@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names of the services and topics that carry an action.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Goals, their states, and the return codes of actions.
 #pragma once
 

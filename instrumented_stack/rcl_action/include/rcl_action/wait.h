@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting for what happens to servers and clients of actions.
 #pragma once
 

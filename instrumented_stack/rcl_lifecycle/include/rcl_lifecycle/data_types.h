@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a state machine. Ids are those of lifecycle_msgs.
 #pragma once
 

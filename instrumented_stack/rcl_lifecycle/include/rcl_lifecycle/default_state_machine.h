@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The states and transitions of every managed node: https://design.ros2.org/articles/node_lifecycle.html
 #pragma once
 

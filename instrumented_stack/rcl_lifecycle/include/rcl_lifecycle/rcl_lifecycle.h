@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A state machine that tells of its transitions.
 //
 // Unlike in ROS 2 its services are made where they are answered, in rclcpp_lifecycle. Not thread safe.

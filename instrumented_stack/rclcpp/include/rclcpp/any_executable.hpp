@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One thing that is ready to be executed. At most one of the entities is set.
 #pragma once
 

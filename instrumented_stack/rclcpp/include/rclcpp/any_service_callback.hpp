@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A user's service callback in any of its forms.
 //
 //   void(std::shared_ptr<Request>, std::shared_ptr<Response>)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A user's subscription callback in any of its forms.
 //
 // With M the message type, the custom type of a TypeAdapter, or SerializedMessage, a callback takes one of

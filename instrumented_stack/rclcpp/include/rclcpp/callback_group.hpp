@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The entities (timers, subscriptions, services, clients, waitables) whose callbacks belong together, and the unit that
 // an executor serves.
 #pragma once

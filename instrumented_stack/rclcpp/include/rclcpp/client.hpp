@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends requests of one type to one service. Created by Node::create_client().
 #pragma once
 

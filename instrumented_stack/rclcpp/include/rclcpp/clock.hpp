@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the time comes from: the system's clock, a steady one, or ROS time, which a simulation may set.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One initialisation of ROS: the command line arguments, the middleware, and the moment at which all of it ends.
 //
 // A process normally has one, which rclcpp::init() sets up. Nodes, executors and guard conditions keep their context

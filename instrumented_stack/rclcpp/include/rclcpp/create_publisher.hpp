@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Publishers for anything that has node interfaces.
 #pragma once
 

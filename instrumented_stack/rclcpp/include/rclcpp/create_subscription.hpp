@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subscriptions for anything that has node interfaces.
 #pragma once
 

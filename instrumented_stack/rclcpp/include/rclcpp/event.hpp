@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Set when the graph changes: see Node::get_graph_event().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events of publishers and subscriptions beside messages: missed deadlines, liveliness, incompatible endpoints, lost
 // messages, matches. Their callbacks are in PublisherOptions and SubscriptionOptions.
 #pragma once

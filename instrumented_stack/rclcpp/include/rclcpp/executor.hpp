@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waits for the entities of nodes and runs their callbacks. Concrete executors are in executors/.
 #pragma once
 

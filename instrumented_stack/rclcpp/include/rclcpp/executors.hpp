@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spinning in one line: a single-threaded executor for one node. And every executor.
 #pragma once
 

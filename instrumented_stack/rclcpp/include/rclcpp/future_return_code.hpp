@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How spin_until_future_complete() ended.
 #pragma once
 

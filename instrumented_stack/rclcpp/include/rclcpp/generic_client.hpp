@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends requests to a service of a type that is known by name at run time only. Created by
 // Node::create_generic_client().
 #pragma once

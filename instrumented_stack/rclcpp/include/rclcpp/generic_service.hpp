@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Answers requests of a type that is known by name at run time only. Created by Node::create_generic_service().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Receives messages of a type that is known by name at run time only, as bytes. Created by
 // Node::create_generic_subscription().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wakes an executor, or a WaitSet, from any thread.
 #pragma once
 

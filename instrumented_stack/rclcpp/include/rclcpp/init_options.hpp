@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a Context needs to know beyond the command line.
 #pragma once
 

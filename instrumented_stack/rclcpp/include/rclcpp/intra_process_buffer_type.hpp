@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a subscription keeps the messages of publishers of its own context until its callback takes them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a publisher or subscription uses the short way to its counterparts in the same context.
 #pragma once
 

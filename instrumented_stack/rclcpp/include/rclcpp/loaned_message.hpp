@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A message that is made where the middleware sends it from, so that publishing does not copy it:
 //
 //   auto loan = publisher->borrow_loaned_message();

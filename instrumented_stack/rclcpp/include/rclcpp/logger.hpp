@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A name for log lines. Names are hierarchical: "a.b" has the level of "a" until it gets one of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RCLCPP_{DEBUG,INFO,WARN,ERROR,FATAL}: one log line, in the manner of printf, to the console and to /rosout.
 //
 //   RCLCPP_INFO(get_logger(), "got %d", 3);

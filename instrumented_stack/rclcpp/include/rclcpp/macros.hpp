@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pointer aliases that every rclcpp class carries (`Node::SharedPtr`), and `make_shared` for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where in the network the messages of a publisher come from, or those of a subscription arrive.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A node: a name in the graph, with publishers, subscriptions, services, timers and parameters. Derive from it or
 // create it with std::make_shared, then give it to an executor or to rclcpp::spin().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads and changes the parameters of another node through its services.
 #pragma once
 

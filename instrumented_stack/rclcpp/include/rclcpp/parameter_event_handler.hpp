@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hears of changes of parameters, of the own node and of others.
 //
 //   auto handler = std::make_shared<rclcpp::ParameterEventHandler>(node);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameters of several nodes, as parameter files hold them.
 #pragma once
 

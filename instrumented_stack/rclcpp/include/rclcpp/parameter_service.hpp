@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The six services through which others read and change the parameters of a node.
 #pragma once
 

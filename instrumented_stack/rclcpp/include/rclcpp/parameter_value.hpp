@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A parameter's value: one of nine types, or not set.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends messages of one type on one topic. Created by Node::create_publisher().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What all publishers have in common, whatever their message type.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a publisher is created with beside topic and QoS.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quality of service of a publisher or subscription: how many messages are kept, whether they may be lost, whether late
 // subscribers get old ones.
 //

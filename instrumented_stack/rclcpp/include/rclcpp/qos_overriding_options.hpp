@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lets parameters override the QoS of a publisher or subscription:
 //
 //   rclcpp::PublisherOptions options;

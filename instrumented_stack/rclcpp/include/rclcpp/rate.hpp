@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps a loop at a frequency: `while (rclcpp::ok()) { …; rate.sleep(); }`.
 #pragma once
 

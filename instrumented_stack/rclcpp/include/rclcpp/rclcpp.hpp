@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C++ client library of ROS 2, as far as this stack has it:
 //
 //   utilities.hpp        init, shutdown, ok, signals           context.hpp, init_options.hpp

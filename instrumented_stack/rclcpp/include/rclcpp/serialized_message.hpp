@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A message as bytes: the 4-byte encapsulation header, then CDR. Owns its memory.
 #pragma once
 

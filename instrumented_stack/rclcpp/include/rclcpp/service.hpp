@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Answers requests of one type under one name. Created by Node::create_service().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What all services have in common, and what an executor needs to know of one.
 #pragma once
 

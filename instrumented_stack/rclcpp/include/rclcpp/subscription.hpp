@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Receives messages of one type from one topic. Created by Node::create_subscription().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a subscription is created with beside topic, QoS and callback.
 #pragma once
 

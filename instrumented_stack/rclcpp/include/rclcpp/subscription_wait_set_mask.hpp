@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which parts of a subscription a WaitSet waits for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A moment on a clock. Times of different clocks cannot be compared or subtracted: that throws std::runtime_error.
 #pragma once
 

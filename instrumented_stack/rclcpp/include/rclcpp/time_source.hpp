@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drives clocks from the topic /clock while a node's parameter use_sim_time is true.
 //
 // A node's own clock needs none: each node has one. Unless told otherwise, the messages are received by a thread that

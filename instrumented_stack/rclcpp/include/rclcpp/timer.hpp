@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls a function at equal distances. Created by Node::create_wall_timer() and Node::create_timer().
 #pragma once
 

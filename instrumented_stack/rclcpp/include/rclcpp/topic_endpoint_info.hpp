@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is known of one publisher or subscription of the system.
 #pragma once
 

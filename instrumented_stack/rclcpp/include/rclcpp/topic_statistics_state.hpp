@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a subscription publishes statistics of what it receives.
 #pragma once
 

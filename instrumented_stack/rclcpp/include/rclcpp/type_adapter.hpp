@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Publishing and subscribing with a type of your own instead of a message type. Specialise TypeAdapter for the pair:
 //
 //   template <>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Type supports by the name of the type, from the libraries of message packages.
 #pragma once
 

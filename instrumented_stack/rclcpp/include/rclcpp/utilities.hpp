@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Begin and end of a ROS program.
 //
 //   rclcpp::init(argc, argv);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which rclcpp this is to applications that support several: that of ROS 2 Jazzy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What marks a library's own symbols in ROS 2. Here every symbol is visible; the marks are for applications that use
 // them too.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One message, without a callback and without an executor.
 #pragma once
 

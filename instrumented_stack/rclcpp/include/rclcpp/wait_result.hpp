@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a WaitSet's wait() found.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a wait of a WaitSet ended.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting for messages, requests, responses, timers and conditions without an executor: the user decides what to take
 // and when.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Something of the user's own that an executor or a WaitSet can wait for: it brings the rcl entities to wait for, tells
 // whether what they found makes it ready, and does its work.
 //

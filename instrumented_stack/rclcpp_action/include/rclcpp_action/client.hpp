@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends goals to the server of an action. Created by create_client().
 #pragma once
 

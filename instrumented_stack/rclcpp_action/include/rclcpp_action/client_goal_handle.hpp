@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A goal that a server has accepted, on the client's side.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All of rclcpp_action: servers and clients of actions.
 //
 //   auto server = rclcpp_action::create_server<Fibonacci>(node, "fibonacci", handle_goal, handle_cancel,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Executes the goals of clients. Created by create_server().
 #pragma once
 

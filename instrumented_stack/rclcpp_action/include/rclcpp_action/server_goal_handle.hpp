@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A goal that a server has accepted: what the user's code tells of its progress and its end.
 #pragma once
 

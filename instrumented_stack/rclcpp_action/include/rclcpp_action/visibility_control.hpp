@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See rclcpp/visibility_control.hpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared libraries with components.
 //
 // A library's components register themselves when it is loaded, be that by a container or because a program links it.

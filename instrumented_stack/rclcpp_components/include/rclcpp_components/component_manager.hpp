@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The node of a container: loads components into this process, unloads and lists them, at the request of others.
 //
 // Its services are ~/_container/load_node, unload_node and list_nodes of composition_interfaces. A component's node has

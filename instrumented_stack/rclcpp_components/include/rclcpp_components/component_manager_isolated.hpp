@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A container in which every component has an executor and a thread of its own.
 #pragma once
 

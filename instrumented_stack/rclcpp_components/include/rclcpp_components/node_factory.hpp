@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes instances of one component class.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The factory of any class that is constructed from rclcpp::NodeOptions and has get_node_base_interface(). It need not
 // derive from rclcpp::Node.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A component that was instantiated: the object, whatever its class, and the node in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program of one component, as rclcpp_components_register_node(EXECUTABLE) makes it.
 #pragma once
 

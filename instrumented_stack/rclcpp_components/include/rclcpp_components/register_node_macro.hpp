@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes a class of this library loadable at run time:
 //
 //   RCLCPP_COMPONENTS_REGISTER_NODE(composition::Talker)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program of one component with the usual executor: compiled once, in the library.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A managed node: its states are `unconfigured`, `inactive`, `active` and `finalized`, and it is led from one to the
 // next by whoever calls its services, or by its own program.
 //

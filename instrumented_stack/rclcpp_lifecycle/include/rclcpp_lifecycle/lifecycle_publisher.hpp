@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A publisher that is silent while its node is not active. Created by LifecycleNode::create_publisher().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is switched on and off with its node.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A state of a managed node: an id of lifecycle_msgs/msg/State and its label.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A transition of a managed node: an id of lifecycle_msgs/msg/Transition, its label, and the states that it joins.
 #pragma once
 

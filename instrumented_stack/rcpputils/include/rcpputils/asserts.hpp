@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that throw: of arguments (require_true), of states (check_true), and of what a programmer is sure of
 // (assert_true, which NDEBUG takes out).
 #pragma once

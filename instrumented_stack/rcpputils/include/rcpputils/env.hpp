@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Environment variables. Not thread safe against others that change them.
 #pragma once
 

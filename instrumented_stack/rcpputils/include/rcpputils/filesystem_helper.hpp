@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rcpputils::fs, which ROS 2 has from before C++17: std::filesystem with the names of that time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The former place of get_env_var().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many values as one string.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a type is a raw or smart pointer, and what it points to.
 #pragma once
 

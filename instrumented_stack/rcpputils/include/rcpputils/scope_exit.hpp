@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Something to be done when a scope is left.
 //
 //   auto close = rcpputils::make_scope_exit([&] { file.close(); });

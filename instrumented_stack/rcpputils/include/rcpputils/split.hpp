@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One string as several.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clang's annotations of which mutex guards what; nothing with other compilers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Durations for functions that count in nanoseconds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See rcutils/visibility_control.h.
 #pragma once
 

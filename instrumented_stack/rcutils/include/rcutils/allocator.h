@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The allocator that rcl and rmw functions take, so that an application can decide where their memory comes from.
 #pragma once
 

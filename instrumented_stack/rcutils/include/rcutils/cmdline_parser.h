@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options of a command line that a program looks up one by one.
 #pragma once
 

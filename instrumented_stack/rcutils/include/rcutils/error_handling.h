@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error of the current thread: functions that return a failure code leave a message and its place here.
 //
 // A caller that handles a failure reads the text with rcutils_get_error_string() and then calls rcutils_reset_error().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formatted strings in memory from an allocator.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Log levels per logger and the line written to the console for each message.
 //
 // Logger names are hierarchical: `a.b` inherits the level of `a`, which inherits the default level. A message that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RCUTILS_LOG_{DEBUG,INFO,WARN,ERROR,FATAL}: one log line, in the manner of printf, from C or C++.
 //
 //   RCUTILS_LOG_INFO("got %d", 3);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // snprintf that may be asked for the length alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies of strings in memory from an allocator; to be given back to it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clock readings and durations in integer nanoseconds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What marks a library's own symbols in ROS 2. Here every symbol is visible.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error of the current thread, under the names of this layer: see rcutils/error_handling.h.
 #pragma once
 

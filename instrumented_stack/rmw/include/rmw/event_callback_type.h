@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the middleware tells of messages, requests, responses and events to whoever does not wait for them.
 #pragma once
 

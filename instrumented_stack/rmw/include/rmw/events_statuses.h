@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the events of publishers and subscriptions tell. Totals count since the endpoint was created, changes since the
 // event was last taken.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The topics and services of one node, which may be anywhere in the system.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The publishers and subscriptions of a topic, in the whole system.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of quality of service policies, as bits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quality-of-service profiles of ROS 2 and the check whether two profiles match.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The middleware interface: publishers, subscriptions, services, clients, waiting and the graph, on Fast DDS.
 //
 // A context (rmw/init.h) holds one DDS participant. Creation functions return null, the others a code other than

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A message as bytes: 4 bytes of encapsulation header, then CDR.
 #pragma once
 

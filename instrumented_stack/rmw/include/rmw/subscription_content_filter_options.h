@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which messages a subscription wants: an expression in the filter language of DDS, a subset of SQL, over the fields of
 // its message. `data > %0 AND header.frame_id = %1` has two parameters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Durations of quality-of-service policies and of waits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef RMW__TYPE_DESCRIPTION_H_
 #define RMW__TYPE_DESCRIPTION_H_
 

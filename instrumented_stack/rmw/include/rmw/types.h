@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Handles, options and quality of service of the middleware layer.
 //
 // The addresses of rmw_publisher_t, rmw_subscription_t, rmw_service_t and rmw_client_t are what the tracepoints of this

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting again for the same entities, of which there may be thousands, without a look at each of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waiting for a change of the graph without a wait set. Not in ROS 2's rmw, where every client library has a thread for
 // it: the graph guard condition wakes only one of those that wait.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # rosidl_generate_interfaces(<pkg> <file>... [DEPENDENCIES <pkg>...])
 #
 # Makes a package of messages, services and actions: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the

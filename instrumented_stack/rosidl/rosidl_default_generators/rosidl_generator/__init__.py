@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """Turns .msg and .srv files into C++ (see __main__.py for the command line)."""

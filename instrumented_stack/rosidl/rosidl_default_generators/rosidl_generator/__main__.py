@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... [--descriptions JSON]... FILE...
 
 Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp; and

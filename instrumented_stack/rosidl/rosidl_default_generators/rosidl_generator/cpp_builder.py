@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Emits what builds a message field by field, pkg::build<pkg::msg::Name>().x(1).y(2): msg/detail/<name>__builder.hpp."""
 
 from typing import List

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Emits what a package's library knows of its interfaces at run time: their descriptions and the text of their files."""
 
 from typing import Any, Dict, List, Mapping, Union

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Emits the one source file of a package's library, and the header that other packages' libraries need from it.
 
 One file for all types, because most of the time to compile it goes into headers that every type needs.
@@ -45,7 +46,7 @@ def source(package: str, files: List[InterfaceFile], descriptions: List[Descript
                 *(f'#include "{codec_header_path(p)}"' for p in sorted(packages)),
                 '#include "rosidl_runtime_cpp/yaml.hpp"',
                 '#include "rosidl_typesupport_fastrtps_cpp/type_support.hpp"']
-    parts = ['\n'.join(includes) + '\n']
+    parts = ['\n'.join([cpp_types.LICENSE_LINE, *includes]) + '\n']
     for namespace in _namespaces(messages):
         parts.append(cpp_types.namespace_blocks(package, namespace, '\n'.join(
             constant_definitions(m) + _printing(m) for m in messages if m.namespace == namespace)))

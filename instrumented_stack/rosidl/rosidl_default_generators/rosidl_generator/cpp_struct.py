@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Emits the structs that users of a message see: msg/<name>.hpp and msg/detail/<name>__struct.hpp."""
 
 from typing import List

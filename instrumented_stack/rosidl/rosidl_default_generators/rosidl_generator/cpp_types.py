@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How types, values and names of interfaces are spelled in C++."""
 
 from typing import Any, Iterable, List
@@ -74,8 +75,11 @@ def namespace_blocks(package: str, namespace: str, body: str) -> str:
     return f'namespace {package}::{namespace} {{\n\n{body}\n}}  // namespace {package}::{namespace}\n'
 
 
+LICENSE_LINE = '// SPDX-License-Identifier: Apache-2.0'
+
+
 def header(path: str, includes: Iterable[str], body: str) -> str:
     """A complete header: guard, includes, body."""
     guard = path.upper().replace('/', '__').replace('.', '_') + '_'
     lines = '\n'.join(f'#include {include}' for include in includes)
-    return f'#ifndef {guard}\n#define {guard}\n\n{lines}\n\n{body}\n#endif  // {guard}\n'
+    return f'{LICENSE_LINE}\n#ifndef {guard}\n#define {guard}\n\n{lines}\n\n{body}\n#endif  // {guard}\n'

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a .msg, .srv or .action file says: the parser's result and the emitters' input."""
 
 import re

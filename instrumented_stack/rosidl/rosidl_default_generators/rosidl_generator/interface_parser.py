@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads the text of .msg, .srv and .action files.
 
 A line is `type name [default]`, `type NAME=value`, a comment, or `---` between the request and response of a service,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Describes interfaces as type_description_interfaces does, and hashes the descriptions (RIHS01).
 
 The hash names the definition of a type: it is SHA-256 over a JSON text of the description, without defaults, and of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__EVENTS_H_
 #define TRACETOOLS__EVENTS_H_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__TRACETOOLS_H_
 #define TRACETOOLS__TRACETOOLS_H_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TRACETOOLS__UTILS_HPP_
 #define TRACETOOLS__UTILS_HPP_
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The packages that the launch sees: AMENT_PREFIX_PATH of its environment, and the launcher's own."""
 
 from ament_index_python import packages, resources, search_paths

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packages, as $(find-pkg-prefix …) and $(find-pkg-share …) find them."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The resource index below the prefixes."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """
 Coroutines of launch files, on one asyncio loop that the launcher runs in steps.
 

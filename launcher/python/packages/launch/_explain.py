@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What to tell of an exception in a launch file: one line and a place instead of a traceback."""
 
 import difflib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The import names of ROS 2's packages that hold one class each."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """
 Where in a launch file something is: (file, line, first byte, end byte).
 

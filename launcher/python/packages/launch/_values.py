@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """
 What launch files give as values, in the few forms that the launcher reads.
 

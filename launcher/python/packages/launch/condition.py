@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Condition: whether an action is executed."""
 
 from launch._places import Located

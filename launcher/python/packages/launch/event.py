@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Event: something that happens while the launch runs."""
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """LaunchContext: the state of the launch while it is visited."""
 
 import types

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """LaunchDescription: what a launch file asks for."""
 
 from launch._entities import entities

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """LaunchDescriptionSource: where an included launch description comes from."""
 
 from launch._places import Located

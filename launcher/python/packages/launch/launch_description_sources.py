@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Launch files by their path. The launcher sees the format itself, so that all of these mean the same."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What runs launch descriptions: here, only the launcher itself."""
 
 from launch import _names

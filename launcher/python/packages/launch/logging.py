@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Messages of launch files, in the launcher's own log."""
 
 import logging as _logging

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Substitution: text that is known when it is visited."""
 
 from launch._places import Located, of_function

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions that ROS 2 does not have: a launch file that imports them runs with this launcher alone."""
 
 from launch._entities import entities, entity

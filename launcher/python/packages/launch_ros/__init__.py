@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Launch files in Python: the names of ROS 2's package `launch_ros`, on the launcher that runs this file."""
 
 import launch  # noqa: F401

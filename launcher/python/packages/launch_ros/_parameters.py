@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What nodes are given as `parameters`: files, mappings, and the two kinds of descriptions."""
 
 import os

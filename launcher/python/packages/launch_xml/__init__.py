@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Names of ROS 2's package launch_xml. The format itself is the launcher's own."""
 
 from launch import _names

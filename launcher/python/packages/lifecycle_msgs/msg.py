@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The constants of lifecycle_msgs/msg/State and lifecycle_msgs/msg/Transition; there are no messages here."""
 
 

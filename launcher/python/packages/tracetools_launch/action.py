@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Trace: records the run with LTTng, from before the first process starts until the last one has ended."""
 
 from collections.abc import Mapping

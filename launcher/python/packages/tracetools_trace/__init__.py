@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """Names of events and fields of traces."""

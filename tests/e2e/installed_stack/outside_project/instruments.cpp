@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two components: a node that ends by itself, and a managed node.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads a managed node into a container, activates it and prints its first report.
 #include <composition_interfaces/srv/load_node.hpp>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A node that sends itself a message of its own package, and watches its service.
 #include <cstdio>
 

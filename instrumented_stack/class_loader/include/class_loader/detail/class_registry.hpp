@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The classes that the libraries of this process have to offer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tells when subscriptions come to a publisher and leave it, and publishers to and from a subscription.
 #include <cstdio>
 #include <cstdlib>

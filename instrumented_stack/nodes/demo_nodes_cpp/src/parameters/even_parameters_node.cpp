@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Takes parameters that are even numbers, and no others.
 #include <string>
 #include <vector>

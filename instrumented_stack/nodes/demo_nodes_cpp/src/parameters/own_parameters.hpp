@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the nodes have in common that change their own parameters as another node would.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same as parameter_events_async, with a client that waits for each answer.
 #include <cstdio>
 #include <cstdlib>

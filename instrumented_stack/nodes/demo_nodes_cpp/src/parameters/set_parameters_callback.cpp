@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Setting param1 sets param2, too; what the node made of them is noted when both are set.
 #include <algorithm>
 #include <vector>

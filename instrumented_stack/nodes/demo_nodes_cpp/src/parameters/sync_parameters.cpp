@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that set parameters of their own through their services, look at them and end.
 #include <vector>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks service add_two_ints, or the one given as first argument, for a sum and waits for the answer.
 #include <chrono>
 #include <cinttypes>

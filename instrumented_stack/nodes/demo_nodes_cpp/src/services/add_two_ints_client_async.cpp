@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks service add_two_ints for a sum, and ends when the answer has come.
 #include <chrono>
 #include <cinttypes>

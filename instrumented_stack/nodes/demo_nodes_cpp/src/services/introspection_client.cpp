@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asks for a sum twice a second, and tells on add_two_ints/_service_event of the requests it sent and the responses it
 // took if parameter client_configure_introspection wants it to.
 #include <chrono>

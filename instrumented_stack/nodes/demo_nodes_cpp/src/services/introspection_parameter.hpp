@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter by which a demo node lets its calls be watched.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds two numbers, and tells on add_two_ints/_service_event of the requests it took and the responses it sent if
 // parameter service_configure_introspection wants it to.
 #include <cinttypes>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A timer that runs all the time starts another one, which runs once: made anew each time, or used again.
 #include <chrono>
 #include <memory>

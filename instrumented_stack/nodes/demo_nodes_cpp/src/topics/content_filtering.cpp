@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One publishes temperatures, the other wants to hear of dangerous ones only.
 //
 // Parameter of the publisher: publish_ms  between two temperatures, in milliseconds (default 1000)

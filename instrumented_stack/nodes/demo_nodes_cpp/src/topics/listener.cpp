@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Print what is said on topic chatter: one reliably, one as sensor data is received.
 #include <memory>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends a number and a text in memory that belongs to the middleware, where the type of the message allows that.
 #include <chrono>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Talker and listener on topic chatter that handle the bytes of messages.
 #include <chrono>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Says hello on topic chatter once a second.
 #include <chrono>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plugins that packages export: their descriptions, and where their libraries are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages in the memory of a user's allocator: how the AllocatorT of publishers and subscriptions is used.
 #pragma once
 

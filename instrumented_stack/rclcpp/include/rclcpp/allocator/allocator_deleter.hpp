@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gives an object back to the allocator that it came from.
 #pragma once
 

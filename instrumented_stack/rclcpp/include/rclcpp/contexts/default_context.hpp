@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The context that rclcpp::init() initialises and that everything uses unless told otherwise.
 #pragma once
 

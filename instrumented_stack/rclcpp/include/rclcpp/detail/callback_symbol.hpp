@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The readable name of a callback for the event rclcpp_callback_register, kept in two words until somebody wants it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The trace events of intra-process delivery that templates fire: here, so that users of rclcpp need no tracetools.
 #pragma once
 

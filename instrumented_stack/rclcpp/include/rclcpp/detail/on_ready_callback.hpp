@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A user's callback at an address that rcl can call.
 #pragma once
 

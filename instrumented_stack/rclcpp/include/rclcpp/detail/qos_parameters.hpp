@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameters of qos_overriding_options.hpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Command lines as rcl parses them, with C++ ownership.
 #pragma once
 

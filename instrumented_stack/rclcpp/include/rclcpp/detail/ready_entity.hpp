@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an executor's wait can find ready. Weak, so that a user's reset() destroys it at once.
 #pragma once
 

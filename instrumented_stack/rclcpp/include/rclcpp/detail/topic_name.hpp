@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns rcl's refusal of a topic or service name into the exception that shows where it is wrong.
 #pragma once
 

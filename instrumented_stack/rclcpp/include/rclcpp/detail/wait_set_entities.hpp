@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a WaitSet waits for, and the waiting: the part that does not depend on the kind of wait set.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rclcpp throws. Failures of rcl arrive here at one place: throw_from_rcl_error().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs callbacks in several threads: those of a reentrant group beside one another, those of a mutually exclusive group
 // one at a time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs all callbacks one after the other in the thread that calls spin().
 #pragma once
 

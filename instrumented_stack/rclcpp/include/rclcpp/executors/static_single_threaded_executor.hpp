@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kept for programs written for it: every executor here rebuilds its list of entities only after a change, which is
 // what this one was made for.
 #pragma once

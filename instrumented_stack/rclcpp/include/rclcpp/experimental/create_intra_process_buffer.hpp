@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The buffer that a subscription, or a transient local publisher, needs.
 #pragma once
 

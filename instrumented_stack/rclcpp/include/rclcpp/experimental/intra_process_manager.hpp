@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who can reach whom within a context without the middleware, and the delivery itself.
 //
 // Each context has one (Context::get_sub_context<IntraProcessManager>()). A publisher that was added hands its messages

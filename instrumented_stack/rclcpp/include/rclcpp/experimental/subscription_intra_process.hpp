@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The intra-process side of Subscription<MessageT>: buffer and callback.
 #pragma once
 

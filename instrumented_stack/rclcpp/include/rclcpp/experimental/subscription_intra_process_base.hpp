@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The side of a subscription that receives from publishers of the same context, as a waitable beside the subscription
 // itself.
 #pragma once

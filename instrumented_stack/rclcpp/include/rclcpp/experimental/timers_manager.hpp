@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs timers without a wait set: either asked, by an executor in its own thread, or in a thread of its own.
 #pragma once
 

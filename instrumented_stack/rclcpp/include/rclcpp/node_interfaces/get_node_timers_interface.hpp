@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // node_interfaces::get_node_timers_interface(node), for anything that has that interface or points to something that
 // has.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The core of a node: its rcl handle, names and callback groups.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock of a node, for whoever is given interfaces instead of a node.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place where ROS 2 declares node_interfaces::NodeClockInterface; here it is the class itself.
 #pragma once
 

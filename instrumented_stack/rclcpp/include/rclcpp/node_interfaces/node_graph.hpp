@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a node knows of the whole system: other nodes, topics, how many publish and subscribe.
 #pragma once
 

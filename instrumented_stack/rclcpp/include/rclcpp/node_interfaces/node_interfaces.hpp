@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NodeInterfaces: the part of a node that a function needs, so that it takes nodes of every class.
 //
 //   using Interfaces = rclcpp::node_interfaces::NodeInterfaces<NodeBaseInterface, NodeLoggingInterface>;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The logger of a node, and the services by which others read and change log levels.
 #pragma once
 

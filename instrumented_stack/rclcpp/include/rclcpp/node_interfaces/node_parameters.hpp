@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameters of a node: declared ones with their values and descriptions, the services for them, and who wants to
 // know of changes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Puts subscriptions, and the event handlers of publishers and subscriptions, where an executor finds them.
 #pragma once
 

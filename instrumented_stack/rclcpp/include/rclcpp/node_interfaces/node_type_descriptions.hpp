@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The service `~/get_type_description` of a node.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Puts waitables where an executor finds them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Average, extremes and deviation of numbers as they come, in constant memory.
 #pragma once
 

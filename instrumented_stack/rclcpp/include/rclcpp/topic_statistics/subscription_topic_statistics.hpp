@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures what a subscription receives, and publishes the statistics of each period. Created with a subscription that
 // has SubscriptionOptions::topic_stats_options enabled.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gives servers and clients of actions to a node's executor.
 #pragma once
 

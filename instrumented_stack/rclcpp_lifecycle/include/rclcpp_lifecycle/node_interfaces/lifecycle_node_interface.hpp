@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The callbacks of a managed node: override those that have something to do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A byte buffer with its own allocator: the storage of serialized messages.
 #pragma once
 

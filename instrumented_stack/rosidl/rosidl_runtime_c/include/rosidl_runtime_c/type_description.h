@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef ROSIDL_RUNTIME_C__TYPE_DESCRIPTION_H_
 #define ROSIDL_RUNTIME_C__TYPE_DESCRIPTION_H_
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hash of a type's description, which tells whether two sides mean the same definition.
 #pragma once
 

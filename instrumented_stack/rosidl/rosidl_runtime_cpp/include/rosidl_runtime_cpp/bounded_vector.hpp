@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef ROSIDL_RUNTIME_CPP__BOUNDED_VECTOR_HPP_
 #define ROSIDL_RUNTIME_CPP__BOUNDED_VECTOR_HPP_
 

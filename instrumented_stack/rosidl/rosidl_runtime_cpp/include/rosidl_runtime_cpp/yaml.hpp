@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #ifndef ROSIDL_RUNTIME_CPP__YAML_HPP_
 #define ROSIDL_RUNTIME_CPP__YAML_HPP_
 

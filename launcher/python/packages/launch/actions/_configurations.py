@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions on launch arguments, configurations and the environment."""
 
 import _launch_engine

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions that deal with events."""
 
 from launch._entities import entity

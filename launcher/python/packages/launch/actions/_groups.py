@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions that hold others, or that make them when they are visited."""
 
 import _launch_engine

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """
 Handlers of what happens to processes and to the launch.
 

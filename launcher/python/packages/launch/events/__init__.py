@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Events that a launch file can emit, and what handlers are told."""
 
 from launch import _names

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Events of processes: what handlers are told, and what can be asked of a process."""
 
 from launch import _names

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Names that packages use to offer their actions to XML and YAML files. Here those formats are the launcher's own."""
 
 from launch import _names

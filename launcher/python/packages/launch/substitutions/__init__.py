@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Substitutions. All but the last few are the launcher's own, called by the names that XML and YAML files use."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Functions that launch files and the packages of others use."""
 
 from collections.abc import Iterable

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Substitutions whose text is read as a value of a type."""
 
 from typing import Any, List, get_args, get_origin

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions for ROS nodes."""
 
 from launch import _names

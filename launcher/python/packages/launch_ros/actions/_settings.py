@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions that set what later nodes of the scope are given."""
 
 from launch._values import boolean, text

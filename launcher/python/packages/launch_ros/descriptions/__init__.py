@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Descriptions of nodes that containers load, and of parameters."""
 
 from launch import _names

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Events of ROS nodes."""
 
 from launch_ros.events import lifecycle

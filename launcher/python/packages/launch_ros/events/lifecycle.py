@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Changes of the state of nodes with a managed life cycle."""
 
 from launch import _names

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Substitutions that know packages and parameters."""
 
 from launch import _names

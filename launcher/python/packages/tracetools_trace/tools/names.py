@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Lists of names that traces are asked for with."""
 
 from tracetools_trace.tools import tracepoints

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The userspace events of ROS 2's instrumentation."""
 
 rcl_init = 'ros2:rcl_init'

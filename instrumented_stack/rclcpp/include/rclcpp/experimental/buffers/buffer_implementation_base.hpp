@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where messages wait between publisher and callback of one process.
 #pragma once
 

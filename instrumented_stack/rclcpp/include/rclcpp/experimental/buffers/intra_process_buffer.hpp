@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A subscription's buffer as publishers and the subscription see it: messages go in and come out as shared or unique
 // pointers, whichever of the two the buffer holds. Where the two differ, a message is copied.
 #pragma once

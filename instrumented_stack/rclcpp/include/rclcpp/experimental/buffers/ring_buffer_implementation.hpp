@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A buffer of fixed capacity in which a new message takes the place of the oldest: history "keep last".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "arm_driver/arm_model.hpp"
 
 #include "arm_driver/version.h"

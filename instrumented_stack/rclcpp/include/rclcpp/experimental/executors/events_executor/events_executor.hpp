@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An executor that does not wait for entities, but is told by the middleware what has arrived and keeps that in a
 // queue: the work per message does not depend on the number of entities.
 #pragma once

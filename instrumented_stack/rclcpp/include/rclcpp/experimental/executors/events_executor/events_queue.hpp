@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where an events executor gets its events from. Derive from it for another order than that of arrival.
 #pragma once
 

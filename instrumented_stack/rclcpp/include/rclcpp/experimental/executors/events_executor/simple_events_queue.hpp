@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Events in the order of their arrival, without a limit.
 #pragma once
 
