@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Launch files with errors, each with all that is said about it: tests/golden/errors, FILE and FILE.expected.
+Launch files with errors, each with the whole text of its message: tests/golden/errors, FILE and FILE.expected.
 
-docs/errors.md shows these messages and those of tests/golden/diagnostics and tests/golden/python. With
-LAUNCH_UPDATE_GOLDEN=1 the expected texts and the page are written anew; read them before committing.
+docs/errors.md is an index of these files and of those in tests/golden/diagnostics and tests/golden/python. With
+LAUNCH_UPDATE_GOLDEN=1 the expected texts and the samples of the page are written anew; read them before committing.
 """
 
 import os
@@ -20,43 +20,32 @@ GOLDEN = SOURCE / 'tests/golden'
 PAGE = SOURCE / 'docs/errors.md'
 UPDATE = 'LAUNCH_UPDATE_GOLDEN' in os.environ
 
-SECTIONS = [
-    ('XML that is malformed', 'diagnostics', '.xml', 'Found while a file is read.'),
-    ('YAML that is malformed', 'diagnostics', '.yaml', 'Found while a file is read.'),
-    ('Launch files that say what nothing understands', 'errors/load', '',
-     'Found when a file is loaded; all errors of a file are told at once, and nothing of it is visited.'),
-    ('Launch files that ask for what cannot be', 'errors/visit', '',
-     'Found when the actions are visited, before any process has started, or when a timer or an event handler visits '
-     'further ones: then the system ends.'),
-    ('Python launch files', 'python', '.py', 'Without a traceback; `--debug` adds it.'),
-]
+FOLDERS = ('diagnostics', 'errors/load', 'errors/visit', 'python')
 
-HEAD = """# Errors
-
-What is said about launch files that cannot run: the place, the line with a caret below what is meant, the cause, and what to do about it; for a
-file that others include, the chain of includes. The launcher's exit code is 1, and no process was started. Each message is that of a launch file in
-`tests/golden/`, which a test compares with it; this page is made of them (`tests/e2e/golden_errors_test.py`).
-"""
+# A sample in the page: the name of the launch file in a line of its own, then the message.
+SAMPLE = re.compile(r'^`(?P<name>[\w.]+)`:\n\n```\n(?P<message>.*?\n)```$', re.M | re.S)
 
 
-def launch_files(folder, suffix=''):
-    return sorted(path for path in (GOLDEN / folder).iterdir()
-                  if path.suffix != '.expected' and path.is_file() and path.name.endswith(suffix))
+def launch_files(folder):
+    return sorted(path for path in (GOLDEN / folder).iterdir() if path.suffix != '.expected' and path.is_file())
 
 
-def title(path):
-    name = path.name.split('.')[0].replace('_', ' ')
-    return name[0].upper() + name[1:]
+def sections(page):
+    """The folder of each section with its text."""
+    parts = re.split(r'^Launch files in `tests/golden/([\w/]+)`', page, flags=re.M)
+    return list(zip(parts[1::2], parts[2::2]))
 
 
-def page():
-    parts = [HEAD]
-    for heading, folder, suffix, when in SECTIONS:
-        parts.append(f'\n## {heading}\n\n{when}\n')
-        for path in launch_files(folder, suffix):
-            message = Path(f'{path}.expected').read_text().rstrip('\n')
-            parts.append(f'\n### {title(path)}\n\n```\n{message}\n```\n')
-    return ''.join(parts)
+def with_samples(page):
+    """The page with the expected text of each sample."""
+    made = re.split(r'(^Launch files in `tests/golden/([\w/]+)`)', page, flags=re.M)
+    for place in range(2, len(made), 3):
+        folder = GOLDEN / made[place]
+        made[place + 1] = SAMPLE.sub(
+            lambda match: f'`{match["name"]}`:\n\n```\n{(folder / (match["name"] + ".expected")).read_text()}```',
+            made[place + 1])
+        made[place] = ''
+    return ''.join(made)
 
 
 class GoldenErrors(unittest.TestCase):
@@ -105,12 +94,29 @@ class GoldenErrors(unittest.TestCase):
                 # What to do about it, unless the cause names all that is right.
                 self.assertRegex(text, r'= help: |expected |can be |Valid options|is not a valid package name|No such file|not found: |is not a file')
 
-    def test_the_page_shows_them(self):
-        made = page()
+    def test_the_page_names_each_file_once(self):
+        found = dict(sections(PAGE.read_text()))
+        self.assertEqual(sorted(found), sorted(FOLDERS))
+        for folder, text in found.items():
+            with self.subTest(folder):
+                prose = SAMPLE.sub(lambda match: f'`{match["name"]}`', text)
+                named = re.findall(r'`(\w+\.launch\.(?:xml|yaml|py))`', prose)
+                self.assertEqual(sorted(named), [path.name for path in launch_files(folder)])
+
+    def test_each_kind_has_one_sample(self):
+        for folder, text in sections(PAGE.read_text()):
+            for kind in re.split(r'^### ', text.partition('\n## ')[0], flags=re.M)[1:]:
+                with self.subTest(f'{folder}: {kind.splitlines()[0]}'):
+                    self.assertEqual(len(SAMPLE.findall(kind)), 1)
+
+    def test_the_samples_are_the_messages(self):
+        page = PAGE.read_text()
+        made = with_samples(page)
         self.assertIsNone(re.search(r'/(tmp|home|work|root)/', made))
         if UPDATE:
             PAGE.write_text(made)
-        self.assertEqual(made, PAGE.read_text())
+            page = made
+        self.assertEqual(made, page)
 
 
 if __name__ == '__main__':
