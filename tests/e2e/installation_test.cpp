@@ -19,6 +19,7 @@ TEST(Installation, RunsFromAPrefixThatWasMoved) {
   const CommandResult install = run_command({CMAKE, "--install", BUILD_DIRECTORY, "--prefix", first.string()});
   ASSERT_EQ(install.exit_code, 0) << install.err;
   fs::rename(first, prefix);
+  EXPECT_TRUE(fs::exists(prefix / "share/doc/launch/LICENSE"));
 
   const std::string launch = (prefix / "bin/launch").string();
   const CommandResult plan = run_command({launch, "--dry-run", "launch_examples", "01_ping_pong.launch.xml"});
