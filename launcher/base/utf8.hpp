@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading UTF-8, one character at a time.
+// Reads, writes, checks and repairs UTF-8. Overlong forms, surrogates and what is beyond U+10FFFF are not UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,18 @@ struct CodePoint {
   bool valid = false;
 };
 
-// The first character of a text that isn't empty. Overlong forms and surrogates are not valid.
+// The first character of a text that isn't empty.
 CodePoint decode_utf8(std::string_view text);
 
 void append_utf8(std::string& text, char32_t character);
+
+bool is_utf8(std::string_view bytes);
+
+// Appends the bytes with U+FFFD for each part that is not UTF-8: one for each longest start of a character that does
+// not go on (Unicode 15, section 3.9, "substitution of maximal subparts"). Python's errors="replace" does the same.
+void append_as_utf8(std::string& to, std::string_view bytes);
+
+// How many bytes at the end are the start of a character whose rest may still come (0 to 3).
+std::size_t incomplete_utf8_suffix(std::string_view bytes);
 
 }  // namespace launch

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "launcher/base/unique_fd.hpp"
-#include "launcher/process/utf8.hpp"
+#include "launcher/base/utf8.hpp"
 
 namespace launch {
 namespace {

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "launcher/base/utf8.hpp"
-
 namespace launch {
 namespace {
 
@@ -125,24 +123,6 @@ TEST(LaunchError, HoldsAllDiagnosticsAndTheirPlainTextWithoutTheLastLineEnd) {
   const LaunchError error({{Severity::kError, "one", {}, {}}, {Severity::kError, "two", {}, "help"}});
   EXPECT_EQ(error.diagnostics().size(), 2U);
   EXPECT_STREQ(error.what(), "error: one\nerror: two\n      = help: help");
-}
-
-TEST(Utf8, RefusesWhatIsNoCharacter) {
-  for (const char* text :
-       {"\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC3", "\xE2\x82x"}) {
-    EXPECT_FALSE(decode_utf8(text).valid);
-    EXPECT_EQ(decode_utf8(text).size, 1U);
-  }
-}
-
-TEST(Utf8, ReadsBackWhatItWrote) {
-  for (const char32_t character : {U'a', U'\u00E4', U'\u20AC', U'\U0001F600', U'\uFFFF'}) {
-    std::string text;
-    append_utf8(text, character);
-    EXPECT_TRUE(decode_utf8(text).valid);
-    EXPECT_EQ(decode_utf8(text).value, character);
-    EXPECT_EQ(decode_utf8(text).size, text.size());
-  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/utf8.hpp"
+#include "launcher/base/utf8.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +47,24 @@ TEST(Utf8, KnowsHowMuchOfACharacterIsMissing) {
   EXPECT_EQ(incomplete_utf8_suffix("a\xF0\x90\x80"), 3U);
   EXPECT_EQ(incomplete_utf8_suffix("a\x82\x82"), 0U);
   EXPECT_EQ(incomplete_utf8_suffix(""), 0U);
+}
+
+TEST(Utf8, RefusesWhatIsNoCharacter) {
+  for (const char* text :
+       {"\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC3", "\xE2\x82x"}) {
+    EXPECT_FALSE(decode_utf8(text).valid);
+    EXPECT_EQ(decode_utf8(text).size, 1U);
+  }
+}
+
+TEST(Utf8, ReadsBackWhatItWrote) {
+  for (const char32_t character : {U'a', U'\u00E4', U'\u20AC', U'\U0001F600', U'\uFFFF'}) {
+    std::string text;
+    append_utf8(text, character);
+    EXPECT_TRUE(decode_utf8(text).valid);
+    EXPECT_EQ(decode_utf8(text).value, character);
+    EXPECT_EQ(decode_utf8(text).size, text.size());
+  }
 }
 
 }  // namespace
