@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "launcher/base/nearest_name.hpp"
 #include "launcher/base/utf8.hpp"
 
 namespace launch {
@@ -190,6 +191,11 @@ std::string render(const std::vector<Diagnostic>& diagnostics, bool colour) {
     result += render(diagnostic, colour);
   }
   return result;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  return nearest.empty() ? nearest : fmt::format("did you mean '{}'?", nearest);
 }
 
 }  // namespace launch

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "launcher/base/nearest_name.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
-
-#include "launcher/base/diagnostic.hpp"
 
 namespace launch {
 
@@ -42,7 +40,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 
 }  // namespace
 
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   // A third of the name may differ: enough for a slip of the fingers, too little for an unrelated word.
   const std::size_t allowed = std::max<std::size_t>(1, name.size() / 3);
   const std::string wanted = lower(name);
@@ -61,7 +59,7 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
       nearest_distance = distance;
     }
   }
-  return nearest == nullptr ? std::string() : fmt::format("did you mean '{}'?", *nearest);
+  return nearest == nullptr ? std::string() : *nearest;
 }
 
 }  // namespace launch
