@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/base/own_prefix.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+namespace launch {
+
+std::string own_prefix() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path().string();
+}
+
+std::string own_library_file(std::string_view name) {
+  return own_prefix().append("/lib/launch/").append(name);
+}
+
+}  // namespace launch

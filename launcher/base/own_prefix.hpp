@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where this program is installed, and the files that are installed with it.
+//
+// A program looks for its companions beside itself, so that an install tree can be moved as a whole and two of them can
+// stand on one machine. The place comes from /proc/self/exe, which is right for every way in which a program is
+// started.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace launch {
+
+// The folder that holds the `bin` of this program: "/usr/local" for /usr/local/bin/launch, links resolved. "" when
+// /proc cannot be read, so that own_prefix() + "/share" is an absolute path in any case.
+std::string own_prefix();
+
+// The path of `name` in this program's lib/launch, where the programs and libraries are that nobody starts by hand. It
+// is not checked that there is such a file.
+std::string own_library_file(std::string_view name);
+
+}  // namespace launch

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/base/own_prefix.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace launch {
+namespace {
+
+TEST(OwnPrefix, IsTheFolderAboveTheOneOfTheProgram) {
+  const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe");
+  EXPECT_EQ(own_prefix(), program.parent_path().parent_path());
+  EXPECT_TRUE(own_prefix().starts_with('/'));
+}
+
+TEST(OwnPrefix, HasAFolderForFilesThatNobodyStartsByHand) {
+  EXPECT_EQ(own_library_file("launch-guardian"), own_prefix() + "/lib/launch/launch-guardian");
+}
+
+}  // namespace
+}  // namespace launch
