@@ -2,7 +2,7 @@
 // Every action that launch files can use.
 #pragma once
 
-#include "launcher/core/registry.hpp"
+#include "launcher/language/registry.hpp"
 
 namespace launch {
 

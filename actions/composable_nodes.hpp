@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "actions/parameters.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

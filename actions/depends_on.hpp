@@ -6,8 +6,8 @@
 #include <string>
 
 #include "actions/ros_condition.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // <set_env>, <unset_env>, <append_env>, <reset_env> and <rep_env>: the launch environment, which $(env …) reads and
 // later processes inherit.
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // <group>: actions in a scope of their own.
 #include "actions/ros_names.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

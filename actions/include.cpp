@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "actions/ros_names.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/introspection.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/language/introspection.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

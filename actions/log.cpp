@@ -2,8 +2,8 @@
 // <log message="…" level="…"/> and <log_info message="…"/> with its sisters: print a message.
 #include <fmt/format.h>
 
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -5,9 +5,9 @@
 #include <charconv>
 
 #include "actions/parameter_value.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
 #include "launcher/frontend/yaml_document.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "actions/parameter_value.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
 #include "launcher/process/process_spec.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

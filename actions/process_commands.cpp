@@ -2,9 +2,9 @@
 // <stop>, <restart>, <signal>: end, start again or signal a process that runs.
 #include <fmt/format.h>
 
-#include "launcher/core/exit_code_filter.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/exit_code_filter.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -8,9 +8,9 @@
 
 #include "actions/depends_on.hpp"
 #include "actions/resource_fields.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
 #include "launcher/process/process_spec.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

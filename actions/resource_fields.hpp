@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "launcher/core/fields.hpp"
+#include "launcher/language/fields.hpp"
 #include "launcher/process/resource_limits.hpp"
 
 namespace launch {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "actions/ros_names.hpp"
-#include "launcher/core/ros_readiness.hpp"
+#include "launcher/ros/ros_readiness.hpp"
 
 namespace launch {
 

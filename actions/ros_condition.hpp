@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
-#include "launcher/core/readiness_condition.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/language/readiness_condition.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

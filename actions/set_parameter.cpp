@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "actions/parameter_value.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

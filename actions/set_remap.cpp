@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <set_remap from="…" to="…"/>: a remap of every later node of the scope, before the node's own.
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -2,8 +2,8 @@
 // <set_ros_log_dir new_log_dir="…"/>: where later nodes write their log files.
 #include <filesystem>
 
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -2,9 +2,9 @@
 // <set_use_sim_time value="…"/>: whether the launcher's own ros_timer counts simulated time.
 #include <fmt/format.h>
 
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
 #include "launcher/substitution/boolean.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

@@ -6,8 +6,8 @@
 #include "actions/trace_channel.hpp"
 #include "actions/trace_overhead.hpp"
 #include "actions/trace_scope.hpp"
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 #include "tracing/session/event_classes.hpp"
 
 namespace launch {

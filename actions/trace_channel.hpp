@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/core/fields.hpp"
+#include "launcher/language/fields.hpp"
 #include "tracing/session/trace_config.hpp"
 
 namespace launch {

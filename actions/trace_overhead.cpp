@@ -9,7 +9,7 @@
 #include <charconv>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/visit/launch_context.hpp"
 #include "tracing/launch_provider/launch_provider.h"
 #include "tracing/session/event_classes.hpp"
 #include "tracing/session/event_cost.hpp"

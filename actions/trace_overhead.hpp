@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "launcher/core/fields.hpp"
-#include "launcher/core/run_scope.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/run_scope.hpp"
 #include "tracing/session/overhead_guard.hpp"
 
 namespace launch {

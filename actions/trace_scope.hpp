@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "launcher/core/run_scope.hpp"
+#include "launcher/visit/run_scope.hpp"
 #include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <unregister_event_handler name="…"/>: an event handler hears of nothing more.
-#include "launcher/core/fields.hpp"
-#include "launcher/core/launch_context.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

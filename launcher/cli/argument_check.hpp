@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/core/introspection.hpp"
+#include "launcher/language/introspection.hpp"
 
 namespace launch {
 

@@ -15,9 +15,9 @@
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "launcher/cli/strict_ros2.hpp"
-#include "launcher/core/introspection.hpp"
-#include "launcher/core/launch_plan.hpp"
+#include "launcher/language/introspection.hpp"
 #include "launcher/process/program_search.hpp"
+#include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/core/registry.hpp"
+#include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {

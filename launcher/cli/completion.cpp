@@ -9,7 +9,7 @@
 
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/run_command.hpp"
-#include "launcher/core/introspection.hpp"
+#include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 
 namespace launch {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/core/registry.hpp"
+#include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {

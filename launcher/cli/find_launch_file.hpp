@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/core/launch_description.hpp"
+#include "launcher/language/launch_description.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {

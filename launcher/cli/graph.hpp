@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/core/launch_plan.hpp"
+#include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 

@@ -10,7 +10,7 @@
 #include "launcher/cli/graph.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "launcher/cli/subcommand.hpp"
-#include "launcher/core/launch_plan.hpp"
+#include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 

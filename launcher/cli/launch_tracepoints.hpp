@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "launcher/core/launch_record.hpp"
+#include "launcher/visit/launch_record.hpp"
 #include "tracing/launch_provider/launch_provider.h"
 
 namespace launch {

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "launcher/core/introspection.hpp"
 #include "launcher/frontend/frontend.hpp"
+#include "launcher/language/introspection.hpp"
 
 namespace launch {
 

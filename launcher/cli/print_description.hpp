@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "launcher/core/launch_description.hpp"
+#include "launcher/language/launch_description.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {

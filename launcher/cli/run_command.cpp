@@ -15,13 +15,13 @@
 #include "launcher/cli/print_description.hpp"
 #include "launcher/cli/shell_script.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
-#include "launcher/core/introspection.hpp"
-#include "launcher/core/launch_plan.hpp"
-#include "launcher/core/launch_service.hpp"
-#include "launcher/core/python_launch_file.hpp"
+#include "launcher/language/introspection.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
-#include "launcher/ros_client/ros_client_process.hpp"
+#include "launcher/python/python_launch_file.hpp"
+#include "launcher/ros/ros_client_process.hpp"
+#include "launcher/run/launch_service.hpp"
+#include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 

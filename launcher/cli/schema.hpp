@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "launcher/core/registry.hpp"
+#include "launcher/language/registry.hpp"
 
 namespace launch {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/core/registry.hpp"
+#include "launcher/language/registry.hpp"
 
 namespace launch {
 

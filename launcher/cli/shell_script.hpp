@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "launcher/core/launch_plan.hpp"
 #include "launcher/substitution/scope.hpp"
+#include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 

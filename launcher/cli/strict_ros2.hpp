@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/core/registry.hpp"
+#include "launcher/language/registry.hpp"
 
 namespace launch {
 

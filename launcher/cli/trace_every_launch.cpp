@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "launcher/core/launch_context.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 

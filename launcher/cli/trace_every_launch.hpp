@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "launcher/core/launch_description.hpp"
-#include "launcher/core/registry.hpp"
+#include "launcher/language/launch_description.hpp"
+#include "launcher/language/registry.hpp"
 
 namespace launch {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The neutral tree that XML and YAML launch files are read into.
 //
-// Entities are plain data: what a tag or an attribute means is declared by the actions (launcher/core/registry.hpp),
-// which check the tree against their declaration. The XML and the YAML form of one launch file give equal trees.
+// Entities are plain data: what a tag or an attribute means is declared by the actions
+// (launcher/language/registry.hpp), which check the tree against their declaration. The XML and the YAML form of one
+// launch file give equal trees.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@
 #include <random>
 #include <sstream>
 
+#include "launcher/python/interpreter/python_expression.hpp"
 #include "launcher/substitution/command_output.hpp"
-#include "launcher/substitution/python_expression.hpp"
 #include "launcher/substitution/substitution_call.hpp"
 #include "launcher/substitution/template_parser.hpp"
 

@@ -17,7 +17,7 @@ namespace launch {
 
 class PackageIndex;
 
-// Copied when a scoped group begins and put back when it ends (launcher/core/launch_context.hpp).
+// Copied when a scoped group begins and put back when it ends (launcher/visit/launch_context.hpp).
 struct Scope {
   // Launch configurations: what $(var x) reads.
   std::map<std::string, std::string> configurations;

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "actions/builtin_actions.hpp"
-#include "launcher/core/launch_plan.hpp"
-#include "launcher/substitution/python_module.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
+#include "launcher/visit/launch_plan.hpp"
 #include "tests/benchmarks/launch_load/corpus_tree.hpp"
 #include "tests/benchmarks/launch_load/made_launch_files.hpp"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "actions/builtin_actions.hpp"
-#include "launcher/substitution/python_module.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
 
 namespace test_support {
 

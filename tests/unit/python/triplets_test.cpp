@@ -9,8 +9,8 @@
 
 #include "actions/builtin_actions.hpp"
 #include "launcher/cli/dry_run.hpp"
-#include "launcher/core/launch_plan.hpp"
-#include "launcher/substitution/python_module.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
+#include "launcher/visit/launch_plan.hpp"
 #include "tests/unit/python/python_plan.hpp"
 
 namespace {

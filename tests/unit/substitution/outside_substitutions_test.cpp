@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "launcher/substitution/python_module.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
 #include "tests/unit/substitution/template_test.hpp"
 
 namespace launch {

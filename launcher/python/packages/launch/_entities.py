@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Turns the objects of a launch file into what the launcher reads (launcher/python/entity_reader.hpp)."""
+"""Turns the objects of a launch file into what the launcher reads (launcher/python/module/entity_reader.hpp)."""
 
 from collections.abc import Iterable
 

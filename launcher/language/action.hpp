@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// One thing that a launch file asks for.
+//
+// An action is made once, while its file is loaded, and never changes: what it does it does to the LaunchContext, each
+// time it is visited. Deriving classes implement execute() and, when they hold other actions, introspect().
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/language/condition.hpp"
+#include "launcher/substitution/substitution.hpp"
+
+namespace launch {
+
+class Action;
+class LaunchContext;
+struct LaunchDescription;
+
+using ActionPtr = std::shared_ptr<const Action>;
+
+// A launch argument as its `arg` declares it.
+struct ArgumentDeclaration {
+  std::string name;
+  std::optional<Template> default_value;
+  std::string description;
+  std::vector<std::string> choices;
+  SourceRange where;
+};
+
+// What an `include` names, before anything is performed.
+struct IncludeDeclaration {
+  Template file;
+  std::vector<std::pair<Template, Template>> arguments;  // name, value
+  SourceRange where;
+};
+
+// What can be known about an action without running it (`--show-args`, the check for required arguments).
+struct Introspection {
+  const ArgumentDeclaration* argument = nullptr;
+  const IncludeDeclaration* include = nullptr;
+  const std::shared_ptr<const LaunchDescription>* description = nullptr;  // a launch file that is already loaded
+  const std::vector<ActionPtr>* children = nullptr;
+  bool children_may_not_run = false;  // they wait for something, like those of a timer
+};
+
+class Action {
+ public:
+  Action(SourceRange where, Condition condition) : where_(std::move(where)), condition_(std::move(condition)) {}
+  virtual ~Action() = default;
+  Action(const Action&) = delete;
+  Action& operator=(const Action&) = delete;
+
+  // Evaluates the condition and, when it holds, executes. Throws LaunchError.
+  void visit(LaunchContext& context) const;
+
+  virtual Introspection introspect() const { return {}; }
+
+  const SourceRange& where() const { return where_; }
+  bool is_conditional() const { return condition_.is_given(); }
+
+ protected:
+  virtual void execute(LaunchContext& context) const = 0;
+
+ private:
+  SourceRange where_;
+  Condition condition_;
+};
+
+}  // namespace launch

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks an entity tree against the declarations of the registry and makes its actions.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/frontend/entity.hpp"
+#include "launcher/language/action.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/language/registry.hpp"
+
+namespace launch {
+
+class ActionParser {
+ public:
+  explicit ActionParser(const Registry& registry) : registry_(registry) {}
+
+  // Makes the actions among `entities`. Every error of the tree is found before LaunchError is thrown with them all.
+  // Frees each entity when its action is made.
+  std::vector<ActionPtr> parse(std::vector<Entity> entities);
+
+ private:
+  // The structured items that an entity may hold.
+  struct Items {
+    const std::vector<ItemSpec>& declared;
+    const ItemSpec* recursive = nullptr;  // the item itself, if it may hold items of its own tag
+
+    const ItemSpec* find(std::string_view tag) const;
+    std::vector<std::string> tags() const;
+  };
+
+  ActionPtr parse_action(const Entity& entity);
+  // `items` are those that may stand beside the attributes.
+  void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
+                        bool conditions, Fields& fields);
+  void parse_condition(const Entity& entity, Fields& fields);
+  void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
+  Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
+  void report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions);
+  // Runs `step`, keeping the errors that it throws.
+  template <typename Step>
+  void collect(Step step);
+
+  const Registry& registry_;
+  std::vector<Diagnostic> errors_;
+};
+
+}  // namespace launch

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// One declaration per action: its tag, its attributes and items with their types, a line of help, and how to make it.
+//
+// Parsing, the errors for unknown or missing attributes, and the reference page all come from the declaration.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/language/action.hpp"
+
+namespace launch {
+
+class Fields;
+
+enum class AttributeType {
+  kText,         // text with substitutions, performed when the action is visited
+  kLiteral,      // text as it stands; `\x` gives x
+  kBoolean,      // true or false (YAML 1.1 words, 1, 0), or substitutions that give one
+  kFloat,        // a number, or substitutions that give one
+  kInteger,      // a whole number, or substitutions that give one
+  kCommandLine,  // split into words as a POSIX shell does, then performed
+  kWords,        // the same; in YAML also a list of texts, each of them a word
+  kParameter,    // any scalar or list: the value of a parameter
+};
+
+struct AttributeSpec {
+  std::string name;
+  AttributeType type = AttributeType::kText;
+  bool required = false;
+  std::string default_value;  // as the reference page shows it
+  std::string help;
+  bool extension = false;  // `ros2 launch` does not know it (docs/extensions.md)
+};
+
+// A structured item of an action: <param>, <remap>, <choice> …
+struct ItemSpec {
+  std::string tag;
+  std::string help;
+  std::vector<AttributeSpec> attributes;
+  bool recursive = false;       // may hold items of its own tag
+  std::vector<ItemSpec> items;  // that it may hold besides
+  bool has_condition = false;   // takes `if` and `unless`
+  bool extension = false;       // as that of an attribute
+};
+
+struct ActionType {
+  std::string tag;
+  std::string help;
+  std::vector<AttributeSpec> attributes;  // without `if` and `unless`, which every action has
+  std::vector<ItemSpec> items;
+  bool holds_actions = false;
+  bool extension = false;  // as that of an attribute
+  // Makes the action from fields that agree with this declaration. May throw LaunchError for what it doesn't say.
+  std::function<ActionPtr(const Fields&)> make;
+};
+
+class Registry {
+ public:
+  // Throws std::logic_error when the tag is taken.
+  void add(ActionType type);
+  const ActionType* find(std::string_view tag) const;
+  const std::map<std::string, ActionType, std::less<>>& types() const { return types_; }
+
+ private:
+  std::map<std::string, ActionType, std::less<>> types_;
+};
+
+}  // namespace launch

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/python/interpreter/python_module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+namespace launch {
+
+namespace {
+
+std::string& module_path() {
+  static std::string path;
+  return path;
+}
+
+python::Runtime* load_module() {
+  std::string path = module_path();
+  std::error_code ignored;
+  if (path.empty()) {
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    path = (program.parent_path().parent_path() / "lib/launch/liblaunch_python.so").string();
+  }
+  if (!std::filesystem::exists(path, ignored)) {
+    throw std::runtime_error(fmt::format(
+        "this build has no Python: '{}' does not exist; install python3-dev and pybind11-dev and build again", path));
+  }
+  // Global, because the extension modules of Python take their symbols from it.
+  void* const module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  void* const symbol = module == nullptr ? nullptr : ::dlsym(module, python::kGetRuntimeSymbol);
+  if (symbol == nullptr) {
+    throw std::runtime_error(fmt::format("can't load Python: {}; install libpython3.11", ::dlerror()));
+  }
+  return reinterpret_cast<python::GetRuntime>(symbol)();
+}
+
+}  // namespace
+
+void use_python_module(std::string path) {
+  module_path() = std::move(path);
+}
+
+python::Runtime& python_runtime() {
+  static python::Runtime* const runtime = load_module();
+  return *runtime;
+}
+
+}  // namespace launch

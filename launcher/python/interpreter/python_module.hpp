@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The CPython of this launcher: liblaunch_python.so, loaded when the first Python is met.
+#pragma once
+
+#include <string>
+
+#include "launcher/python/interpreter/python_runtime.hpp"
+
+namespace launch {
+
+// Throws std::runtime_error that says what to install when the module can't be loaded.
+python::Runtime& python_runtime();
+
+// Where the module is loaded from, instead of ../lib/launch beside the program's directory. For programs that are not
+// installed; counts until the first use of Python.
+void use_python_module(std::string path);
+
+}  // namespace launch

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the launcher and liblaunch_python.so know of each other: plain data one way, two small interfaces.
+//
+// The module runs Python and turns what a launch file builds into the entities below, each with the place at which it
+// was made; what they mean is decided by the launcher, as for XML and YAML. What only Python can do (a function, a
+// substitution of the user's) stays an Object, which the launcher asks while it visits. One thread only.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace launch::python {
+
+// A place in a Python file. `line` counts from 1, 0 when it is unknown; `begin` and `end` are bytes of the line from 0.
+struct Place {
+  std::string file;
+  std::uint32_t line = 0;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+class Object;
+using ObjectPtr = std::shared_ptr<Object>;
+
+struct Text;
+
+// A piece of a text: itself, a substitution of the launcher's called by name, or one that Python performs.
+struct Part {
+  enum class Kind { kText, kCall, kObject };
+
+  Kind kind = Kind::kText;
+  std::string text;             // or the name of the substitution
+  std::vector<Text> arguments;  // of a call
+  ObjectPtr object;
+  Place where;
+};
+
+// Parts that are pasted together.
+struct Text {
+  std::vector<Part> parts;
+  Place where;
+};
+
+struct Value {
+  std::variant<bool, std::int64_t, double, Text, std::vector<Value>> data;
+  Place where;
+};
+
+// An action or an item of one, as launcher/frontend/entity.hpp has it. With an object: an action that Python executes,
+// of which only the attributes `if` and `unless` are given.
+struct Entity {
+  std::string tag;
+  Place where;
+  std::vector<std::pair<std::string, Value>> attributes;
+  std::vector<Entity> children;
+  ObjectPtr object;
+  // A name by which event handlers speak of the processes that the action starts; empty: none does.
+  std::string process_name;
+};
+
+// The launch, while Python runs. Calls throw what the launcher throws.
+class Host {
+ public:
+  using Variables = std::map<std::string, std::string>;
+
+  virtual ~Host() = default;
+  virtual Variables& configurations() = 0;
+  virtual Variables& environment() = 0;
+  virtual std::string log_directory() = 0;
+  virtual std::string perform(const Text& text) = 0;
+  // The value of a text with configurations of its own, not those of the launch.
+  virtual std::string perform(const Text& text, Variables& configurations) = 0;
+  // "debug", "info", "warning", "error", "critical".
+  virtual void message(const std::string& level, const std::string& logger, const std::string& text) = 0;
+  // Keeps what a scope restores (all of it, or the environment alone) and puts it back, as a stack. Throw outside a
+  // visit and when nothing is kept.
+  virtual void push(bool environment) = 0;
+  virtual void pop(bool environment) = 0;
+  // Visits actions now.
+  virtual void visit(const std::vector<Entity>& entities) = 0;
+  // Has the object, a coroutine, started once the traversal is carried out.
+  virtual void run_coroutine(ObjectPtr object) = 0;
+};
+
+// A Python object that the launch asks for something. Throws Error.
+class Object {
+ public:
+  virtual ~Object() = default;
+  // The text of a substitution; "true" or "false" of a condition.
+  virtual std::string perform(Host& host) = 0;
+  virtual std::string describe() = 0;
+  // What an action asks for in its place.
+  virtual std::vector<Entity> execute(Host& host) = 0;
+  // Starts the coroutine that the object is.
+  virtual void start(Host& host) = 0;
+};
+
+// The coroutines after a step.
+struct Pause {
+  std::size_t running = 0;        // how many have not ended
+  int descriptor = -1;            // readable: a step has something to do
+  std::optional<double> seconds;  // until a step has something to do by itself
+};
+
+// A Python launch file or a Python object failed. what() is one line.
+class __attribute__((visibility("default"))) Error : public std::runtime_error {
+ public:
+  Error(const std::string& message, Place where_, std::string help_, std::string traceback_, std::exception_ptr cause_)
+      : std::runtime_error(message),
+        where(std::move(where_)),
+        help(std::move(help_)),
+        traceback(std::move(traceback_)),
+        cause(std::move(cause_)) {}
+
+  Place where;
+  std::string help;
+  std::string traceback;     // as Python prints it
+  std::exception_ptr cause;  // what a call of the host threw, when Python passed that on
+};
+
+class Runtime {
+ public:
+  virtual ~Runtime() = default;
+  // str() of the value of an expression (launcher/python/interpreter/python_expression.hpp). Throws std::runtime_error.
+  virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
+  // Runs a launch file. `text` is its content. Throws Error.
+  virtual std::vector<Entity> load(const std::string& path, const std::string& text, Host& host) = 0;
+  // Runs the coroutines until all of them wait. Throws Error: what one of them has thrown.
+  virtual Pause step_coroutines(Host& host) = 0;
+  // Asks all of them to end, which takes further steps.
+  virtual void cancel_coroutines(Host& host) = 0;
+};
+
+// What the module exports. Never null; lives as long as the program. Starts nothing: the first call of the runtime
+// does.
+using GetRuntime = Runtime* (*)();
+constexpr const char* kGetRuntimeSymbol = "launch_python_runtime";
+
+}  // namespace launch::python

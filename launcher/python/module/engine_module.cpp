@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/python/module/engine_module.hpp"
+
+#include <pybind11/embed.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/python/module/entity_reader.hpp"
+
+namespace py = pybind11;
+
+namespace launch::python {
+
+namespace {
+
+Host*& current() {
+  static Host* host = nullptr;
+  return host;
+}
+
+Host& host() {
+  if (current() == nullptr) {
+    throw std::runtime_error("no launch is running here");
+  }
+  return *current();
+}
+
+std::vector<std::exception_ptr>& failures() {
+  static auto* const list = new std::vector<std::exception_ptr>;
+  return *list;
+}
+
+// Runs a call of the host. What it throws becomes a Python exception that carries it.
+template <typename Call>
+auto guarded(Call call) {
+  try {
+    return call();
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (const std::exception& error) {
+    failures().push_back(std::current_exception());
+    const py::object failure = py::module_::import("launch.substitutions").attr("SubstitutionFailure")(error.what());
+    failure.attr("_number") = failures().size() - 1;
+    PyErr_SetObject(py::type::of(failure).ptr(), failure.ptr());
+    throw py::error_already_set();
+  }
+}
+
+std::string perform(const py::object& value, const std::optional<py::dict>& configurations) {
+  const Text text = read_text(value);
+  if (!configurations) {
+    return guarded([&] { return host().perform(text); });
+  }
+  Host::Variables variables;
+  for (const auto& [name, content] : *configurations) {
+    variables.emplace(py::str(name).cast<std::string>(), py::str(content).cast<std::string>());
+  }
+  return guarded([&] { return host().perform(text, variables); });
+}
+
+void visit(const py::object& entities) {
+  const std::vector<Entity> read = read_entities(entities);
+  guarded([&] { host().visit(read); });
+}
+
+Host::Variables& variables(bool environment) {
+  return environment ? host().environment() : host().configurations();
+}
+
+}  // namespace
+
+CurrentHost::CurrentHost(Host& host) : outer_(current()) {
+  current() = &host;
+}
+
+CurrentHost::~CurrentHost() {
+  current() = outer_;
+  if (outer_ == nullptr) {
+    failures().clear();
+  }
+}
+
+std::exception_ptr host_failure(std::size_t number) {
+  return number < failures().size() ? failures()[number] : nullptr;
+}
+
+}  // namespace launch::python
+
+// NOLINTNEXTLINE: the macro of pybind11
+PYBIND11_EMBEDDED_MODULE(_launch_engine, module) {
+  using launch::python::host;
+  using launch::python::variables;
+
+  module.def("is_running", [] { return launch::python::current() != nullptr; });
+  module.def("perform", launch::python::perform, py::arg("value"), py::arg("configurations") = py::none());
+  module.def("get", [](bool environment, const std::string& name) -> std::optional<std::string> {
+    const auto found = variables(environment).find(name);
+    return found == variables(environment).end() ? std::nullopt : std::optional(found->second);
+  });
+  module.def("set", [](bool environment, const std::string& name, const std::string& value) {
+    variables(environment).insert_or_assign(name, value);
+  });
+  module.def("erase", [](bool environment, const std::string& name) { variables(environment).erase(name); });
+  module.def("names", [](bool environment) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : variables(environment)) {
+      names.push_back(name);
+    }
+    return names;
+  });
+  module.def("log_directory", [] { return host().log_directory(); });
+  module.def("message", [](const std::string& level, const std::string& logger, const std::string& text) {
+    host().message(level, logger, text);
+  });
+  module.def("visit", launch::python::visit);
+  module.def("run_coroutine",
+             [](py::object object) { host().run_coroutine(launch::python::make_object(std::move(object))); });
+  module.def("push", [](bool environment) { host().push(environment); });
+  module.def("pop", [](bool environment) { host().pop(environment); });
+}

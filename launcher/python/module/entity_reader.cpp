@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/python/module/entity_reader.hpp"
+
+#include "launcher/python/module/engine_module.hpp"
+#include "launcher/python/module/python_failure.hpp"
+
+namespace py = pybind11;
+
+namespace launch::python {
+
+namespace {
+
+class PythonObject : public Object {
+ public:
+  explicit PythonObject(py::object object) : object_(std::move(object)) {}
+  PythonObject(const PythonObject&) = delete;
+  PythonObject& operator=(const PythonObject&) = delete;
+  ~PythonObject() override {
+    const py::gil_scoped_acquire lock;
+    object_ = py::object();
+  }
+
+  std::string perform(Host& host) override {
+    return run_python(host, [&] { return object_.attr("_perform")().cast<std::string>(); });
+  }
+  std::string describe() override {
+    const py::gil_scoped_acquire lock;
+    try {
+      return object_.attr("describe")().cast<std::string>();
+    } catch (const std::exception&) {
+      return py::str(py::type::of(object_).attr("__name__")).cast<std::string>() + "()";
+    }
+  }
+  std::vector<Entity> execute(Host& host) override {
+    return run_python(host, [&] { return read_entities(object_.attr("_execute")()); });
+  }
+  void start(Host& host) override {
+    run_python(host, [&] { object_.attr("_start")(); });
+  }
+
+ private:
+  py::object object_;
+};
+
+Part read_part(const py::handle& value) {
+  Part part;
+  if (py::isinstance<py::str>(value)) {
+    part.text = value.cast<std::string>();
+    return part;
+  }
+  part.where = read_place(value.attr("_place")());
+  const py::object call = value.attr("_part")();
+  if (call.is_none()) {
+    part.kind = Part::Kind::kObject;
+    part.object = std::make_shared<PythonObject>(py::reinterpret_borrow<py::object>(value));
+  } else if (py::isinstance<py::str>(call)) {
+    part.text = call.cast<std::string>();
+  } else {
+    const auto parts = call.cast<py::tuple>();
+    part.kind = Part::Kind::kCall;
+    part.text = parts[0].cast<std::string>();
+    for (const py::handle argument : parts[1]) {
+      part.arguments.push_back(read_text(argument));
+    }
+  }
+  return part;
+}
+
+Value read_value(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) {
+    return {value.cast<bool>(), {}};
+  }
+  if (py::isinstance<py::int_>(value)) {
+    return {value.cast<std::int64_t>(), {}};
+  }
+  if (py::isinstance<py::float_>(value)) {
+    return {value.cast<double>(), {}};
+  }
+  if (py::isinstance<py::list>(value)) {
+    std::vector<Value> items;
+    for (const py::handle item : value) {
+      items.push_back(read_value(item));
+    }
+    return {std::move(items), {}};
+  }
+  Text text = read_text(value);
+  Place where = text.where;
+  return {std::move(text), std::move(where)};
+}
+
+Entity read_entity(const py::tuple& tuple) {
+  Entity entity;
+  entity.tag = tuple[0].cast<std::string>();
+  entity.where = read_place(tuple[1]);
+  for (const py::handle item : tuple[2]) {
+    const auto attribute = item.cast<py::tuple>();
+    Value value = read_value(attribute[1]);
+    if (attribute.size() > 2 && !attribute[2].is_none()) {
+      value.where = read_place(attribute[2]);
+    }
+    entity.attributes.emplace_back(attribute[0].cast<std::string>(), std::move(value));
+  }
+  entity.children = read_entities(tuple[3]);
+  if (!tuple[4].is_none()) {
+    entity.object = std::make_shared<PythonObject>(tuple[4].cast<py::object>());
+  }
+  entity.process_name = tuple[5].cast<std::string>();
+  return entity;
+}
+
+}  // namespace
+
+ObjectPtr make_object(py::object object) {
+  return std::make_shared<PythonObject>(std::move(object));
+}
+
+std::vector<Entity> read_entities(const py::handle& entities) {
+  std::vector<Entity> result;
+  for (const py::handle entity : entities) {
+    result.push_back(read_entity(entity.cast<py::tuple>()));
+  }
+  return result;
+}
+
+Text read_text(const py::handle& value) {
+  Text text;
+  if (!py::isinstance<py::tuple>(value)) {
+    text.parts.push_back(read_part(value));
+  } else {
+    for (const py::handle part : value) {
+      text.parts.push_back(read_part(part));
+    }
+  }
+  if (!text.parts.empty()) {
+    text.where = text.parts.front().where;
+  }
+  return text;
+}
+
+Place read_place(const py::handle& place) {
+  if (place.is_none()) {
+    return {};
+  }
+  const auto parts = place.cast<py::tuple>();
+  return {parts[0].cast<std::string>(), parts[1].cast<std::uint32_t>(), parts[2].cast<std::uint32_t>(),
+          parts[3].cast<std::uint32_t>()};
+}
+
+}  // namespace launch::python

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads what the Python package `launch` tells of its objects.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include "launcher/python/interpreter/python_runtime.hpp"
+
+namespace launch::python {
+
+// A list of (tag, place, attributes, children, object, process name), as launch/_entities.py gives them.
+std::vector<Entity> read_entities(const pybind11::handle& entities);
+
+// For what the launch will ask Python about later.
+ObjectPtr make_object(pybind11::object object);
+
+// Text: a str, a substitution, or a tuple of them, which is pasted together.
+Text read_text(const pybind11::handle& value);
+
+// (file, line, begin, end), or None.
+Place read_place(const pybind11::handle& place);
+
+}  // namespace launch::python

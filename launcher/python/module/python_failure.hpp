@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns Python's exceptions into errors with a place.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/python/module/engine_module.hpp"
+
+namespace launch::python {
+
+// Throws Error for a Python exception.
+[[noreturn]] void throw_failure(pybind11::error_already_set& error);
+
+// Runs a call of Python, in the interpreter's lock, with `host` as the launch that it sees. Throws Error.
+template <typename Call>
+auto run_python(Host& host, Call call) {
+  const pybind11::gil_scoped_acquire lock;
+  const CurrentHost current(host);
+  try {
+    return call();
+  } catch (pybind11::error_already_set& error) {
+    throw_failure(error);
+  } catch (const pybind11::cast_error& error) {
+    throw Error(error.what(), {}, {}, {}, nullptr);
+  }
+}
+
+}  // namespace launch::python

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// liblaunch_python.so: CPython for $(eval …) and Python launch files. Loaded with dlopen on first use, so that
+// launching without Python costs and needs no Python.
+#include <dlfcn.h>
+#include <pybind11/embed.h>
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/python/module/entity_reader.hpp"
+#include "launcher/python/module/python_failure.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+// The interpreter lives until the program ends: finalising it would only cost time.
+void start_interpreter() {
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  config.install_signal_handlers = 0;
+  config.parse_argv = 0;
+  config.buffered_stdio = 0;  // what a launch file prints appears among the launcher's own lines
+  config.write_bytecode = 0;  // no __pycache__ beside the user's files
+  // Else the first python3 on the PATH would tell where the standard library is, whatever version it has.
+  PyConfig_SetBytesString(&config, &config.program_name, LAUNCH_PYTHON_PROGRAM);
+  const PyStatus status = Py_InitializeFromConfig(&config);
+  PyConfig_Clear(&config);
+  if (PyStatus_Exception(status)) {
+    throw std::runtime_error(status.err_msg != nullptr ? status.err_msg : "Python can't be initialised");
+  }
+  PyEval_SaveThread();  // threads that Python starts run while the launcher waits
+}
+
+// The folder `python` beside this library, with the packages that launch files import.
+std::string package_directory() {
+  Dl_info info;
+  if (::dladdr(reinterpret_cast<void*>(&start_interpreter), &info) == 0) {
+    return {};
+  }
+  std::error_code ignored;
+  return (std::filesystem::absolute(info.dli_fname, ignored).parent_path() / "python").string();
+}
+
+std::string evaluate(const std::string& expression, const std::string& modules) {
+  py::dict names;
+  names["__builtins__"] = py::module_::import("builtins");
+  std::istringstream list(modules);
+  for (std::string name; std::getline(list, name, ',');) {
+    const std::size_t first = name.find_first_not_of(' ');
+    if (first == std::string::npos) {
+      continue;
+    }
+    name = name.substr(first, name.find_last_not_of(' ') - first + 1);
+    const py::module_ module = py::module_::import(name.c_str());
+    const std::string top = name.substr(0, name.find('.'));
+    names[top.c_str()] = top == name ? module : py::module_::import(top.c_str());
+    if (name == "math") {
+      for (const auto& [key, value] : module.attr("__dict__").cast<py::dict>()) {
+        if (!key.cast<std::string>().starts_with("_")) {
+          names[key] = value;
+        }
+      }
+    }
+  }
+  // Python's own eval() passes over blanks at the front, as pybind11's does not.
+  return py::str(py::module_::import("builtins").attr("eval")(expression, names));
+}
+
+class CPython : public launch::python::Runtime {
+ public:
+  std::string evaluate(const std::string& expression, const std::string& modules) override {
+    start();
+    const py::gil_scoped_acquire lock;
+    try {
+      return ::evaluate(expression, modules);
+    } catch (py::error_already_set& error) {
+      // "NameError: name 'x' is not defined", without the traceback.
+      throw std::runtime_error(error.type().attr("__name__").cast<std::string>() + ": " +
+                               py::str(error.value()).cast<std::string>());
+    }
+  }
+
+  std::vector<launch::python::Entity> load(const std::string& path, const std::string& text,
+                                           launch::python::Host& host) override {
+    start();
+    return launch::python::run_python(host, [&] {
+      if (!packages_found_) {
+        // In front of everything: an installed ROS 2 has packages of the same names.
+        py::module_::import("sys").attr("path").attr("insert")(0, package_directory());
+        packages_found_ = true;
+      }
+      return launch::python::read_entities(py::module_::import("launch._load").attr("load")(path, text));
+    });
+  }
+
+  launch::python::Pause step_coroutines(launch::python::Host& host) override {
+    return launch::python::run_python(host, [] {
+      const auto state = py::module_::import("launch._coroutines").attr("step")().cast<py::tuple>();
+      return launch::python::Pause{state[0].cast<std::size_t>(), state[1].cast<int>(),
+                                   state[2].cast<std::optional<double>>()};
+    });
+  }
+
+  void cancel_coroutines(launch::python::Host& host) override {
+    launch::python::run_python(host, [] { py::module_::import("launch._coroutines").attr("cancel")(); });
+  }
+
+ private:
+  static void start() {
+    if (Py_IsInitialized() == 0) {
+      start_interpreter();
+    }
+  }
+
+  bool packages_found_ = false;
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) launch::python::Runtime* launch_python_runtime() {
+  static auto* const runtime = new CPython;
+  return runtime;
+}

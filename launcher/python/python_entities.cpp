@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/python/python_entities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "launcher/language/action_parser.hpp"
+#include "launcher/python/python_host.hpp"
+#include "launcher/substitution/template_parser.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+bool& tracebacks() {
+  static bool shown = false;
+  return shown;
+}
+
+// A substitution that only Python can perform.
+class PythonSubstitution : public Substitution {
+ public:
+  PythonSubstitution(python::ObjectPtr object, std::shared_ptr<PythonFile> file, SourceRange where)
+      : Substitution(std::move(where)), object_(std::move(object)), file_(std::move(file)) {}
+
+  std::string perform(Scope& scope) const override {
+    try {
+      PythonHost host(*file_, scope);
+      return object_->perform(host);
+    } catch (const python::Error& error) {
+      file_->fail(error);
+    }
+  }
+
+  std::string describe() const override { return object_->describe(); }
+
+ private:
+  python::ObjectPtr object_;
+  std::shared_ptr<PythonFile> file_;
+};
+
+// An action that only Python can execute: it tells what shall be visited in its place.
+class PythonAction : public Action {
+ public:
+  PythonAction(python::ObjectPtr object, std::shared_ptr<PythonFile> file, SourceRange where, Condition condition)
+      : Action(std::move(where), std::move(condition)), object_(std::move(object)), file_(std::move(file)) {}
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    std::vector<python::Entity> entities;
+    try {
+      PythonHost host(*file_, context);
+      entities = object_->execute(host);
+    } catch (const python::Error& error) {
+      file_->fail(error);
+    }
+    context.visit(file_->make_actions(entities));
+  }
+
+ private:
+  python::ObjectPtr object_;
+  std::shared_ptr<PythonFile> file_;
+};
+
+// An action whose processes can be spoken of by a name that no launch file can write.
+class NamedAction : public Action {
+ public:
+  NamedAction(ActionPtr action, std::string name)
+      : Action(action->where(), {}), action_(std::move(action)), name_(std::move(name)) {}
+
+  Introspection introspect() const override { return action_->introspect(); }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    const std::size_t before = context.requests().processes.size();
+    action_->visit(context);
+    std::vector<ProcessSpec>& processes = context.requests().processes;
+    for (std::size_t i = before; i < processes.size(); ++i) {
+      processes[i].other_names.push_back(name_);
+    }
+  }
+
+ private:
+  ActionPtr action_;
+  std::string name_;
+};
+
+}  // namespace
+
+void show_python_tracebacks() {
+  tracebacks() = true;
+}
+
+std::vector<ActionPtr> PythonFile::make_actions(const std::vector<python::Entity>& entities) {
+  std::vector<Entity> made;
+  for (const python::Entity& entity : entities) {
+    made.push_back(make_entity(entity));
+  }
+  return ActionParser(registry_).parse(std::move(made));
+}
+
+Entity PythonFile::make_entity(const python::Entity& entity) {
+  Entity made;
+  made.type_name = entity.tag;
+  made.where = range(entity.where);
+  for (const auto& [name, value] : entity.attributes) {
+    Attribute attribute{name, {}, make_value(value, made.where)};
+    attribute.name_where = attribute.value.where;
+    made.attributes.push_back(std::move(attribute));
+  }
+  for (const python::Entity& child : entity.children) {
+    made.children.push_back(make_entity(child));
+  }
+  if (entity.object != nullptr) {
+    Condition condition;
+    for (const Attribute& attribute : made.attributes) {
+      condition = Condition(*attribute.value.scalar()->made, attribute.name == "unless");
+    }
+    made.made = std::make_shared<PythonAction>(entity.object, shared_from_this(), made.where, std::move(condition));
+  }
+  if (!entity.process_name.empty()) {
+    std::vector<ActionPtr> actions = ActionParser(registry_).parse({made});
+    made.made = std::make_shared<NamedAction>(std::move(actions.front()), entity.process_name);
+  }
+  return made;
+}
+
+Value PythonFile::make_value(const python::Value& value, const SourceRange& fallback) {
+  Value made;
+  made.where = value.where.line != 0 ? range(value.where) : fallback;
+  if (const auto* const list = std::get_if<std::vector<python::Value>>(&value.data)) {
+    std::vector<Value> items;
+    for (const python::Value& item : *list) {
+      items.push_back(make_value(item, made.where));
+    }
+    made.data = std::move(items);
+    return made;
+  }
+  Scalar scalar;
+  std::string text;
+  if (const auto* const boolean = std::get_if<bool>(&value.data)) {
+    scalar.type = Scalar::Type::kBool;
+    scalar.bool_value = *boolean;
+    text = *boolean ? "true" : "false";
+  } else if (const auto* const whole = std::get_if<std::int64_t>(&value.data)) {
+    scalar.type = Scalar::Type::kInt;
+    scalar.int_value = *whole;
+    text = fmt::format("{}", *whole);
+  } else if (const auto* const number = std::get_if<double>(&value.data)) {
+    scalar.type = Scalar::Type::kFloat;
+    scalar.float_value = *number;
+    text = fmt::format("{}", *number);
+  } else {
+    scalar.type = Scalar::Type::kString;
+    scalar.made = std::make_shared<const Template>(make_template(std::get<python::Text>(value.data), made.where));
+    text = scalar.made->describe();
+  }
+  scalar.text = LocatedText(std::move(text), made.where);
+  made.data = std::move(scalar);
+  return made;
+}
+
+Template PythonFile::make_template(const python::Text& text, const SourceRange& fallback) {
+  SourceRange where = text.where.line != 0 ? range(text.where) : fallback;
+  std::vector<SubstitutionPtr> parts;
+  for (const python::Part& part : text.parts) {
+    parts.push_back(make_part(part, where));
+  }
+  return {std::move(parts), std::move(where)};
+}
+
+SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRange& fallback) {
+  SourceRange where = part.where.line != 0 ? range(part.where) : fallback;
+  if (part.kind == python::Part::Kind::kText) {
+    return std::make_shared<Text>(part.text, std::move(where));
+  }
+  if (part.kind == python::Part::Kind::kObject) {
+    return std::make_shared<PythonSubstitution>(part.object, shared_from_this(), std::move(where));
+  }
+  std::vector<Template> arguments;
+  for (const python::Text& argument : part.arguments) {
+    arguments.push_back(make_template(argument, where));
+  }
+  for (const SubstitutionType& type : substitution_types()) {
+    if (type.name == part.text) {
+      return type.make(std::move(arguments), std::move(where));
+    }
+  }
+  throw LaunchError(fmt::format("this launcher has no substitution '{}'", part.text), std::move(where));
+}
+
+SourceRange PythonFile::range(const python::Place& place) {
+  std::shared_ptr<const SourceFile> file = file_;
+  if (place.line != 0 && place.file != file_->path()) {
+    const auto [known, added] = modules_.try_emplace(place.file);
+    if (added) {
+      try {
+        known->second = SourceFile::read(place.file, file_->included_from());
+      } catch (const LaunchError&) {
+        // Code that comes from no file.
+      }
+    }
+    file = known->second;
+  }
+  if (place.line == 0 || file == nullptr) {
+    return {file_, 0, 0};
+  }
+  const std::string_view line = file->line(place.line);
+  if (line.data() == nullptr) {
+    return {file, 0, 0};
+  }
+  const std::size_t start = static_cast<std::size_t>(line.data() - file->text().data());
+  std::size_t begin = std::min<std::size_t>(place.begin, line.size());
+  std::size_t end = std::min<std::size_t>(place.end, line.size());
+  if (end <= begin) {
+    begin = std::min(line.find_first_not_of(" \t"), line.size());
+    end = line.size();
+  }
+  return {std::move(file), static_cast<std::uint32_t>(start + begin), static_cast<std::uint32_t>(start + end)};
+}
+
+void PythonFile::fail(const python::Error& error) {
+  if (error.cause != nullptr) {
+    std::rethrow_exception(error.cause);
+  }
+  std::string help = error.help;
+  if (tracebacks() && !error.traceback.empty()) {
+    help += (help.empty() ? "" : "\n") + error.traceback;
+  }
+  throw LaunchError(error.what(), range(error.where), std::move(help));
+}
+
+}  // namespace launch

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Python launch files: run by the launcher's CPython (launcher/python/), they give the same actions as XML and YAML.
+#pragma once
+
+#include <memory>
+
+#include "launcher/language/launch_description.hpp"
+#include "launcher/substitution/scope.hpp"
+
+namespace launch {
+
+// Runs the file's generate_launch_description() and makes the actions of what it returns. `scope` gives the environment
+// and the packages that the file sees; what it does to its environment takes effect when the description is visited.
+// A file is run once for each include that asks for it in the same environment, however often that is looked at. Throws
+// LaunchError at the place in the Python file.
+std::shared_ptr<const LaunchDescription> load_python_launch_file(std::shared_ptr<const SourceFile> file,
+                                                                 const Registry& registry, const Scope& scope);
+
+// From now on errors of Python carry its traceback.
+void show_python_tracebacks();
+
+}  // namespace launch

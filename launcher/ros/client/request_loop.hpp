@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The work of launch-ros-client: takes requests, looks after all that are under way whenever something changes, and
+// answers them.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <rclcpp/rclcpp.hpp>
+#include <string>
+#include <vector>
+
+#include "launcher/ros/client/operation.hpp"
+#include "launcher/ros/ros_protocol.hpp"
+
+namespace launch {
+
+class RequestLoop {
+ public:
+  using Send = std::function<void(const RosAnswerLine&)>;
+
+  // Answers go to `send`, on the thread of run().
+  RequestLoop(rclcpp::Node& node, Send send);
+
+  // Thread safe.
+  void post(RosRequestLine line);
+  void quit();
+
+  // Until quit(), on one thread.
+  void run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct UnderWay {
+    std::unique_ptr<Operation> operation;
+    std::optional<Clock::time_point> deadline;
+    Duration timeout{0};
+  };
+
+  // False after quit().
+  bool take_posted();
+  void start(const RosRequestLine& line);
+  void look();
+  void wait();
+
+  rclcpp::Node& node_;
+  Send send_;
+  rclcpp::GuardCondition wake_;
+  std::map<RosRequestId, UnderWay> under_way_;
+
+  std::mutex mutex_;  // of what follows
+  std::vector<RosRequestLine> posted_;
+  bool quit_ = false;
+};
+
+}  // namespace launch

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/ros/ros_client_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <vector>
+
+#include "launcher/base/unique_fd.hpp"
+#include "launcher/ros/ros_protocol.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr std::chrono::milliseconds kEndLimit{1000};
+// Between tries to write to a client that doesn't read.
+constexpr std::chrono::milliseconds kWriteRetry{10};
+
+// Chooses a graph, or how Fast DDS reaches it.
+bool chooses_graph(const std::string& variable) {
+  for (const char* const prefix :
+       {"ROS_DOMAIN_ID", "ROS_LOCALHOST_ONLY", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS",
+        "ROS_DISCOVERY_SERVER", "ROS_SECURITY_", "ROS_SUPER_CLIENT", "RMW_", "FASTRTPS_", "FASTDDS_"}) {
+    if (variable.starts_with(prefix)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) {
+    return fmt::format("was ended by SIG{}", sigabbrev_np(WTERMSIG(status)));
+  }
+  return fmt::format("ended with exit code {}", WEXITSTATUS(status));
+}
+
+}  // namespace
+
+// One running program. Destroyed, it closes the socket and waits for the program.
+class RosClientProcess::Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  // Throws std::system_error.
+  Connection(EventLoop& loop, const std::string& program, const Environment& environment);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  RosRequestId send(const RosRequest& request, Duration timeout, Done done);
+  void cancel(RosRequestId id);
+  // The program ends by itself from here on.
+  void close();
+  bool is_open() const { return static_cast<bool>(socket_); }
+
+ private:
+  void write(const std::string& line);
+  void flush();
+  void on_readable();
+  void on_line(std::string_view line);
+  void lose();
+  // Its wait status; kills it when it takes too long.
+  int reap();
+
+  EventLoop& loop_;
+  UniqueFd socket_;
+  pid_t pid_ = -1;
+  EventLoop::SourcePtr readable_;
+  EventLoop::SourcePtr retry_;
+  std::string unwritten_;
+  std::string unread_;  // the beginning of a line
+  RosRequestId last_id_ = 0;
+  std::map<RosRequestId, Done> pending_;
+};
+
+// What ask() returns.
+class RosClientProcess::Ticket final : public EventLoop::Source {
+ public:
+  Ticket(std::weak_ptr<Connection> connection, RosRequestId id) : connection_(std::move(connection)), id_(id) {}
+  ~Ticket() override {
+    if (const auto connection = connection_.lock()) {
+      connection->cancel(id_);
+    }
+  }
+
+ private:
+  std::weak_ptr<Connection> connection_;
+  RosRequestId id_;
+};
+
+RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& program, const Environment& environment)
+    : loop_(loop) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    throw std::system_error(errno, std::system_category(), "cannot create a socket for launch-ros-client");
+  }
+  socket_.reset(ends[0]);
+  const UniqueFd other(ends[1]);
+
+  std::vector<std::string> variables;
+  for (const auto& [name, value] : environment) {
+    // Its libraries stand beside it; those of another installation of ROS 2 must not come before them. What is
+    // preloaded is meant for nodes.
+    if (name != "LD_LIBRARY_PATH" && name != "LD_PRELOAD" && name != "TRACETOOLS_RUNTIME_DISABLE") {
+      variables.push_back(name + "=" + value);
+    }
+  }
+  variables.emplace_back("TRACETOOLS_RUNTIME_DISABLE=1");  // the launcher's own traffic is no part of a trace
+  std::vector<char*> envp;
+  for (std::string& variable : variables) {
+    envp.push_back(variable.data());
+  }
+  envp.push_back(nullptr);
+  std::string name = "launch-ros-client";
+  std::string node = fmt::format("launch_ros_{}", ::getpid());
+  const std::array<char*, 3> argv{name.data(), node.data(), nullptr};
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, other.get(), STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigset_t all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  const int error = ::posix_spawn(&pid_, program.c_str(), &actions, &attributes, argv.data(), envp.data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw std::system_error(error, std::system_category(), fmt::format("cannot start '{}'", program));
+  }
+  readable_ = loop_.on_readable(socket_.get(), [this] { on_readable(); });
+}
+
+RosClientProcess::Connection::~Connection() {
+  close();
+  if (pid_ > 0) {
+    reap();
+  }
+}
+
+RosRequestId RosClientProcess::Connection::send(const RosRequest& request, Duration timeout, Done done) {
+  const RosRequestId id = ++last_id_;
+  pending_.emplace(id, std::move(done));
+  write(to_line(RosRequestLine{id, request, timeout}));
+  return id;
+}
+
+void RosClientProcess::Connection::cancel(RosRequestId id) {
+  if (pending_.erase(id) != 0 && is_open()) {
+    write(to_line(RosRequestLine{id, std::nullopt, Duration(0)}));
+  }
+}
+
+void RosClientProcess::Connection::close() {
+  readable_.reset();
+  retry_.reset();
+  socket_.reset();
+}
+
+void RosClientProcess::Connection::write(const std::string& line) {
+  unwritten_ += line;
+  if (!retry_) {
+    flush();
+  }
+}
+
+// Never waits: a client that hangs must not stop the launcher. One that has ended is noticed by on_readable().
+void RosClientProcess::Connection::flush() {
+  retry_.reset();
+  while (!unwritten_.empty()) {
+    const ssize_t count = ::send(socket_.get(), unwritten_.data(), unwritten_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count < 0) {
+      if (errno == EAGAIN || errno == EWOULDBLOCK) {
+        retry_ = loop_.after(kWriteRetry, [this] { flush(); });
+      }
+      return;
+    }
+    unwritten_.erase(0, static_cast<std::size_t>(count));
+  }
+}
+
+void RosClientProcess::Connection::on_readable() {
+  const auto self = shared_from_this();  // an answer may lead to a request that starts another program
+  std::array<char, 4096> buffer{};
+  const ssize_t count = ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
+    return;
+  }
+  if (count <= 0) {
+    lose();
+    return;
+  }
+  unread_.append(buffer.data(), static_cast<std::size_t>(count));
+  std::size_t end = 0;
+  while (is_open() && (end = unread_.find('\n')) != std::string::npos) {
+    const std::string line = unread_.substr(0, end);
+    unread_.erase(0, end + 1);
+    on_line(line);
+  }
+}
+
+void RosClientProcess::Connection::on_line(std::string_view text) {
+  const RosAnswerLine line = parse_answer_line(text);
+  const auto found = pending_.find(line.id);
+  if (found == pending_.end()) {
+    return;  // cancelled meanwhile
+  }
+  const Done done = found->second;  // outlives its own cancellation
+  done(line.answer);
+}
+
+void RosClientProcess::Connection::lose() {
+  close();
+  RosAnswer lost;
+  lost.client_lost = true;
+  lost.error = fmt::format("launch-ros-client {}", how_it_ended(reap()));
+  while (!pending_.empty()) {
+    const Done done = std::move(pending_.extract(pending_.begin()).mapped());
+    done(lost);
+  }
+}
+
+int RosClientProcess::Connection::reap() {
+  const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
+  pollfd ended{pidfd.get(), POLLIN, 0};
+  if (::poll(&ended, 1, static_cast<int>(kEndLimit.count())) == 0) {
+    ::kill(pid_, SIGKILL);
+  }
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  return status;
+}
+
+RosClientProcess::RosClientProcess(EventLoop& loop, std::string program) : loop_(loop), program_(std::move(program)) {}
+
+RosClientProcess::~RosClientProcess() {
+  close();  // all at once, then wait for each
+}
+
+EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Environment& environment, Duration timeout,
+                                           Done done) {
+  Environment graph;
+  for (const auto& [name, value] : environment) {
+    if (chooses_graph(name)) {
+      graph.emplace(name, value);
+    }
+  }
+  auto found = connections_.find(graph);
+  try {
+    if (found == connections_.end() || !found->second->is_open()) {
+      auto connection = std::make_shared<Connection>(loop_, program_, environment);
+      found = connections_.insert_or_assign(std::move(graph), std::move(connection)).first;
+    }
+  } catch (const std::system_error& error) {
+    RosAnswer lost;
+    lost.client_lost = true;
+    lost.error = error.what();
+    return loop_.after(Duration(0), [done = std::move(done), lost = std::move(lost)] { done(lost); });
+  }
+  const RosRequestId id = found->second->send(request, timeout, std::move(done));
+  return std::make_unique<Ticket>(found->second, id);
+}
+
+void RosClientProcess::close() {
+  for (const auto& [graph, connection] : connections_) {
+    connection->close();
+  }
+}
+
+std::string RosClientProcess::default_program() {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  return (self.parent_path().parent_path() / "lib/launch/launch-ros-client").string();
+}
+
+}  // namespace launch

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Carries out what a launch asks of nodes by their services: components are loaded, states are changed.
+//
+// The steps of one request follow one another, different requests go on side by side, as in launch_ros. Each step waits
+// for the service as long as it takes; a failed one is an error in the log, and the launch goes on. What was asked of a
+// node whose process starts again is asked again; what waits for a process that has ended is given up.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "launcher/process/process_supervisor.hpp"
+#include "launcher/ros/ros_client.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+class RosTasks {
+ public:
+  // How long a step waits before the user is told what it waits for.
+  static constexpr Duration kPatience = std::chrono::seconds(10);
+
+  // The references must outlive the tasks. `idle` is called when the last task has ended, `failed` when the client
+  // itself can't do its work.
+  RosTasks(LaunchContext& context, EventLoop& loop, RosClient& client, std::function<void()> idle,
+           std::function<void(const LaunchError&)> failed);
+
+  void load(LoadRequest request) { add(std::move(request)); }
+  void change_state(TransitionRequest request) { add(std::move(request)); }
+
+  // Tells which node a process is, by its fully qualified name.
+  void name_process(ProcessId process, std::string node) { nodes_[process] = std::move(node); }
+  void on_process_event(const ProcessEvent& event);
+  // The process of that node will never start.
+  void on_skipped(const std::string& node) { drop(node, false); }
+
+  // Gives up what is under way.
+  void shutdown();
+
+  bool idle() const { return tasks_.empty(); }
+
+ private:
+  using Request = std::variant<LoadRequest, TransitionRequest>;
+  struct Task {
+    Request request;
+    std::string owner;  // the node whose process the task depends on
+    std::size_t step = 0;
+    EventLoop::SourcePtr answer;
+    EventLoop::SourcePtr reminder;
+  };
+  using TaskPlace = std::list<Task>::iterator;
+
+  void add(Request request);
+  void start(Request request, std::string owner);
+  void next(TaskPlace task);
+  void end(TaskPlace task);
+  void on_answer(TaskPlace task, const RosAnswer& answer);
+  // Whether the task goes on.
+  bool report(const LoadRequest& request, std::size_t step, const RosAnswer& answer);
+  bool report(const TransitionRequest& request, std::size_t step, const RosAnswer& answer);
+  // The process of a node has ended, for now or for good.
+  void drop(const std::string& node, bool restarts);
+
+  LaunchContext& context_;
+  EventLoop& loop_;
+  RosClient& client_;
+  std::function<void()> idle_;
+  std::function<void(const LaunchError&)> failed_;
+
+  std::list<Task> tasks_;
+  std::map<ProcessId, std::string> nodes_;
+  std::map<std::string, std::vector<Request>> repeated_;  // by node: what each start of its process asks for
+  std::set<std::string> restarting_;                      // nodes whose process will start again
+};
+
+}  // namespace launch

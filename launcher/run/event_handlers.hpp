@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The event handlers that are registered, and which of them an event concerns.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "launcher/visit/event_handler.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+using EventValues = std::vector<std::pair<std::string, std::string>>;
+
+// A handler and the event that it shall handle. The values are for its scope: what $(var event.NAME) reads.
+struct Invocation {
+  std::shared_ptr<const EventHandler> handler;
+  EventValues values;
+
+  // The handler's scope with the values in it.
+  Scope scope() const;
+};
+
+// Each event is matched with the handlers of its own process only, so that its cost doesn't grow with their number.
+// What is returned is in the order of registration; a handler with `once` is returned once.
+class EventHandlers {
+ public:
+  void add(EventHandler handler);
+  // Forgets the handlers of that name; false when there is none.
+  bool remove(const std::string& name);
+
+  std::vector<Invocation> on_event(const ProcessEvent& event);
+  std::vector<Invocation> on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream,
+                                  std::string_view line);
+  std::vector<Invocation> on_shutdown(const std::string& reason);
+
+  bool has_on_shutdown() const;
+  // Some handler wants lines.
+  bool watch_output() const { return watch_output_; }
+
+ private:
+  struct Registered {
+    std::uint64_t number;
+    std::shared_ptr<const EventHandler> handler;
+  };
+
+  // Takes those of the process for which `concerned` is true.
+  template <typename Concerned, typename Values>
+  std::vector<Invocation> take(const ProcessSpec& spec, const std::string& label, Concerned concerned, Values values);
+
+  std::uint64_t count_ = 0;
+  bool watch_output_ = false;
+  std::unordered_map<std::string, std::vector<Registered>> by_process_;  // "": every process
+};
+
+}  // namespace launch

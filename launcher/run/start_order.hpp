@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Processes that wait for others, or for something outside, before they start (`depends_on`).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/visit/dependency.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+// Finds the processes that the conditions speak of and sets Dependency::target. `asked_for` are the processes that the
+// dependencies belong to, already in the table. A name means one of them, else the latest that was asked for before.
+// Throws LaunchError with every name that is unknown or ambiguous, and for a cycle.
+void resolve_dependencies(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
+                          const ProcessTable& table);
+
+class StartOrder {
+ public:
+  // Called from a turn of the loop of their own.
+  struct Callbacks {
+    std::function<void(ProcessSpec spec, TrackedProcess& process)> start;
+    // A process won't start, and the launch shall end.
+    std::function<void(const LaunchError&)> fail;
+    std::function<void(LogLevel level, const std::string& process, const std::string& text)> tell;
+    // A process won't start, and the launch goes on without it.
+    std::function<void(const TrackedProcess& process)> skipped;
+    // What the process waits for is there. Called at once, before `start`.
+    std::function<void(const std::string& process, const Dependency& dependency)> holds;
+  };
+
+  // The loop must outlive this object.
+  StartOrder(EventLoop& loop, Callbacks callbacks) : loop_(loop), callbacks_(std::move(callbacks)) {}
+
+  // The process starts once all its dependencies, which are resolved and at least one, hold.
+  void add(ProcessSpec spec, TrackedProcess& process, std::vector<Dependency> dependencies);
+
+  // The table has noted an event of the process.
+  void on_process_event(TrackedProcess& process);
+  void on_line(TrackedProcess& process, OutputStream stream, std::string_view line);
+
+  // A process that waits shall never start. Returns whether it waited.
+  bool drop(const TrackedProcess& process);
+  // None shall start any more.
+  void clear();
+
+  bool empty() const { return waiting_.empty(); }
+  // Some process waits for a line.
+  bool watch_output() const { return lines_watched_ > 0; }
+
+ private:
+  struct Waiting;
+  struct Watch {
+    Dependency dependency;
+    Waiting* owner;
+    EventLoop::SourcePtr timer{};
+    bool settled = false;  // holds, or its failure has been dealt with
+    std::optional<std::string> failure{};
+  };
+  struct Waiting : std::enable_shared_from_this<Waiting> {
+    Waiting(ProcessSpec given, TrackedProcess& asked_for) : spec(std::move(given)), process(&asked_for) {}
+
+    ProcessSpec spec;
+    TrackedProcess* process;
+    std::list<std::shared_ptr<Waiting>>::iterator place{};  // in waiting_
+    std::list<Watch> watches{};                             // stay where they are
+    std::size_t open = 0;                                   // watches that are not settled
+    bool ended = false;
+  };
+  using WaitingPtr = std::shared_ptr<Waiting>;
+
+  void begin(Watch& watch);
+  // Compares a watch with what is known of its process.
+  void evaluate(Watch& watch);
+  void settle(Watch& watch);
+  void fail(Watch& watch, std::string why);
+  void proceed_later(Waiting& waiting);
+  void proceed();
+  void deal_with_failures(const WaitingPtr& waiting);
+  void end(Waiting& waiting);
+
+  EventLoop& loop_;
+  Callbacks callbacks_;
+  std::list<WaitingPtr> waiting_;
+  std::vector<WaitingPtr> changed_;  // of which a watch was settled or failed since proceed()
+  std::unordered_map<const TrackedProcess*, std::vector<Watch*>> by_target_;
+  std::size_t lines_watched_ = 0;
+};
+
+}  // namespace launch

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a process waits for before it starts: one `depends_on` of a launch file.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "launcher/base/source.hpp"
+#include "launcher/language/exit_code_filter.hpp"
+#include "launcher/language/output_pattern.hpp"
+#include "launcher/language/readiness_condition.hpp"
+#include "launcher/process/event_loop.hpp"
+
+namespace launch {
+
+struct TrackedProcess;
+
+struct UntilStarted {};
+struct UntilExited {
+  ExitCodeFilter exit_code;
+};
+struct UntilOutput {
+  OutputPattern pattern;
+};
+
+// Another process of the launch.
+struct ProcessCondition {
+  std::string process;  // a name (process_table.hpp) that only one process has
+  std::variant<UntilStarted, UntilExited, UntilOutput> state;
+};
+
+// When a condition can't hold any more, or its time is over.
+enum class OnFailure { kShutdown, kStart, kSkip };
+
+struct Dependency {
+  std::size_t process = 0;  // the one that waits: which of the requested processes
+  std::variant<ProcessCondition, std::shared_ptr<ReadinessCondition>> condition;
+  std::optional<Duration> timeout;  // from the moment at which the process was asked for; nothing: for ever
+  OnFailure on_failure = OnFailure::kShutdown;
+  SourceRange where;
+
+  TrackedProcess* target = nullptr;  // of a ProcessCondition, by resolve_dependencies() (start_order.hpp)
+};
+
+// "'talker' has started", "'calibrate' has exited with code 0", "service /map/load is offered".
+std::string describe(const Dependency& dependency);
+// "shutdown", "start", "skip".
+std::string_view to_string(OnFailure on_failure);
+
+}  // namespace launch

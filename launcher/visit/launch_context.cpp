@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/visit/launch_context.hpp"
+
+#include <fmt/format.h>
+
+#include "launcher/substitution/package_index.hpp"
+
+namespace launch {
+
+namespace {
+
+// Runs `restore` at the end of a block, however it ends.
+template <typename Restore>
+class AtExit {
+ public:
+  explicit AtExit(Restore restore) : restore_(std::move(restore)) {}
+  AtExit(const AtExit&) = delete;
+  AtExit& operator=(const AtExit&) = delete;
+  ~AtExit() { restore_(); }
+
+ private:
+  Restore restore_;
+};
+
+}  // namespace
+
+LaunchContext::LaunchContext(const Registry& registry, Environment environment, std::string own_prefix,
+                             MessageSink messages)
+    : registry_(registry),
+      initial_environment_(std::move(environment)),
+      own_prefix_(std::move(own_prefix)),
+      messages_(std::move(messages)) {
+  scope_.environment = initial_environment_;
+  scope_.packages = std::make_shared<PackageIndex>(own_prefix_);
+  scope_.warn = [this](const SourceRange& where, const std::string& text) {
+    message(LogLevel::kWarning, "launch", fmt::format("{}: {}", to_string(where), text));
+  };
+}
+
+void LaunchContext::cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const {
+  if (!plan_only_) {
+    throw LaunchError(message, where, help);
+  }
+}
+
+void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
+  for (const ActionPtr& action : actions) {
+    if (!report_) {
+      action->visit(*this);
+      continue;
+    }
+    try {
+      action->visit(*this);
+    } catch (const LaunchError& error) {
+      report_(error, in_left_out_);
+    }
+  }
+}
+
+void LaunchContext::visit(const LaunchDescription& description, const std::function<void()>& before) {
+  if (!description.deprecated.empty()) {
+    message(LogLevel::kWarning, "launch",
+            fmt::format("launch file [{}] is deprecated: {}", description.file->path(), description.deprecated));
+  }
+  AtExit restore([this, outer = scope_.current_file] { scope_.current_file = outer; });
+  scope_.current_file = description.file;
+  for (const auto& [name, value] : description.environment_changes) {
+    if (value) {
+      scope_.environment.insert_or_assign(name, *value);
+    } else {
+      scope_.environment.erase(name);
+    }
+  }
+  if (before) {
+    before();
+  }
+  visit(description.actions);
+}
+
+void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions) {
+  AtExit restore([this, outer = scope_]() mutable { scope_ = std::move(outer); });
+  scope_ = std::move(scope);
+  visit(actions);
+}
+
+void LaunchContext::visit_left_out(const std::function<void()>& visit) {
+  if (!report_ || in_left_out_) {
+    return;
+  }
+  AtExit restore([this, scope = scope_, requests = std::move(requests_), nodes = nodes_,
+                  messages = std::move(messages_)]() mutable {
+    scope_ = std::move(scope);
+    requests_ = std::move(requests);
+    nodes_ = std::move(nodes);
+    messages_ = std::move(messages);
+    in_left_out_ = false;
+  });
+  requests_ = Requests{};
+  messages_ = [](LogLevel, std::string_view, std::string_view) {};
+  in_left_out_ = true;
+  try {
+    visit();
+  } catch (const LaunchError& error) {
+    report_(error, true);
+  }
+}
+
+bool Requests::empty() const {
+  return scopes.empty() && processes.empty() && handlers.empty() && unregistered.empty() && commands.empty() &&
+         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && !shutdown;
+}
+
+Requests LaunchContext::take_requests() {
+  return std::exchange(requests_, Requests{});
+}
+
+void LaunchContext::note_node(const std::string& fully_qualified_name) {
+  const int count = ++nodes_[fully_qualified_name];
+  if (count > 1) {
+    message(LogLevel::kWarning, "launch_ros.actions.node",
+            fmt::format("there are now at least {} nodes with the name {} created within this launch context", count,
+                        fully_qualified_name));
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a launch would do, found by visiting it without carrying anything out.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+struct PlannedHandler;
+
+struct LaunchPlan {
+  std::vector<std::unique_ptr<RunScope>> scopes;
+  std::vector<ProcessSpec> processes;    // in the order of their start
+  std::vector<NodeDescription> nodes;    // those of the processes that are ROS nodes
+  std::vector<Dependency> dependencies;  // of the processes
+  std::vector<PlannedHandler> handlers;
+  std::vector<ProcessCommand> commands;
+  std::vector<LoadRequest> loads;
+  std::vector<TransitionRequest> transitions;
+  std::vector<CoroutineRequest> coroutines;  // of Python launch files
+  std::vector<std::string> logs;             // messages of `log` actions
+  std::vector<std::string> python_includes;  // Python launch files, which count as empty
+  int includes = 0;
+  bool shutdown = false;  // a `shutdown` was visited
+};
+
+// An event handler and what it would do. Where $(var event.…) is read, a made-up event stands in.
+struct PlannedHandler {
+  EventHandler handler;
+  LaunchPlan plan;
+};
+
+// Visits the description; timers fire without waiting, in the order of their due times, and after them every event
+// handler. Throws LaunchError.
+LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description);
+
+}  // namespace launch

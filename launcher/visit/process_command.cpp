@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/visit/process_command.hpp"
+
+#include <fmt/format.h>
+
+#include "launcher/base/diagnostic.hpp"
+
+namespace launch {
+
+std::string_view name_of(ProcessCommand::Kind kind) {
+  switch (kind) {
+    case ProcessCommand::Kind::kStop:
+      return "stop";
+    case ProcessCommand::Kind::kRestart:
+      return "restart";
+    case ProcessCommand::Kind::kSignal:
+      return "signal";
+  }
+  return "";
+}
+
+void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTable& table) {
+  std::vector<Diagnostic> errors;
+  for (const ProcessCommand& command : commands) {
+    if (table.find(command.process).empty()) {
+      errors.push_back({Severity::kError, fmt::format("no process is named '{}'", command.process), command.where,
+                        did_you_mean(command.process, table.names())});
+    }
+  }
+  if (!errors.empty()) {
+    throw LaunchError(std::move(errors));
+  }
+}
+
+void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor) {
+  switch (command.kind) {
+    case ProcessCommand::Kind::kStop:
+      supervisor.stop(id);
+      break;
+    case ProcessCommand::Kind::kRestart:
+      supervisor.restart(id);
+      break;
+    case ProcessCommand::Kind::kSignal:
+      supervisor.signal(id, command.signal);
+      break;
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a launch file asks to be done to processes that run: `stop`, `restart`, `signal`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+struct ProcessCommand {
+  enum class Kind { kStop, kRestart, kSignal };
+
+  Kind kind = Kind::kStop;
+  std::string process;  // a name of it (process_table.hpp)
+  int signal = 0;       // of kSignal
+  SourceRange where;
+};
+
+// "stop", "restart", "signal".
+std::string_view name_of(ProcessCommand::Kind kind);
+
+// Throws LaunchError with every name that no process has.
+void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTable& table);
+
+// Carries it out on a process that is not done.
+void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor);
+
+}  // namespace launch

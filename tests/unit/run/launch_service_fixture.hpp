@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// A launch on virtual time, with processes and scopes that follow scripts, which writes down what happens.
+#pragma once
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "actions/builtin_actions.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/process/fake/fake_event_loop.hpp"
+#include "launcher/process/fake/fake_process_runner.hpp"
+#include "launcher/run/launch_service.hpp"
+
+namespace launch {
+
+using Journal = std::vector<std::string>;
+
+// Begins and ends a while after it is asked to, and writes down when.
+class FakeScope : public RunScope {
+ public:
+  FakeScope(std::string name, bool fails, SourceRange origin, Journal& journal)
+      : name_(std::move(name)), fails_(fails), origin_(std::move(origin)), journal_(journal) {}
+
+  void begin(EventLoop& loop, Tell, Completion done) override {
+    journal_.push_back("begin " + name_);
+    timer_ = loop.after(std::chrono::milliseconds(10), [this, done = std::move(done)] {
+      journal_.push_back((fails_ ? "failed " : "begun ") + name_);
+      done(fails_ ? std::make_exception_ptr(std::runtime_error("no tracer")) : nullptr);
+    });
+  }
+  void end(EventLoop& loop, Tell, Completion done) override {
+    journal_.push_back("end " + name_ + (hurried_ ? " in a hurry" : ""));
+    timer_ = loop.after(std::chrono::milliseconds(10), [this, done = std::move(done)] {
+      journal_.push_back("ended " + name_);
+      done(nullptr);
+    });
+  }
+  void hurry() override { hurried_ = true; }
+  void prepare(ProcessSpec& spec) const override { spec.environment["SCOPES"] += name_; }
+  std::string kind() const override { return "fake"; }
+  std::vector<ScopeSetting> describe() const override { return {}; }
+  std::vector<TimedStep> timing() const override { return {}; }
+  const SourceRange& origin() const override { return origin_; }
+
+ private:
+  std::string name_;
+  bool fails_;
+  SourceRange origin_;
+  Journal& journal_;
+  bool hurried_ = false;
+  EventLoop::SourcePtr timer_;
+};
+
+class ScopeAction : public Action {
+ public:
+  ScopeAction(const Fields& fields, Journal& journal)
+      : Action(fields.where(), fields.condition()),
+        name_(fields.literal("name")),
+        fails_(fields.literal("fails") == "true"),
+        journal_(journal) {}
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    context.requests().scopes.push_back(std::make_unique<FakeScope>(name_, fails_, where(), journal_));
+  }
+
+ private:
+  std::string name_;
+  bool fails_;
+  Journal& journal_;
+};
+
+class LaunchServiceTest : public testing::Test {
+ protected:
+  LaunchServiceTest() : registry_(builtin_actions()) {
+    registry_.add({.tag = "scope",
+                   .help = "",
+                   .attributes = {{"name", AttributeType::kLiteral, true, "", ""},
+                                  {"fails", AttributeType::kLiteral, false, "", ""}},
+                   .items = {},
+                   .make = [this](const Fields& fields) { return std::make_shared<ScopeAction>(fields, journal_); }});
+    supervisor_.observe([this](const ProcessEvent& event) {
+      if (std::holds_alternative<ProcessStarted>(event.what)) {
+        journal_.push_back("start " + event.label);
+      } else if (std::holds_alternative<ProcessExited>(event.what)) {
+        journal_.push_back("exit " + event.label);
+      }
+    });
+  }
+
+  int run(const std::string& actions) {
+    const auto file = std::make_shared<SourceFile>("/test/system.launch.xml", "<launch>\n" + actions + "\n</launch>");
+    LaunchContext context(registry_, {{"PATH", "/bin"}}, "",
+                          [this](LogLevel, std::string_view logger, std::string_view text) {
+                            messages_.push_back(fmt::format("[{}] {}", logger, text));
+                          });
+    LaunchService service(context, loop_, supervisor_,
+                          [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
+    if (client != nullptr) {
+      service.use_ros_client(*client);
+    }
+    return service.run(*parse_launch_description(file, registry_));
+  }
+
+  RosClient* client = nullptr;  // of the launch
+  Journal journal_;
+  std::vector<std::string> messages_;
+  std::vector<std::string> errors_;
+  Registry registry_;
+  FakeEventLoop loop_;
+  FakeProcessRunner runner_{loop_};
+  OutputRouter output_{[] {
+    OutputRouter::Options options;
+    options.screen_fd = -1;
+    return options;
+  }()};
+  ProcessSupervisor supervisor_{loop_, runner_, output_};
+};
+
+}  // namespace launch
