@@ -53,7 +53,8 @@ class DeclareLaunchArgument : public Action {
 
 std::vector<AttributeSpec> argument_attributes() {
   return {{"name", AttributeType::kLiteral, true, "", "name of the configuration"},
-          {"default", AttributeType::kText, false, "", "value when none is given; none: the argument is required"},
+          {"default", AttributeType::kText, false, "",
+           "value when none is given; without a default the argument is required"},
           {"description", AttributeType::kLiteral, false, "no description given", "shown by --show-args"}};
 }
 

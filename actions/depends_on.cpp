@@ -17,24 +17,27 @@ void require_state(const Fields& fields, const std::string& attribute, const std
 
 ItemSpec DependsOn::item() {
   std::vector<AttributeSpec> attributes = {
-      {"process", AttributeType::kText, false, "", "name of another process or of its node; or one of:", true}};
+      {"process", AttributeType::kText, false, "", "another process, by its name or that of its node", true}};
   for (AttributeSpec& attribute : RosCondition::attributes()) {
     attributes.push_back(std::move(attribute));
   }
   const std::vector<AttributeSpec> rest = {
       {"condition", AttributeType::kLiteral, false, "started; present",
-       "of a process: started, exited or output; of a topic: present or message; else present", true},
+       "with process: started, exited or output; with topic: present or message; else present", true},
       {"exit_code", AttributeType::kText, false, "0",
        "with exited: any, nonzero, or codes and signals separated by commas", true},
       {"pattern", AttributeType::kText, false, "any line", "with output: regular expression to be found in a line",
        true},
       {"stream", AttributeType::kText, false, "both", "with output: stdout, stderr or both", true},
-      {"timeout", AttributeType::kFloat, false, "none", "seconds after which the condition has failed", true},
+      {"timeout", AttributeType::kFloat, false, "none", "seconds after which the condition counts as failed", true},
       {"on_failure", AttributeType::kLiteral, false, "shutdown",
-       "when it can't hold any more: shutdown of the system, start all the same, or skip the process", true}};
+       "what follows when the condition can no longer hold: shutdown of the system, start of the process all the same, "
+       "or "
+       "skip (the process never starts)",
+       true}};
   attributes.insert(attributes.end(), rest.begin(), rest.end());
   return {.tag = "depends_on",
-          .help = "the process starts once this holds; several: once all hold",
+          .help = "a condition for the start of the process, which waits until all its conditions hold",
           .attributes = std::move(attributes),
           .has_condition = true,
           .extension = true};

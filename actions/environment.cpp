@@ -106,9 +106,9 @@ ActionType append_env_action() {
       .tag = "append_env",
       .help = "Appends a value to a variable of the launch environment, or sets it.",
       .attributes = {{"name", AttributeType::kText, true, "", "name of the variable"},
-                     {"value", AttributeType::kText, true, "", "what is appended"},
-                     {"prepend", AttributeType::kBoolean, false, "false", "true: put it in front"},
-                     {"separator", AttributeType::kText, false, ":", "what stands between the values"}},
+                     {"value", AttributeType::kText, true, "", "the text to append"},
+                     {"prepend", AttributeType::kBoolean, false, "false", "true: put the value in front"},
+                     {"separator", AttributeType::kText, false, ":", "text between the values"}},
       .items = {},
       .make = [](const Fields& fields) { return std::make_shared<AppendEnvironmentVariable>(fields); },
   };

@@ -137,7 +137,7 @@ ActionPtr make_on_state_transition(const Fields& fields) {
 
 ActionType handler(std::string tag, std::string help, std::vector<AttributeSpec> attributes,
                    std::function<ActionPtr(const Fields&)> make) {
-  attributes.push_back({"name", AttributeType::kText, false, "", "by which unregister_event_handler means it"});
+  attributes.push_back({"name", AttributeType::kText, false, "", "name of the handler, for unregister_event_handler"});
   for (AttributeSpec& attribute : attributes) {
     attribute.extension = true;
   }
@@ -170,7 +170,8 @@ ActionType on_process_start_action() {
 
 ActionType on_process_exit_action() {
   return handler("on_process_exit",
-                 "Visits its actions each time a process has ended; one that can't be started counts as exit code 127.",
+                 "Visits its actions each time a process has ended; a process that can't be started counts as ended "
+                 "with exit code 127.",
                  {process_attribute(),
                   {"exit_code", AttributeType::kText, false, "any",
                    "any, nonzero, or codes and signals (-9 or SIGKILL) separated by commas"},
@@ -200,8 +201,8 @@ ActionType on_state_transition_action() {
                  "Visits its actions each time a node with a managed life cycle has changed its state.",
                  {{"node", AttributeType::kText, true, "",
                    "the node, of this launch or not; a relative name is below the namespace of the scope"},
-                  {"start_state", AttributeType::kText, false, "any", "the state that it has left"},
-                  {"goal_state", AttributeType::kText, false, "any", "the state that it has come to"},
+                  {"start_state", AttributeType::kText, false, "any", "the state that the node has left"},
+                  {"goal_state", AttributeType::kText, false, "any", "the state that the node has reached"},
                   once_attribute()},
                  make_on_state_transition);
 }

@@ -110,9 +110,9 @@ ActionType include_action() {
       .attributes = {{"file", AttributeType::kText, true, "",
                       "path of the launch file; relative to the launcher's working directory"},
                      {"ns", AttributeType::kText, false, "",
-                      "namespace of every node of the file; ends with it, unlike what else the file sets", true}},
+                      "namespace of every node of the file; ends with the file, unlike other settings", true}},
       .items = {{"arg", "an argument for the file", name_and_value},
-                {"let", "the same as arg, set after all of them", name_and_value}},
+                {"let", "an argument for the file, set after all arg items", name_and_value}},
       .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },
   };
 }

@@ -34,7 +34,7 @@ ActionType load_composable_node_action() {
       .tag = "load_composable_node",
       .help = "Loads nodes into a component container that runs already.",
       .attributes = {{"target", AttributeType::kText, true, "",
-                      "node name of the container; the scope's namespace doesn't count"}},
+                      "node name of the container; the scope's namespace is not put before it"}},
       .items = ComposableNodes::items(),
       .make = [](const Fields& fields) { return std::make_shared<LoadComposableNodes>(fields); },
   };

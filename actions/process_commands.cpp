@@ -48,7 +48,8 @@ class CommandProcess : public Action {
 
 ActionType command(ProcessCommand::Kind kind, std::string help, std::vector<AttributeSpec> more = {}) {
   std::vector<AttributeSpec> attributes = {{"process", AttributeType::kText, true, "",
-                                            "name of the process or of its node; all that have it are meant", true}};
+                                            "name of the process or of its node; all processes of that name are meant",
+                                            true}};
   attributes.insert(attributes.end(), more.begin(), more.end());
   return {.tag = std::string(name_of(kind)),
           .help = std::move(help),
@@ -61,18 +62,19 @@ ActionType command(ProcessCommand::Kind kind, std::string help, std::vector<Attr
 }  // namespace
 
 ActionType stop_action() {
-  return command(ProcessCommand::Kind::kStop,
-                 "Ends a process that runs as a shutdown would; it does not respawn. One that still waits for others "
-                 "never starts.");
+  return command(
+      ProcessCommand::Kind::kStop,
+      "Ends a running process as a shutdown would; it does not respawn. A process that still waits for others "
+      "never starts.");
 }
 
 ActionType restart_action() {
   return command(ProcessCommand::Kind::kRestart,
-                 "Ends a process as a shutdown would and starts it again; starts it when it has ended before.");
+                 "Ends a process as a shutdown would and starts it again; a process that has ended is only started.");
 }
 
 ActionType signal_action() {
-  return command(ProcessCommand::Kind::kSignal, "Sends a signal to a process that runs, and to its descendants.",
+  return command(ProcessCommand::Kind::kSignal, "Sends a signal to a running process and its descendants.",
                  {{"signal", AttributeType::kText, true, "", "its name or its number, such as SIGUSR1", true}});
 }
 

@@ -35,7 +35,7 @@ class ResetLaunchConfigurations : public Action {
 ActionType reset_action() {
   return {
       .tag = "reset",
-      .help = "Forgets all launch configurations, with the namespace, parameters and remaps of the scope.",
+      .help = "Removes all launch configurations, and the namespace, parameters and remaps of the scope.",
       .attributes = {},
       .items = {{"keep",
                  "a configuration to set afterwards, evaluated before",

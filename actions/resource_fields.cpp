@@ -90,9 +90,10 @@ std::vector<AttributeSpec> ResourceFields::attributes() {
       {"nice", AttributeType::kInteger, false, "the launcher's", "niceness, from -20 (urgent) to 19", true},
       {"sched_policy", AttributeType::kText, false, "the launcher's", "other, batch, idle, fifo or rr", true},
       {"sched_priority", AttributeType::kInteger, false, "", "with fifo and rr: 1 to 99 (urgent)", true},
-      {"cpus", AttributeType::kText, false, "the launcher's", "CPUs that it may run on, such as 0,2-3", true},
+      {"cpus", AttributeType::kText, false, "the launcher's", "CPUs that the process may run on, such as 0,2-3", true},
       {"memory_limit", AttributeType::kText, false, "none", "private memory in bytes, or with K, M or G", true},
-      {"open_files_limit", AttributeType::kInteger, false, "the launcher's", "how many descriptors it may have", true},
+      {"open_files_limit", AttributeType::kInteger, false, "the launcher's",
+       "how many descriptors the process may have", true},
   };
 }
 

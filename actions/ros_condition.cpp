@@ -40,11 +40,11 @@ std::size_t choice(const Fields& fields, const std::string& attribute, const std
 }
 
 std::vector<AttributeSpec> RosCondition::attributes() {
-  return {{"node", AttributeType::kText, false, "", "a node of the ROS graph, whoever runs it", true},
-          {"topic", AttributeType::kText, false, "", "or a topic", true},
-          {"service", AttributeType::kText, false, "", "or a service", true},
+  return {{"node", AttributeType::kText, false, "", "a node of the ROS graph, of this launch or not", true},
+          {"topic", AttributeType::kText, false, "", "instead of a node: a topic", true},
+          {"service", AttributeType::kText, false, "", "instead of a node: a service", true},
           {"state", AttributeType::kText, false, "any",
-           "of a node with a managed life cycle: unconfigured, inactive, active or finalized", true}};
+           "with node: the state of its life cycle, unconfigured, inactive, active or finalized", true}};
 }
 
 std::string RosCondition::subject_of(const Fields& fields, const std::vector<std::string>& others) {

@@ -38,7 +38,7 @@ class SetUseSimTime : public Action {
 ActionType set_use_sim_time_action() {
   return {
       .tag = "set_use_sim_time",
-      .help = "Accepted, with a warning for true: this launcher counts system time. It never concerned launched nodes.",
+      .help = "Has no effect, and warns if true: this launcher counts system time. Launched nodes are not concerned.",
       .attributes = {{"value", AttributeType::kText, true, "", "true or false"}},
       .items = {},
       .make = [](const Fields& fields) { return std::make_shared<SetUseSimTime>(fields); },

@@ -54,7 +54,7 @@ ActionType timer_action() {
 
 // The launcher is no ROS node and hears no /clock, so ROS time is the system's time here.
 ActionType ros_timer_action() {
-  return timer("ros_timer", "The same as timer: this launcher counts system time, never simulated time.");
+  return timer("ros_timer", "Like timer: this launcher counts system time, never simulated time.");
 }
 
 }  // namespace launch

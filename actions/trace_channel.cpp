@@ -88,7 +88,7 @@ ItemSpec ChannelFields::item() {
     return AttributeSpec{name, AttributeType::kInteger, false, "as the domain's own channel", help};
   };
   return {.tag = "channel",
-          .help = "a further channel: events with buffers of their own, of one domain",
+          .help = "a further channel of one domain, whose events have buffers of their own",
           .attributes = {{"name", AttributeType::kText, true, "", "its name"},
                          {"events-ust", AttributeType::kWords, false, "none", "userspace events"},
                          {"events-kernel", AttributeType::kWords, false, "none", "kernel tracepoints"},

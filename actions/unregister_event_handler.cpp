@@ -25,8 +25,8 @@ class UnregisterEventHandler : public Action {
 
 ActionType unregister_event_handler_action() {
   return {.tag = "unregister_event_handler",
-          .help = "Forgets the event handlers of a name; what they have started goes on.",
-          .attributes = {{"name", AttributeType::kText, true, "", "that the handlers were given", true}},
+          .help = "Removes the event handlers of a name; the processes that they started run on.",
+          .attributes = {{"name", AttributeType::kText, true, "", "name of the handlers", true}},
           .items = {},
           .extension = true,
           .make = [](const Fields& fields) { return std::make_shared<UnregisterEventHandler>(fields); }};

@@ -36,7 +36,7 @@ class WaitFor : public Action {
 ActionType wait_for_action() {
   std::vector<AttributeSpec> attributes = RosCondition::attributes();
   attributes.push_back({"condition", AttributeType::kLiteral, false, "present",
-                        "of a topic: present (somebody publishes it) or message (one has come)", true});
+                        "with topic: present (it has a publisher) or message (a message has arrived)", true});
   return {.tag = "wait_for",
           .help = "Visits its actions once the ROS graph shows a node, a topic or a service.",
           .attributes = std::move(attributes),
