@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "shared_memory_ports.hpp"
-#include "unanswered_participants.hpp"
+#include "participant/shared_memory_ports.hpp"
+#include "participant/unanswered_participants.hpp"
 
 namespace {
 

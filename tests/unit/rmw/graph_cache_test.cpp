@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the graph cache makes of discovery and of what participants tell, in any order.
-#include "graph_cache.hpp"
+#include "graph/graph_cache.hpp"
 
 #include <gtest/gtest.h>
 

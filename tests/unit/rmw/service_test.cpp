@@ -7,7 +7,7 @@
 #include "example_interfaces/srv/add_two_ints.hpp"
 #include "rmw_test.hpp"
 #include "rosidl_typesupport_cpp/service_type_support.hpp"
-#include "service_clients.hpp"
+#include "service/service_clients.hpp"
 #include "std_srvs/srv/trigger.hpp"
 #include "tests/support/sandbox.hpp"
 

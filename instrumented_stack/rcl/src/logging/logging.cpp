@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rcl/logging.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "arguments/arguments_impl.hpp"
+#include "logging/log_file.hpp"
+#include "rcl/error_handling.h"
+#include "rcl/logging_rosout.h"
+#include "rcutils/format_log_line.hpp"
+
+namespace {
+
+// Where messages go; nowhere but the console before rcl_logging_configure().
+std::atomic<bool> to_stdout{true};
+std::atomic<bool> to_rosout{false};
+
+// Replaced while other threads write.
+class CurrentFile {
+ public:
+  std::shared_ptr<rcl::LogFile> get() const {
+    const std::lock_guard lock(mutex_);
+    return file_;
+  }
+  void set(std::shared_ptr<rcl::LogFile> file) {
+    const std::lock_guard lock(mutex_);
+    file_.swap(file);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<rcl::LogFile> file_;
+};
+
+// Never destroyed: static objects of other libraries may log while the process ends.
+CurrentFile& current_file() {
+  static CurrentFile& instance = *new CurrentFile;
+  return instance;
+}
+
+}  // namespace
+
+rcl_ret_t rcl_logging_configure(const rcl_arguments_t* global_args, const rcl_allocator_t* allocator) {
+  return rcl_logging_configure_with_output_handler(global_args, allocator, rcl_logging_multiple_output_handler);
+}
+
+rcl_ret_t rcl_logging_configure_with_output_handler(const rcl_arguments_t* global_args, const rcl_allocator_t*,
+                                                    rcutils_logging_output_handler_t output_handler) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(global_args, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(global_args->impl, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(output_handler, RCL_RET_INVALID_ARGUMENT);
+  if (rcutils_logging_initialize() != RCUTILS_RET_OK) {
+    return RCL_RET_ERROR;
+  }
+  const rcl_arguments_impl_t& arguments = *global_args->impl;
+  if (arguments.default_log_level) {
+    rcutils_logging_set_default_logger_level(*arguments.default_log_level);
+  }
+  for (const auto& [logger, level] : arguments.logger_levels) {
+    if (rcutils_logging_set_logger_level(logger.c_str(), level) != RCUTILS_RET_OK) {
+      return RCL_RET_ERROR;
+    }
+  }
+  to_stdout = arguments.stdout_logs;
+  to_rosout = arguments.rosout_logs;
+  current_file().set(arguments.external_logs ? std::make_shared<rcl::LogFile>(arguments.log_file_name) : nullptr);
+  rcutils_logging_set_output_handler(output_handler);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_logging_fini(void) {
+  rcutils_logging_set_output_handler(rcutils_logging_console_output_handler);
+  to_stdout = true;
+  to_rosout = false;
+  current_file().set(nullptr);
+  return RCL_RET_OK;
+}
+
+bool rcl_logging_rosout_enabled(void) {
+  return to_rosout;
+}
+
+void rcl_logging_multiple_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
+                                         rcutils_time_point_value_t timestamp, const char* format, va_list* args) {
+  if (to_stdout) {
+    rcutils_logging_console_output_handler(location, severity, name, timestamp, format, args);
+  }
+  if (const std::shared_ptr<rcl::LogFile> file = current_file().get()) {
+    file->write(rcutils::format_log_line(location, severity, name, timestamp, format, args));
+  }
+  if (to_rosout) {
+    rcl_logging_rosout_output_handler(location, severity, name, timestamp, format, args);
+  }
+}

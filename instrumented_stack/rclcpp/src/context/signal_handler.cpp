@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "context/signal_handler.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "rclcpp/context.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+// What the handler touches: lock-free atomics and an fd, all alive as long as the process.
+std::atomic<int> event_fd{-1};
+std::atomic<int> last_signal{0};
+std::atomic<bool> stop_thread{false};
+std::atomic<void (*)(int)> previous_sigint_function{nullptr};
+std::atomic<void (*)(int)> previous_sigterm_function{nullptr};
+
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<void (*)(int)>::is_always_lock_free);
+
+void wake_thread() {
+  const uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = write(event_fd, &one, sizeof one);  // fails only when a wake-up is pending
+}
+
+bool handles_sigint(SignalHandlerOptions options) {
+  return options == SignalHandlerOptions::All || options == SignalHandlerOptions::SigInt;
+}
+
+bool handles_sigterm(SignalHandlerOptions options) {
+  return options == SignalHandlerOptions::All || options == SignalHandlerOptions::SigTerm;
+}
+
+// A handler that the program had set before, and that is called after ours.
+void (*plain_function(const struct sigaction& action))(int) {
+  const bool is_function =
+      !(action.sa_flags & SA_SIGINFO) && action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
+  return is_function ? action.sa_handler : nullptr;
+}
+
+}  // namespace
+
+SignalHandler& SignalHandler::instance() {
+  static SignalHandler handler;
+  return handler;
+}
+
+SignalHandler::~SignalHandler() {
+  uninstall();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+bool SignalHandler::install(SignalHandlerOptions options) {
+  const std::lock_guard lock(mutex_);
+  if (installed_ || options == SignalHandlerOptions::None) {
+    return false;
+  }
+  if (thread_.joinable()) {
+    thread_.join();  // of an earlier installation; uninstall() told it to end
+  }
+  if (event_fd < 0) {
+    event_fd = eventfd(0, EFD_CLOEXEC | EFD_SEMAPHORE);
+    if (event_fd < 0) {
+      throw std::system_error(errno, std::generic_category(), "eventfd");
+    }
+  }
+  stop_thread = false;
+  options_ = options;
+  thread_ = std::thread(&SignalHandler::run, this);
+
+  struct sigaction action {};
+  action.sa_sigaction = &SignalHandler::handle;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  if (handles_sigint(options)) {
+    sigaction(SIGINT, &action, &previous_sigint_);
+    previous_sigint_function = plain_function(previous_sigint_);
+  }
+  if (handles_sigterm(options)) {
+    sigaction(SIGTERM, &action, &previous_sigterm_);
+    previous_sigterm_function = plain_function(previous_sigterm_);
+  }
+  installed_ = true;
+  return true;
+}
+
+bool SignalHandler::uninstall() {
+  const std::lock_guard lock(mutex_);
+  if (!installed_) {
+    return false;
+  }
+  if (handles_sigint(options_)) {
+    sigaction(SIGINT, &previous_sigint_, nullptr);
+  }
+  if (handles_sigterm(options_)) {
+    sigaction(SIGTERM, &previous_sigterm_, nullptr);
+  }
+  installed_ = false;
+  options_ = SignalHandlerOptions::None;
+  stop_thread = true;
+  wake_thread();
+  if (std::this_thread::get_id() != thread_.get_id()) {
+    thread_.join();
+  }
+  return true;
+}
+
+bool SignalHandler::is_installed() {
+  const std::lock_guard lock(mutex_);
+  return installed_;
+}
+
+SignalHandlerOptions SignalHandler::current_options() {
+  const std::lock_guard lock(mutex_);
+  return options_;
+}
+
+void SignalHandler::handle(int signal_number, siginfo_t* /*info*/, void* /*context*/) {
+  const int saved_errno = errno;
+  last_signal = signal_number;
+  wake_thread();
+  const auto previous = signal_number == SIGINT ? previous_sigint_function.load() : previous_sigterm_function.load();
+  if (previous) {
+    previous(signal_number);
+  }
+  errno = saved_errno;
+}
+
+void SignalHandler::run() {
+  while (!stop_thread) {
+    uint64_t count = 0;
+    if (read(event_fd, &count, sizeof count) < 0) {
+      continue;  // EINTR: another signal arrived in this thread
+    }
+    if (const int signal_number = last_signal.exchange(0)) {
+      RCLCPP_INFO(get_logger("rclcpp"), "signal_handler(signum=%d)", signal_number);
+      for (const Context::SharedPtr& context : get_contexts()) {
+        if (context->get_init_options().shutdown_on_signal) {
+          context->shutdown("signal handler");
+        }
+      }
+    }
+  }
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
+
+#include <tracetools/tracetools.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <vector>
+
+#include "executor/executor_entities.hpp"
+
+namespace rclcpp::experimental::executors {
+
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+template <typename EntityT>
+void add_to(std::unordered_map<const void*, std::weak_ptr<EntityT>>& served,
+            const std::vector<std::shared_ptr<EntityT>>& entities) {
+  for (const std::shared_ptr<EntityT>& entity : entities) {
+    served.emplace(entity.get(), entity);
+  }
+}
+
+// The entity with that key, null if it has gone.
+template <typename EntityT>
+std::shared_ptr<EntityT> find_in(const std::unordered_map<const void*, std::weak_ptr<EntityT>>& served,
+                                 const void* key) {
+  const auto found = served.find(key);
+  return found == served.end() ? nullptr : found->second.lock();
+}
+
+}  // namespace
+
+EventsExecutor::EventsExecutor(EventsQueue::UniquePtr events_queue, bool execute_timers_separate_thread,
+                               const rclcpp::ExecutorOptions& options)
+    : Executor(options),
+      events_queue_(std::move(events_queue)),
+      execute_timers_separate_thread_(execute_timers_separate_thread),
+      timers_(context_, [this] { wake(); }) {
+  if (!events_queue_) {
+    throw std::invalid_argument("events_queue can't be a null pointer");
+  }
+  entities_->set_on_change([this] { wake(); });
+  wake();
+}
+
+EventsExecutor::~EventsExecutor() {
+  spinning_ = false;
+  entities_->set_on_change(nullptr);
+  entities_->remove_all();
+  timers_.stop();
+  refresh();
+}
+
+void EventsExecutor::spin() {
+  const SpinningScope scope(*this, "spin()");
+  struct TimersThread {
+    EventsExecutor& executor;
+    ~TimersThread() {
+      executor.timers_.stop();
+      executor.timers_thread_runs_ = false;
+    }
+  };
+  const TimersThread timers_thread{*this};
+  if (execute_timers_separate_thread_) {
+    timers_.start();
+    timers_thread_runs_ = true;
+  }
+  bool was_wake_up = false;
+  while (context_->is_valid() && spinning_) {
+    execute_next(nanoseconds::max(), was_wake_up);
+  }
+}
+
+void EventsExecutor::spin_once_impl(nanoseconds timeout) {
+  const auto start = steady_clock::now();
+  bool was_wake_up = true;
+  while (context_->is_valid() && spinning_ && was_wake_up) {
+    nanoseconds left = nanoseconds::max();
+    if (timeout >= nanoseconds::zero()) {
+      left = std::max<nanoseconds>(timeout - (steady_clock::now() - start), nanoseconds::zero());
+    }
+    if (!execute_next(left, was_wake_up)) {
+      return;
+    }
+  }
+}
+
+void EventsExecutor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
+  const auto start = steady_clock::now();
+  const auto time_left = [&] {
+    return max_duration == nanoseconds::zero() || steady_clock::now() - start < max_duration;
+  };
+  wake_up_queued_ = false;
+  refresh();  // what it finds waiting is in the queue then
+  size_t events = events_queue_->size();
+  size_t timers = timers_.get_number_ready_timers();
+  while (context_->is_valid() && spinning_ && time_left()) {
+    ExecutorEvent event;
+    if ((exhaustive || events > 0) && events_queue_->dequeue(event, nanoseconds::zero())) {
+      events -= std::min<size_t>(events, 1);
+      execute_event(event);
+    } else if (!(exhaustive || timers > 0) || !timers_.execute_head_timer()) {
+      return;
+    } else {
+      timers -= std::min<size_t>(timers, 1);
+    }
+  }
+}
+
+bool EventsExecutor::execute_next(nanoseconds timeout, bool& was_wake_up) {
+  was_wake_up = false;
+  const nanoseconds until_timer = timers_thread_runs_ ? nanoseconds::max() : timers_.get_head_timeout();
+  // A due timer goes before the queue, which may never become empty; then it is the queue's turn.
+  if (until_timer <= nanoseconds::zero() && !timer_was_last_ && timers_.execute_head_timer()) {
+    timer_was_last_ = true;
+    return true;
+  }
+  timer_was_last_ = false;
+  ExecutorEvent event;
+  if (events_queue_->dequeue(event, std::clamp(until_timer, nanoseconds::zero(), timeout))) {
+    was_wake_up = is_wake_up(event);
+    execute_event(event);
+    return true;
+  }
+  return until_timer <= timeout && timers_.execute_head_timer();
+}
+
+void EventsExecutor::execute_event(const ExecutorEvent& event) {
+  if (is_wake_up(event)) {
+    wake_up_queued_ = false;  // first: what changes from here on needs another one
+    refresh();
+    return;
+  }
+  for (size_t i = 0; i < event.num_events; ++i) {
+    switch (event.type) {
+      case SUBSCRIPTION_EVENT:
+        if (const auto subscription = find_in(subscriptions_, event.entity_key)) {
+          subscription->execute();
+        }
+        break;
+      case SERVICE_EVENT:
+        if (const auto service = find_in(services_, event.entity_key)) {
+          service->execute();
+        }
+        break;
+      case CLIENT_EVENT:
+        if (const auto client = find_in(clients_, event.entity_key)) {
+          client->execute();
+        }
+        break;
+      case WAITABLE_EVENT:
+        if (const auto waitable = find_in(waitables_, event.entity_key)) {
+          TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable, static_cast<const void*>(waitable.get()));
+          waitable->execute(waitable->take_data_by_entity_id(static_cast<size_t>(event.waitable_data)));
+        }
+        break;
+      case TIMER_EVENT:  // of queues that have them; timers are run by their times here
+        break;
+    }
+  }
+}
+
+void EventsExecutor::wake() {
+  if (!wake_up_queued_.exchange(true)) {
+    events_queue_->enqueue({this, 0, WAITABLE_EVENT, 1});
+  }
+}
+
+void EventsExecutor::enqueue(const void* entity, ExecutorEventType type, size_t count, int waitable_data) {
+  events_queue_->enqueue({entity, waitable_data, type, count});
+}
+
+void EventsExecutor::refresh() {
+  Served<SubscriptionBase> subscriptions;
+  Served<ServiceBase> services;
+  Served<ClientBase> clients;
+  Served<Waitable> waitables;
+  Served<TimerBase> timers;
+  const auto groups = entities_->entities();
+  for (const auto& [group, entities] : groups) {
+    add_to(subscriptions, entities.subscriptions);
+    add_to(services, entities.services);
+    add_to(clients, entities.clients);
+    add_to(waitables, entities.waitables);
+    add_to(timers, entities.timers);
+    for (const Waitable::SharedPtr& waitable : entities.waitables) {
+      add_to(timers, waitable->get_timers());
+    }
+  }
+  update(
+      subscriptions_, std::move(subscriptions),
+      [this](SubscriptionBase& subscription) {
+        subscription.set_on_new_message_callback(
+            [this, key = &subscription](size_t count) { enqueue(key, SUBSCRIPTION_EVENT, count); });
+      },
+      [](SubscriptionBase& subscription) { subscription.clear_on_new_message_callback(); });
+  update(
+      services_, std::move(services),
+      [this](ServiceBase& service) {
+        service.set_on_new_request_callback(
+            [this, key = &service](size_t count) { enqueue(key, SERVICE_EVENT, count); });
+      },
+      [](ServiceBase& service) { service.clear_on_new_request_callback(); });
+  update(
+      clients_, std::move(clients),
+      [this](ClientBase& client) {
+        client.set_on_new_response_callback([this, key = &client](size_t count) { enqueue(key, CLIENT_EVENT, count); });
+      },
+      [](ClientBase& client) { client.clear_on_new_response_callback(); });
+  update(
+      waitables_, std::move(waitables),
+      [this](Waitable& waitable) {
+        waitable.set_on_ready_callback(
+            [this, key = &waitable](size_t count, int id) { enqueue(key, WAITABLE_EVENT, count, id); });
+      },
+      [](Waitable& waitable) { waitable.clear_on_ready_callback(); });
+  for (const auto& [key, weak] : timers_served_) {
+    if (timers.count(key) == 0) {
+      if (const TimerBase::SharedPtr timer = weak.lock()) {
+        timers_.remove_timer(timer);
+      }
+    }
+  }
+  for (const auto& [key, weak] : timers) {
+    const auto known = timers_served_.find(key);
+    const TimerBase::SharedPtr timer = weak.lock();
+    if (timer && (known == timers_served_.end() || known->second.expired())) {
+      timers_.add_timer(timer);
+    }
+  }
+  timers_served_ = std::move(timers);
+}
+
+template <typename EntityT, typename StartT, typename StopT>
+void EventsExecutor::update(Served<EntityT>& served, Served<EntityT> found, StartT start, StopT stop) {
+  for (auto it = served.begin(); it != served.end();) {
+    // Another entity can be where one was that has gone.
+    const std::shared_ptr<EntityT> entity = it->second.lock();
+    const bool stays = entity && found.count(it->first) != 0;
+    if (entity && !stays) {
+      stop(*entity);
+    }
+    it = stays ? std::next(it) : served.erase(it);
+  }
+  for (auto& [key, weak] : found) {
+    if (const std::shared_ptr<EntityT> entity = weak.lock(); entity && served.count(key) == 0) {
+      start(*entity);
+      served.emplace(key, weak);
+    }
+  }
+}
+
+}  // namespace rclcpp::experimental::executors

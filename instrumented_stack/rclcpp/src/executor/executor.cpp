@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rclcpp/executor.hpp"
+
+#include <tracetools/tracetools.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "executor/executor_entities.hpp"
+#include "rclcpp/node.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+// Keeps a node in an executor for the time of a call.
+class Membership {
+ public:
+  Membership(Executor& executor, const Executor::NodePtr& node) : executor_(executor), node_(node) {
+    executor_.add_node(node_);
+  }
+  ~Membership() { executor_.remove_node(node_); }
+  RCLCPP_DISABLE_COPY(Membership)
+
+ private:
+  Executor& executor_;
+  const Executor::NodePtr& node_;
+};
+
+// Puts an entity that a wait has found into `any_executable`. False if it has gone, or is no longer ready.
+bool choose(TimerBase::SharedPtr timer, AnyExecutable& any_executable) {
+  if (!timer) {
+    return false;
+  }
+  any_executable.data = timer->call();
+  if (!any_executable.data) {
+    return false;
+  }
+  any_executable.timer = std::move(timer);
+  return true;
+}
+bool choose(SubscriptionBase::SharedPtr subscription, AnyExecutable& any_executable) {
+  any_executable.subscription = std::move(subscription);
+  return any_executable.subscription != nullptr;
+}
+bool choose(ServiceBase::SharedPtr service, AnyExecutable& any_executable) {
+  any_executable.service = std::move(service);
+  return any_executable.service != nullptr;
+}
+bool choose(ClientBase::SharedPtr client, AnyExecutable& any_executable) {
+  any_executable.client = std::move(client);
+  return any_executable.client != nullptr;
+}
+bool choose(Waitable::SharedPtr waitable, AnyExecutable& any_executable) {
+  if (!waitable) {
+    return false;
+  }
+  any_executable.data = waitable->take_data();
+  any_executable.waitable = std::move(waitable);
+  return true;
+}
+
+bool is_waitable(const detail::ReadyEntity& ready) {
+  return std::holds_alternative<Waitable::WeakPtr>(ready.entity);
+}
+
+bool are_same_waitable(const detail::ReadyEntity& a, const detail::ReadyEntity& b) {
+  const auto* waitable_a = std::get_if<Waitable::WeakPtr>(&a.entity);
+  const auto* waitable_b = std::get_if<Waitable::WeakPtr>(&b.entity);
+  return waitable_a && waitable_b && !waitable_a->owner_before(*waitable_b) && !waitable_b->owner_before(*waitable_a);
+}
+
+}  // namespace
+
+std::string to_string(const FutureReturnCode& future_return_code) {
+  switch (future_return_code) {
+    case FutureReturnCode::SUCCESS:
+      return "SUCCESS (0)";
+    case FutureReturnCode::INTERRUPTED:
+      return "INTERRUPTED (1)";
+    case FutureReturnCode::TIMEOUT:
+      return "TIMEOUT (2)";
+  }
+  return "Unknown enum value (" + std::to_string(static_cast<int>(future_return_code)) + ")";
+}
+
+std::ostream& operator<<(std::ostream& stream, const FutureReturnCode& future_return_code) {
+  return stream << to_string(future_return_code);
+}
+
+Executor::SpinningScope::SpinningScope(Executor& executor, const char* function) : executor_(executor) {
+  if (executor_.spinning_.exchange(true)) {
+    throw std::runtime_error(std::string(function) + " called while already spinning");
+  }
+}
+
+Executor::Executor(const ExecutorOptions& options)
+    : context_(options.context), entities_(std::make_shared<ExecutorEntities>(options.context)) {
+  shutdown_callback_ = context_->add_on_shutdown_callback([weak = std::weak_ptr(entities_)] {
+    if (const auto entities = weak.lock()) {
+      entities->interrupt();
+    }
+  });
+}
+
+Executor::~Executor() {
+  context_->remove_on_shutdown_callback(shutdown_callback_);
+  entities_->remove_all();
+}
+
+void Executor::add_node(const NodePtr& node, bool) {
+  entities_->add_node(node);
+}
+void Executor::add_node(const std::shared_ptr<Node>& node, bool notify) {
+  add_node(node->get_node_base_interface(), notify);
+}
+void Executor::remove_node(const NodePtr& node, bool) {
+  entities_->remove_node(node);
+}
+void Executor::remove_node(const std::shared_ptr<Node>& node, bool notify) {
+  remove_node(node->get_node_base_interface(), notify);
+}
+
+void Executor::add_callback_group(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool) {
+  entities_->add_group(group, node);
+}
+void Executor::remove_callback_group(const CallbackGroup::SharedPtr& group, bool) {
+  entities_->remove_group(group);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_all_callback_groups() {
+  return entities_->groups(ExecutorEntities::Origin::kAny);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_manually_added_callback_groups() {
+  return entities_->groups(ExecutorEntities::Origin::kAddedByHand);
+}
+std::vector<CallbackGroup::WeakPtr> Executor::get_automatically_added_callback_groups_from_nodes() {
+  return entities_->groups(ExecutorEntities::Origin::kOfNodes);
+}
+
+void Executor::spin_once(nanoseconds timeout) {
+  const SpinningScope scope(*this, "spin_once()");
+  spin_once_impl(timeout);
+}
+
+void Executor::spin_once_impl(nanoseconds timeout) {
+  AnyExecutable any_executable;
+  if (get_next_executable(any_executable, timeout)) {
+    execute_any_executable(any_executable);
+  }
+}
+
+void Executor::spin_some(nanoseconds max_duration) {
+  const SpinningScope scope(*this, "spin_some()");
+  spin_some_impl(max_duration, false);
+}
+
+void Executor::spin_all(nanoseconds max_duration) {
+  if (max_duration < nanoseconds::zero()) {
+    throw std::invalid_argument("max_duration must be greater than or equal to 0");
+  }
+  const SpinningScope scope(*this, "spin_all()");
+  spin_some_impl(max_duration, true);
+}
+
+void Executor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
+  const auto start = steady_clock::now();
+  const auto time_left = [&] {
+    return max_duration == nanoseconds::zero() || steady_clock::now() - start < max_duration;
+  };
+  wait_for_work(nanoseconds::zero());
+  bool executed_since_wait = false;
+  while (context_->is_valid() && spinning_ && time_left()) {
+    AnyExecutable any_executable;
+    if (get_next_ready_executable(any_executable)) {
+      execute_any_executable(any_executable);
+      executed_since_wait = true;
+    } else if (exhaustive && executed_since_wait) {
+      wait_for_work(nanoseconds::zero());
+      executed_since_wait = false;
+    } else {
+      return;
+    }
+  }
+}
+
+void Executor::spin_node_some(const NodePtr& node) {
+  const Membership membership(*this, node);
+  spin_some();
+}
+void Executor::spin_node_some(const std::shared_ptr<Node>& node) {
+  spin_node_some(node->get_node_base_interface());
+}
+
+void Executor::spin_node_all(const NodePtr& node, nanoseconds max_duration) {
+  const Membership membership(*this, node);
+  spin_all(max_duration);
+}
+void Executor::spin_node_all(const std::shared_ptr<Node>& node, nanoseconds max_duration) {
+  spin_node_all(node->get_node_base_interface(), max_duration);
+}
+
+void Executor::spin_node_once(const NodePtr& node, nanoseconds timeout) {
+  const Membership membership(*this, node);
+  spin_once(timeout);
+}
+void Executor::spin_node_once(const std::shared_ptr<Node>& node, nanoseconds timeout) {
+  spin_node_once(node->get_node_base_interface(), timeout);
+}
+
+FutureReturnCode Executor::spin_until(const std::function<bool()>& complete, nanoseconds timeout) {
+  if (complete()) {
+    return FutureReturnCode::SUCCESS;
+  }
+  const SpinningScope scope(*this, "spin_until_future_complete()");
+  const auto start = steady_clock::now();
+  nanoseconds timeout_left = timeout;
+  while (context_->is_valid() && spinning_) {
+    spin_once_impl(timeout_left);
+    if (complete()) {
+      return FutureReturnCode::SUCCESS;
+    }
+    if (timeout < nanoseconds::zero()) {
+      continue;
+    }
+    timeout_left = timeout - (steady_clock::now() - start);
+    if (timeout_left <= nanoseconds::zero()) {
+      return FutureReturnCode::TIMEOUT;
+    }
+  }
+  return FutureReturnCode::INTERRUPTED;
+}
+
+void Executor::cancel() {
+  spinning_ = false;
+  interrupt();
+}
+
+void Executor::interrupt() {
+  entities_->interrupt();
+}
+
+[[gnu::hot]] bool Executor::get_next_executable(AnyExecutable& any_executable, nanoseconds timeout) {
+  if (get_next_ready_executable(any_executable)) {
+    return true;
+  }
+  wait_for_work(timeout);
+  return spinning_ && get_next_ready_executable(any_executable);
+}
+
+[[gnu::hot]] bool Executor::get_next_ready_executable(AnyExecutable& any_executable) {
+  TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
+  if (const size_t removals = entities_->removals(); removals != removals_seen_) {
+    removals_seen_ = removals;
+    ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_));
+    next_ready_ = 0;
+    entities_->erase_unserved(ready_);
+    entities_->erase_unserved(postponed_);
+  }
+  while (next_ready_ < ready_.size()) {
+    detail::ReadyEntity& ready = ready_[next_ready_++];
+    CallbackGroup::SharedPtr group = ready.group.lock();
+    if (!group) {
+      continue;
+    }
+    if (group->type() == CallbackGroupType::MutuallyExclusive && !group->can_be_taken_from().exchange(false)) {
+      if (is_waitable(ready)) {
+        postponed_.push_back(std::move(ready));
+      }
+      continue;
+    }
+    any_executable.callback_group = std::move(group);
+    if (std::visit([&](const auto& weak) { return choose(weak.lock(), any_executable); }, ready.entity)) {
+      return true;
+    }
+    any_executable.release_group();
+  }
+  return false;
+}
+
+[[gnu::hot]] void Executor::wait_for_work(nanoseconds timeout) {
+  TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
+  std::copy_if(std::make_move_iterator(ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_)),
+               std::make_move_iterator(ready_.end()), std::back_inserter(postponed_), is_waitable);
+  ready_.clear();
+  next_ready_ = 0;
+  entities_->wait(timeout, ready_);
+  for (detail::ReadyEntity& postponed : postponed_) {
+    if (std::none_of(ready_.begin(), ready_.end(),
+                     [&](const detail::ReadyEntity& ready) { return are_same_waitable(ready, postponed); })) {
+      ready_.push_back(std::move(postponed));
+    }
+  }
+  postponed_.clear();
+}
+
+[[gnu::hot]] void Executor::execute_any_executable(AnyExecutable& any_executable) {
+  if (!spinning_) {
+    return;
+  }
+  if (any_executable.timer) {
+    TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
+                          static_cast<const void*>(any_executable.timer->get_timer_handle().get()));
+    any_executable.timer->execute_callback(any_executable.data);
+  }
+  if (any_executable.subscription) {
+    TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
+                          static_cast<const void*>(any_executable.subscription->get_subscription_handle().get()));
+    any_executable.subscription->execute();
+  }
+  // These have no rclcpp_executor_execute.
+  if (any_executable.service) {
+    any_executable.service->execute();
+  }
+  if (any_executable.client) {
+    any_executable.client->execute();
+  }
+  if (any_executable.waitable) {
+    TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable,
+                              static_cast<const void*>(any_executable.waitable.get()));
+    any_executable.waitable->execute(any_executable.data);
+  }
+  any_executable.release_group();
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "executor/executor_entities.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "rclcpp/event_handler.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
+
+namespace rclcpp {
+
+namespace {
+
+void require_ok(rcl_ret_t ret, const char* what) {
+  if (ret != RCL_RET_OK) {
+    exceptions::throw_from_rcl_error(ret, what);
+  }
+}
+
+// Compares without owning, not even for a moment.
+template <typename T>
+bool refers_to(const std::weak_ptr<T>& weak, const std::shared_ptr<T>& shared) {
+  return !weak.owner_before(shared) && !shared.owner_before(weak);
+}
+template <typename T>
+bool refer_to_same(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b) {
+  return !a.owner_before(b) && !b.owner_before(a);
+}
+
+}  // namespace
+
+ExecutorEntities::ExecutorEntities(const Context::SharedPtr& context)
+    : rcl_context_(context->get_rcl_context()), interrupt_(context), wait_set_(rcl_get_zero_initialized_wait_set()) {
+  require_ok(rcl_wait_set_init(&wait_set_, 0, 1, 0, 0, 0, 0, rcl_context_.get(), rcl_get_default_allocator()),
+             "failed to create wait set");
+}
+
+ExecutorEntities::~ExecutorEntities() {
+  if (rcl_wait_set_fini(&wait_set_) != RCL_RET_OK) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "failed to destroy wait set: %s", rcl_get_error_string().str);
+    rcl_reset_error();
+  }
+}
+
+void ExecutorEntities::add_node(const NodePtr& node) {
+  if (node->get_associated_with_executor_atomic().exchange(true)) {
+    throw std::runtime_error(std::string("Node '") + node->get_fully_qualified_name() +
+                             "' has already been added to an executor.");
+  }
+  node->set_on_change([weak = weak_from_this()] {
+    if (const auto self = weak.lock()) {
+      self->changed();
+    }
+  });
+  {
+    const std::lock_guard lock(mutex_);
+    nodes_.push_back(node);
+  }
+  changed();
+}
+
+void ExecutorEntities::remove_node(const NodePtr& node) {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  const auto found =
+      std::find_if(nodes_.begin(), nodes_.end(), [&node](const auto& weak) { return refers_to(weak, node); });
+  if (found == nodes_.end()) {
+    throw std::runtime_error("Node needs to be associated with this executor.");
+  }
+  nodes_.erase(found);
+  node->set_on_change(nullptr);
+  node->get_associated_with_executor_atomic() = false;
+  for (auto served = groups_.begin(); served != groups_.end();) {
+    if (served->added_by_hand || !refers_to(served->node, node)) {
+      ++served;
+      continue;
+    }
+    if (CallbackGroup::SharedPtr group = served->group.lock()) {
+      release(group);
+      owners.groups.push_back(std::move(group));
+    }
+    served = groups_.erase(served);
+  }
+  ++removals_;
+  mark_changed(owners);
+}
+
+void ExecutorEntities::add_group(const CallbackGroup::SharedPtr& group, const NodePtr& node) {
+  if (group->get_associated_with_executor_atomic().exchange(true)) {
+    throw std::runtime_error("Callback group has already been added to an executor.");
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    serve(group, node, true);
+  }
+  changed();
+}
+
+void ExecutorEntities::remove_group(const CallbackGroup::SharedPtr& group) {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(groups_.begin(), groups_.end(),
+                                  [&group](const ServedGroup& served) { return refers_to(served.group, group); });
+  if (found == groups_.end()) {
+    throw std::runtime_error("Callback group needs to be associated with this executor.");
+  }
+  groups_.erase(found);
+  release(group);
+  ++removals_;
+  mark_changed(owners);
+}
+
+void ExecutorEntities::remove_all() {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  for (const auto& weak : nodes_) {
+    if (NodePtr node = weak.lock()) {
+      node->set_on_change(nullptr);
+      node->get_associated_with_executor_atomic() = false;
+      owners.nodes.push_back(std::move(node));
+    }
+  }
+  for (const ServedGroup& served : groups_) {
+    if (CallbackGroup::SharedPtr group = served.group.lock()) {
+      release(group);
+      owners.groups.push_back(std::move(group));
+    }
+  }
+  nodes_.clear();
+  groups_.clear();
+  mark_changed(owners);
+}
+
+std::vector<CallbackGroup::WeakPtr> ExecutorEntities::groups(Origin origin) {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  find_groups(owners);  // a new node's groups count from its adding, not from the next wait
+  std::vector<CallbackGroup::WeakPtr> groups;
+  for (const ServedGroup& served : groups_) {
+    if (origin == Origin::kAny || served.added_by_hand == (origin == Origin::kAddedByHand)) {
+      groups.push_back(served.group);
+    }
+  }
+  return groups;
+}
+
+std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> ExecutorEntities::entities() {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  find_groups(owners);
+  std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> result;
+  for (const ServedGroup& served : groups_) {
+    if (CallbackGroup::SharedPtr group = served.group.lock()) {
+      group->collect(result.emplace_back(served.group, CallbackGroup::Entities{}).second);
+      owners.groups.push_back(std::move(group));
+    }
+  }
+  return result;
+}
+
+void ExecutorEntities::erase_unserved(std::vector<detail::ReadyEntity>& ready) {
+  const std::lock_guard lock(mutex_);
+  ready.erase(std::remove_if(ready.begin(), ready.end(),
+                             [this](const detail::ReadyEntity& entity) {
+                               return std::none_of(groups_.begin(), groups_.end(), [&](const ServedGroup& served) {
+                                 return refer_to_same(served.group, entity.group);
+                               });
+                             }),
+              ready.end());
+}
+
+void ExecutorEntities::interrupt() {
+  interrupt_.trigger();
+  const std::lock_guard lock(mutex_);
+  if (on_change_) {
+    on_change_();
+  }
+}
+
+void ExecutorEntities::set_on_change(std::function<void()> on_change) {
+  const std::lock_guard lock(mutex_);
+  on_change_ = std::move(on_change);
+}
+
+void ExecutorEntities::changed() {
+  Owners owners;
+  const std::lock_guard lock(mutex_);
+  mark_changed(owners);
+}
+
+void ExecutorEntities::mark_changed(Owners& owners) {
+  changed_ = true;
+  if (waiting_) {
+    interrupt_.trigger();
+  } else {
+    owners.waited = std::exchange(waited_, {});
+  }
+  if (on_change_) {
+    on_change_();
+  }
+}
+
+void ExecutorEntities::find_groups(Owners& owners) {
+  const auto expired = [](const auto& weak) { return weak.expired(); };
+  nodes_.erase(std::remove_if(nodes_.begin(), nodes_.end(), expired), nodes_.end());
+  for (const auto& weak : nodes_) {
+    if (NodePtr node = weak.lock()) {
+      for (CallbackGroup::SharedPtr& group : node->callback_groups()) {
+        if (group->automatically_add_to_executor_with_node() &&
+            !group->get_associated_with_executor_atomic().exchange(true)) {
+          serve(group, node, false);
+        }
+        owners.groups.push_back(std::move(group));
+      }
+      owners.nodes.push_back(std::move(node));
+    }
+  }
+  groups_.erase(std::remove_if(groups_.begin(), groups_.end(),
+                               [](const ServedGroup& s) { return s.group.expired() || s.node.expired(); }),
+                groups_.end());
+}
+
+void ExecutorEntities::rebuild(Owners& owners) {
+  find_groups(owners);
+  owners.waited = std::exchange(waited_, {});
+  kept_sizes_ = {};
+  for (const ServedGroup& served : groups_) {
+    CallbackGroup::SharedPtr group = served.group.lock();
+    if (!group) {
+      continue;
+    }
+    CallbackGroup::Entities& entities = owners.entities.emplace_back();
+    group->collect(entities);
+    WaitedGroup& waited = waited_.emplace_back();
+    waited.group = group;
+    waited.can_be_taken_from = group->shared_can_be_taken_from();
+    for (const TimerBase::SharedPtr& timer : entities.timers) {
+      waited.timers.push_back({timer->get_timer_handle(), timer});
+    }
+    for (const SubscriptionBase::SharedPtr& subscription : entities.subscriptions) {
+      waited.subscriptions.push_back({subscription->get_subscription_handle(), subscription});
+    }
+    for (const ServiceBase::SharedPtr& service : entities.services) {
+      waited.services.push_back({service->get_service_handle(), service});
+    }
+    for (const ClientBase::SharedPtr& client : entities.clients) {
+      waited.clients.push_back({client->get_client_handle(), client});
+    }
+    for (const Waitable::SharedPtr& waitable : entities.waitables) {
+      // There can be thousands of event handlers, one per publisher and subscription at least.
+      if (const auto* handler = dynamic_cast<const EventHandlerBase*>(waitable.get())) {
+        waited.events.push_back({handler->get_event_handle(), waitable});
+      } else {
+        waited.waitables.push_back(waitable);
+      }
+    }
+    owners.groups.push_back(std::move(group));
+  }
+  changed_ = false;
+}
+
+void ExecutorEntities::serve(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool added_by_hand) {
+  group->set_on_change([weak = weak_from_this()] {
+    if (const auto self = weak.lock()) {
+      self->changed();
+    }
+  });
+  groups_.push_back({group, node, added_by_hand});
+}
+
+void ExecutorEntities::release(const CallbackGroup::SharedPtr& group) {
+  group->set_on_change(nullptr);
+  group->get_associated_with_executor_atomic() = false;
+}
+
+}  // namespace rclcpp

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parameter/parameter_constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace rclcpp {
+
+namespace {
+
+using rcl_interfaces::msg::ParameterDescriptor;
+using rcl_interfaces::msg::SetParametersResult;
+
+SetParametersResult success() {
+  SetParametersResult result;
+  result.successful = true;
+  return result;
+}
+
+SetParametersResult failure(std::string reason) {
+  SetParametersResult result;
+  result.successful = false;
+  result.reason = std::move(reason);
+  return result;
+}
+
+bool nearly_equal(double a, double b) {
+  const double scale = std::max(std::fabs(a), std::fabs(b));
+  return std::fabs(a - b) <= scale * std::numeric_limits<double>::epsilon() * 100.0;
+}
+
+// Both ends of a range belong to it, also when they are not a whole number of steps apart.
+bool in_range(const rcl_interfaces::msg::IntegerRange& range, int64_t value) {
+  if (value == range.from_value || value == range.to_value) {
+    return true;
+  }
+  if (value < range.from_value || value > range.to_value) {
+    return false;
+  }
+  const uint64_t distance = static_cast<uint64_t>(value) - static_cast<uint64_t>(range.from_value);
+  return range.step == 0 || distance % range.step == 0;
+}
+
+bool in_range(const rcl_interfaces::msg::FloatingPointRange& range, double value) {
+  if (nearly_equal(value, range.from_value) || nearly_equal(value, range.to_value)) {
+    return true;
+  }
+  if (!(value >= range.from_value && value <= range.to_value)) {
+    return false;
+  }
+  return range.step == 0.0 ||
+         nearly_equal(value, range.from_value + range.step * std::round((value - range.from_value) / range.step));
+}
+
+}  // namespace
+
+std::string wrong_type_reason(const std::string& name, ParameterType expected, ParameterType actual) {
+  return "Wrong parameter type, parameter {" + name + "} is of type {" + to_string(expected) + "}, setting it to {" +
+         to_string(actual) + "} is not allowed.";
+}
+
+SetParametersResult check_constraints(const ParameterDescriptor& descriptor, const ParameterValue& value) {
+  if (!descriptor.dynamic_typing && descriptor.type != PARAMETER_NOT_SET && descriptor.type != value.get_type()) {
+    return failure(wrong_type_reason(descriptor.name, static_cast<ParameterType>(descriptor.type), value.get_type()));
+  }
+  const bool out_of_integer_range = !descriptor.integer_range.empty() && value.get_type() == PARAMETER_INTEGER &&
+                                    !in_range(descriptor.integer_range.front(), value.to_value_msg().integer_value);
+  const bool out_of_floating_point_range =
+      !descriptor.floating_point_range.empty() && value.get_type() == PARAMETER_DOUBLE &&
+      !in_range(descriptor.floating_point_range.front(), value.to_value_msg().double_value);
+  if (out_of_integer_range || out_of_floating_point_range) {
+    return failure("Parameter {" + descriptor.name + "} doesn't comply with " +
+                   (out_of_integer_range ? "integer" : "floating point") + " range.");
+  }
+  return success();
+}
+
+}  // namespace rclcpp

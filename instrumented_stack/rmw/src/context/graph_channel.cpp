@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "context/graph_channel.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+
+#include "endpoint/endpoint.hpp"
+#include "rmw/error_handling.h"
+#include "rosidl_typesupport_cpp/message_type_support.hpp"
+
+namespace rmw_fastrtps {
+namespace {
+
+constexpr const char* kTopic = "ros_discovery_info";
+
+rmw_qos_profile_t channel_profile() {
+  rmw_qos_profile_t profile = rmw_qos_profile_default;
+  profile.reliability = RMW_QOS_POLICY_RELIABILITY_RELIABLE;
+  profile.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
+  profile.avoid_ros_namespace_conventions = true;
+  return profile;
+}
+
+[[noreturn]] void throw_rmw_error() {
+  const std::string message = rmw_get_error_string().str;
+  rmw_reset_error();
+  throw std::runtime_error(message);
+}
+
+std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimePoint> time) {
+  if (!time) {
+    return std::nullopt;
+  }
+  const auto left = std::chrono::ceil<std::chrono::nanoseconds>(*time - std::chrono::steady_clock::now());
+  return rmw_time_from_nsec(std::max<rmw_duration_t>(left.count(), 0));
+}
+
+}  // namespace
+
+GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph)
+    : participant_(participant), graph_(graph) {
+  const auto& type_support = *rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>();
+  // Only the last state of a participant counts, but a burst of states of many participants must not push any out.
+  rmw_qos_profile_t profile = channel_profile();
+  profile.history = RMW_QOS_POLICY_HISTORY_KEEP_LAST;
+  profile.depth = 1;
+  publisher_ = create_publisher(participant, type_support, kTopic, profile, rmw_get_default_publisher_options());
+  profile.history = RMW_QOS_POLICY_HISTORY_KEEP_ALL;
+  rmw_subscription_options_t options = rmw_get_default_subscription_options();
+  options.ignore_local_publications = true;
+  subscription_ = create_subscription(participant, type_support, kTopic, profile, options);
+  wait_set_ = rmw_create_wait_set(&context, 3);
+  stop_ = rmw_create_guard_condition(&context);
+
+  // Signals are for the threads of the application.
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { listen(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+GraphChannel::~GraphChannel() {
+  (void)rmw_trigger_guard_condition(stop_);
+  thread_.join();
+  (void)rmw_destroy_guard_condition(stop_);
+  (void)rmw_destroy_wait_set(wait_set_);
+  destroy_subscription(subscription_);
+  destroy_publisher(publisher_);
+}
+
+void GraphChannel::announce(const GraphCache::EntitiesInfo& info) {
+  if (rmw_publish(publisher_, &info, nullptr) != RMW_RET_OK) {
+    throw_rmw_error();
+  }
+}
+
+void GraphChannel::listen() {
+  UnansweredParticipants& unanswered = participant_.unanswered();
+  GraphCache::EntitiesInfo info;
+  while (true) {
+    void* subscription = subscription_->data;
+    void* conditions[] = {stop_->data, static_cast<Waitable*>(&unanswered.changed())};
+    rmw_subscriptions_t subscriptions{1, &subscription};
+    rmw_guard_conditions_t guard_conditions{2, conditions};
+    const std::optional<rmw_time_t> timeout = time_until(unanswered.next());
+    (void)rmw_wait(&subscriptions, &guard_conditions, nullptr, nullptr, nullptr, wait_set_,
+                   timeout ? &*timeout : nullptr);
+    if (conditions[0] != nullptr) {
+      return;
+    }
+    bool taken = subscription != nullptr;
+    while (taken && rmw_take(subscription_, &info, &taken, nullptr) == RMW_RET_OK) {
+      if (taken) {
+        graph_.update_nodes(info);
+      }
+    }
+    if (unanswered.take_due(std::chrono::steady_clock::now())) {
+      participant_.announce_again();
+    }
+  }
+}
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Creation of publishers and subscriptions without a node: what rmw_create_publisher() and ros_discovery_info share.
+#pragma once
+
+#include <string>
+
+#include "graph/graph_cache.hpp"
+#include "rmw/rmw.h"
+#include "types/gid.hpp"
+
+namespace rmw_fastrtps {
+
+class Participant;
+
+// An endpoint as the graph knows it.
+struct EndpointIdentity {
+  Gid gid;
+  GraphCache::Endpoint names;
+};
+
+// Throw std::runtime_error. They fire rmw_publisher_init and rmw_subscription_init.
+rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message_type_support_t& type_support,
+                                  const std::string& topic_name, const rmw_qos_profile_t& profile,
+                                  const rmw_publisher_options_t& options);
+rmw_subscription_t* create_subscription(Participant& participant, const rosidl_message_type_support_t& type_support,
+                                        const std::string& topic_name, const rmw_qos_profile_t& profile,
+                                        const rmw_subscription_options_t& options);
+
+// The node whose mutex and graph a subscription uses when its reader changes.
+void set_node(const rmw_subscription_t& subscription, const rmw_node_t& node);
+
+void destroy_publisher(rmw_publisher_t* publisher);
+void destroy_subscription(rmw_subscription_t* subscription);
+
+const EndpointIdentity& identity_of(const rmw_publisher_t& publisher);
+const EndpointIdentity& identity_of(const rmw_subscription_t& subscription);
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a subscription is made of, shared by the files about it.
+#pragma once
+
+#include <fastdds/dds/core/LoanableSequence.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <shared_mutex>
+#include <string>
+
+#include "endpoint/endpoint.hpp"
+#include "event/reader_events.hpp"
+#include "rmw/types.h"
+#include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
+
+namespace eprosima::fastdds::dds {
+class ContentFilteredTopic;
+class Topic;
+}  // namespace eprosima::fastdds::dds
+
+namespace rmw_fastrtps {
+
+// A sample that stays in the reader until it is returned.
+struct Loan {
+  eprosima::fastdds::dds::LoanableSequence<unsigned char> samples;  // whatever the type: it gets pointers, no elements
+  eprosima::fastdds::dds::SampleInfoSeq infos;
+};
+
+struct Subscription final : ReaderEvents {
+  [[gnu::hot]] bool is_ready() override {
+    if (const auto known = is_known_to_be_ready()) {
+      return *known;
+    }
+    const std::shared_lock lock(reader_mutex);
+    return ReaderEvents::is_ready();
+  }
+
+  rmw_subscription_t handle{};
+  std::string topic_name;  // of the handle
+  Participant* participant = nullptr;
+  const rmw_node_t* node = nullptr;  // null for one of the context's own
+  const message_type_support_callbacks_t* type = nullptr;
+  eprosima::fastdds::dds::Topic* topic = nullptr;
+  eprosima::fastdds::dds::ContentFilteredTopic* filtered_topic = nullptr;  // null: there is no filter
+  eprosima::fastdds::dds::DataReaderQos reader_qos;
+  EndpointIdentity identity{};
+
+  // Held shared by whoever uses the reader, since a filter that comes or goes makes another one.
+  std::shared_mutex reader_mutex;
+
+  std::mutex loans_mutex;
+  std::map<const void*, std::unique_ptr<Loan>> loans;
+};
+
+// rmw_wait() takes `data` as a Waitable.
+inline Subscription& subscription_of(const rmw_subscription_t& handle) {
+  return *static_cast<Subscription*>(static_cast<Waitable*>(handle.data));
+}
+
+// Makes the reader on the topic, or the filtered topic, and what the graph knows of it. Throws std::runtime_error.
+void create_reader(Subscription& subscription);
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who is there: the participants, nodes and endpoints that discovery has found so far, and those of this process.
+//
+// Endpoints come from DDS discovery, nodes from the topic ros_discovery_info, in which every participant tells the
+// names of its nodes and the endpoints of each. Thread safe.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "event/status_event.hpp"
+#include "rmw/types.h"
+#include "rmw_dds_common/msg/participant_entities_info.hpp"
+#include "types/gid.hpp"
+
+namespace rmw_fastrtps {
+
+class GraphCache {
+ public:
+  using EntitiesInfo = rmw_dds_common::msg::ParticipantEntitiesInfo;
+
+  enum class Kind { kWriter, kReader };
+
+  // Names as DDS has them: `rt/chatter`, `std_msgs::msg::dds_::String_`.
+  struct Endpoint {
+    Kind kind;
+    std::string topic;
+    std::string type;
+    rmw_qos_profile_t qos;
+    // Of an own endpoint, else null: is told of those at the other side of the topic that have another type. Fast DDS
+    // 2.9 says nothing of them.
+    std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>> incompatible_type = nullptr;
+    std::string type_hash = {};  // `RIHS01_…`; empty if it does not tell it
+  };
+
+  // One with its node. Empty names if no node is known to have it.
+  struct OwnedEndpoint {
+    Gid gid;
+    Endpoint endpoint;
+    std::string node_name;
+    std::string node_namespace;
+  };
+
+  // DDS topic names with their DDS type names.
+  using Topics = std::map<std::string, std::set<std::string>>;
+
+  struct Node {
+    std::string name;
+    std::string namespace_;
+    std::string enclave;
+  };
+
+  // `on_change` is called after every change, under no lock.
+  explicit GraphCache(std::function<void()> on_change) : on_change_(std::move(on_change)) {}
+
+  void add_participant(const Gid& gid, std::string enclave);
+  // Also forgets its nodes and endpoints.
+  void remove_participant(const Gid& gid);
+  void add_endpoint(const Gid& gid, Endpoint endpoint);
+  void remove_endpoint(const Gid& gid);
+  // What a participant has told of its nodes; replaces what was known. What comes after its end is ignored: discovery
+  // and the topic don't keep any order between them.
+  void update_nodes(const EntitiesInfo& info);
+
+  // Changes of a participant of this process. Each returns what that participant now has to announce.
+  EntitiesInfo add_node(const Gid& participant, const std::string& namespace_, const std::string& name);
+  EntitiesInfo remove_node(const Gid& participant, const std::string& namespace_, const std::string& name);
+  EntitiesInfo add_node_endpoint(const Gid& participant, const std::string& namespace_, const std::string& name,
+                                 Kind kind, const Gid& endpoint);
+  EntitiesInfo remove_node_endpoint(const Gid& participant, const std::string& namespace_, const std::string& name,
+                                    Kind kind, const Gid& endpoint);
+
+  std::size_t count(Kind kind, std::string_view topic) const;
+  std::vector<Node> nodes() const;
+  Topics topics() const;
+  std::vector<OwnedEndpoint> endpoints(Kind kind, std::string_view topic) const;
+  // The topics that a node writes or reads; of all nodes of that name. Nothing if there is no such node.
+  std::optional<Topics> topics_of_node(const std::string& namespace_, const std::string& name, Kind kind) const;
+
+ private:
+  using NodeInfo = rmw_dds_common::msg::NodeEntitiesInfo;
+
+  struct Participant {
+    std::string enclave;
+    std::vector<NodeInfo> nodes;
+  };
+
+  // Null if no node is known to have it. Under the lock.
+  const NodeInfo* owner_of(const Gid& endpoint, Kind kind) const;
+
+  // Changes the nodes of an own participant under the lock, then tells of the change.
+  template <typename Change>
+  EntitiesInfo change_nodes(const Gid& gid, Change change);
+
+  // Under the lock:
+  std::vector<const Endpoint*> incompatible_with(const Endpoint& endpoint) const;
+  void enter_topic(const Endpoint& endpoint);
+  void leave_topic(const Endpoint& endpoint);
+
+  std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  std::map<Gid, Participant> participants_;
+  std::deque<Gid> gone_;  // the last participants that were removed
+  std::map<Gid, Endpoint> endpoints_;
+  std::unordered_multimap<std::string_view, const Endpoint*> endpoints_by_topic_;  // those of endpoints_
+};
+
+}  // namespace rmw_fastrtps

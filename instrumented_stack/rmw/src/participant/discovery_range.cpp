@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant/discovery_range.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace rmw_fastrtps {
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+// How many participants of one host a unicast announcement reaches.
+constexpr std::uint32_t kLocalParticipants = 32;
+
+rtps::Locator_t peer_locator(const std::string& host) {
+  const auto addresses = rtps::IPLocator::resolveNameDNS(host);
+  if (addresses.first.empty()) {
+    throw std::runtime_error("discovery peer '" + host + "' has no IPv4 address");
+  }
+  rtps::Locator_t locator;
+  rtps::IPLocator::setIPv4(locator, *addresses.first.begin());
+  return locator;
+}
+
+void restrict_to_localhost(fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  // An explicit unicast locator keeps Fast DDS from listening to multicast.
+  builtin.metatrafficMulticastLocatorList.clear();
+  builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
+  builtin.initialPeersList.push_back(peer_locator("127.0.0.1"));
+  if (qos.transport().user_transports.empty()) {
+    // A peer without a port stands for the first participants of the host, by default only four of them.
+    qos.transport().use_builtin_transports = false;
+    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    udp->maxInitialPeersRange = kLocalParticipants;
+    qos.transport().user_transports.push_back(udp);
+    qos.transport().user_transports.push_back(
+        std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>());
+  }
+}
+
+}  // namespace
+
+void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t domain_id,
+                         fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  switch (options.automatic_discovery_range) {
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_OFF:
+      builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
+      return;
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_LOCALHOST:
+      restrict_to_localhost(qos);
+      break;
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_SYSTEM_DEFAULT:
+      return;
+    default:
+      if (options.static_peers_count != 0 && builtin.initialPeersList.empty()) {
+        // Explicit peers replace the multicast group that is otherwise announced to.
+        rtps::Locator_t multicast(qos.wire_protocol().port.getMulticastPort(domain_id));
+        rtps::IPLocator::setIPv4(multicast, "239.255.0.1");
+        builtin.initialPeersList.push_back(multicast);
+      }
+      break;
+  }
+  for (std::size_t i = 0; i < options.static_peers_count; ++i) {
+    builtin.initialPeersList.push_back(peer_locator(options.static_peers[i]));
+  }
+}
+
+}  // namespace rmw_fastrtps

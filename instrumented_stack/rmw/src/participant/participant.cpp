@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant/participant.hpp"
+
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <mutex>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "participant/discovery_range.hpp"
+#include "participant/shared_memory_ports.hpp"
+#include "qos/qos.hpp"
+#include "rcutils/logging.h"
+#include "types/dds_gid.hpp"
+#include "types/message_type.hpp"
+
+namespace rmw_fastrtps {
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+// What ROS 2 tells of an endpoint's type to others, so that they can see whether they mean the same definition. Nothing
+// for a type of which only the name is known.
+std::vector<rtps::octet> type_hash_user_data(const message_type_support_callbacks_t& type) {
+  if (*type.type_hash_ == '\0') {
+    return {};
+  }
+  const std::string text = std::string("typehash=") + type.type_hash_ + ";";
+  return {text.begin(), text.end()};
+}
+
+// The value of `<key>=…;` in the user data that participants and endpoints announce; empty without it.
+std::string value_in(const std::vector<rtps::octet>& user_data, const std::string& key_name) {
+  const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
+  const std::string prefix = key_name + "=";
+  const std::size_t key = text.find(prefix);
+  if (key == std::string_view::npos) {
+    return {};
+  }
+  const std::string_view value = text.substr(key + prefix.size());
+  return std::string(value.substr(0, value.find(';')));
+}
+
+fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_profile) {
+  const char* value = std::getenv("RMW_FASTRTPS_PUBLICATION_MODE");
+  const std::string_view mode = value == nullptr ? "" : value;
+  if (mode == "ASYNCHRONOUS") {
+    return fdds::ASYNCHRONOUS_PUBLISH_MODE;
+  }
+  if (mode == "AUTO") {
+    return in_profile;
+  }
+  if (!mode.empty() && mode != "SYNCHRONOUS") {
+    rcutils_log(
+        nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
+        "RMW_FASTRTPS_PUBLICATION_MODE is '%s', but must be SYNCHRONOUS, ASYNCHRONOUS or AUTO; using SYNCHRONOUS",
+        value);
+  }
+  return fdds::SYNCHRONOUS_PUBLISH_MODE;
+}
+
+// The participants of this process. The lock is held while one of them is created.
+struct Siblings {
+  std::mutex mutex;
+  std::vector<rtps::GuidPrefix_t> prefixes;
+  std::uint16_t created = 0;
+};
+
+Siblings& siblings() {
+  // Never destroyed: a context may outlive the static objects of this library.
+  static auto* siblings = new Siblings;
+  return *siblings;
+}
+
+// Makes a further participant of the process look like one of another process on this host.
+//
+// Fast DDS takes two participants for neighbours in one process when the first eight bytes of their GUIDs are equal
+// (two of the vendor, two of the host, four of the process), and then lets them write into each other's memory. Release
+// 2.9 does so even after the other is gone, until it hears of its end (mended later by its pull request 5034).
+void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, rtps::GuidPrefix_t& prefix) {
+  prefix = first;
+  const auto differ = [&](std::size_t byte) {
+    prefix.value[byte] = static_cast<rtps::octet>(prefix.value[byte] ^ (number >> 8));
+    prefix.value[byte + 1] = static_cast<rtps::octet>(prefix.value[byte + 1] ^ (number & 0xff));
+  };
+  constexpr std::size_t kRandomOfProcess = 6;
+  constexpr std::size_t kParticipant = 8;
+  differ(kRandomOfProcess);
+  differ(kParticipant);
+}
+
+// A participant that others do not see yet. Null on errors.
+fdds::DomainParticipant* create_disabled_participant(std::uint32_t domain_id, const fdds::DomainParticipantQos& qos,
+                                                     fdds::DomainParticipantListener& listener) {
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  fdds::DomainParticipantFactoryQos before;
+  factory->get_qos(before);
+  fdds::DomainParticipantFactoryQos disabled = before;
+  disabled.entity_factory().autoenable_created_entities = false;
+  factory->set_qos(disabled);
+  auto* participant = factory->create_participant(domain_id, qos, &listener, fdds::StatusMask::none());
+  factory->set_qos(before);
+  return participant;
+}
+
+// Null on errors.
+fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::DomainParticipantQos qos,
+                                            bool may_choose_ports, fdds::DomainParticipantListener& listener) {
+  auto* participant = create_disabled_participant(domain_id, qos, listener);
+  if (participant == nullptr) {
+    return nullptr;
+  }
+  if (may_choose_ports) {
+    // Only a participant knows the host's identity.
+    choose_shared_memory_ports(domain_id, participant->guid().guidPrefix, qos);
+    participant->set_qos(qos);
+  }
+  if (participant->enable() != ReturnCode_t::RETCODE_OK) {
+    fdds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+    return nullptr;
+  }
+  return participant;
+}
+
+}  // namespace
+
+class Participant::DiscoveryListener final : public fdds::DomainParticipantListener {
+ public:
+  DiscoveryListener(GraphCache& graph, UnansweredParticipants& unanswered) : graph_(graph), unanswered_(unanswered) {}
+
+  void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
+    const Gid gid = to_gid(info.info.m_guid);
+    if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
+      graph_.add_participant(gid, value_in(info.info.m_userData.data_vec(), "enclave"));
+      unanswered_.discovered(gid, std::chrono::steady_clock::now());
+    } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
+               info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
+      graph_.remove_participant(gid);
+      unanswered_.settled(gid);
+    }
+  }
+
+  void on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
+    const bool removed = info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
+    changed(GraphCache::Kind::kWriter, info.info, removed);
+  }
+
+  void on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
+    const bool removed = info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER;
+    changed(GraphCache::Kind::kReader, info.info, removed);
+  }
+
+ private:
+  template <typename Proxy>
+  void changed(GraphCache::Kind kind, const Proxy& proxy, bool removed) {
+    const Gid gid = to_gid(proxy.guid());
+    unanswered_.settled(gid);
+    if (removed) {
+      graph_.remove_endpoint(gid);
+    } else {
+      graph_.add_endpoint(
+          gid, {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos), nullptr,
+                value_in(proxy.m_qos.m_userData.data_vec(), "typehash")});
+    }
+  }
+
+  GraphCache& graph_;
+  UnansweredParticipants& unanswered_;
+};
+
+Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
+    : listener_(std::make_unique<DiscoveryListener>(graph, unanswered_)) {
+  const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
+  qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
+
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();
+  fdds::DomainParticipantQos qos = factory->get_default_participant_qos();
+  const auto domain_id =
+      options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : static_cast<std::uint32_t>(options.domain_id);
+  // A profile may have chosen others.
+  const bool has_default_transports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
+  configure_discovery(options.discovery_options, domain_id, qos);
+  const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
+  const std::string user_data = "enclave=" + enclave + ";";
+  // With the terminating null, as rmw_fastrtps_cpp sends it.
+  qos.user_data().data_vec(std::vector<rtps::octet>(user_data.c_str(), user_data.c_str() + user_data.size() + 1));
+  qos.name(enclave);
+  if (!qos_from_xml_) {
+    // Announcements of many endpoints outgrow the initial size.
+    qos.wire_protocol().builtin.readerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.wire_protocol().builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  }
+
+  std::lock_guard lock(siblings().mutex);
+  if (!siblings().prefixes.empty()) {
+    be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
+  }
+  participant_ = create_participant(domain_id, qos, has_default_transports, *listener_);
+  if (participant_ == nullptr) {
+    throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
+                             ", see its own messages above");
+  }
+  publisher_ = participant_->create_publisher(participant_->get_default_publisher_qos());
+  subscriber_ = participant_->create_subscriber(participant_->get_default_subscriber_qos());
+  gid_ = to_gid(participant_->guid());
+  graph.add_participant(gid_, enclave);
+  siblings().prefixes.push_back(participant_->guid().guidPrefix);
+}
+
+Participant::~Participant() {
+  {
+    std::lock_guard lock(siblings().mutex);
+    std::erase(siblings().prefixes, participant_->guid().guidPrefix);
+  }
+  // No callback may come while, or after, the participant is taken apart.
+  participant_->set_listener(nullptr);
+  participant_->delete_publisher(publisher_);
+  participant_->delete_subscriber(subscriber_);
+  fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+void Participant::announce_again() {
+  // Fast DDS announces changes at once. With or without the terminating null, the user data say the same.
+  fdds::DomainParticipantQos qos = participant_->get_qos();
+  std::vector<rtps::octet> user_data = qos.user_data().data_vec();
+  if (!user_data.empty() && user_data.back() == '\0') {
+    user_data.pop_back();
+  } else {
+    user_data.push_back('\0');
+  }
+  qos.user_data().data_vec(user_data);
+  participant_->set_qos(qos);
+}
+
+fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
+                                        const message_type_support_callbacks_t& callbacks) {
+  const std::string type_name = dds_type_name(callbacks);
+  if (const auto found = topics_.find(dds_name); found != topics_.end()) {
+    if (found->second.topic->get_type_name() != type_name) {
+      throw std::runtime_error("topic '" + dds_name + "' is in use with type '" + found->second.topic->get_type_name() +
+                               "' and cannot have type '" + type_name + "' as well");
+    }
+    ++found->second.users;
+    return *found->second.topic;
+  }
+  if (participant_->find_type(type_name).empty()) {
+    fdds::TypeSupport type(new MessageType(callbacks));
+    if (type.register_type(participant_) != ReturnCode_t::RETCODE_OK) {
+      throw std::runtime_error("Fast DDS cannot register type '" + type_name + "'");
+    }
+  }
+  fdds::Topic* topic = participant_->create_topic(dds_name, type_name, participant_->get_default_topic_qos());
+  if (topic == nullptr) {
+    throw std::runtime_error("Fast DDS cannot create topic '" + dds_name + "' with type '" + type_name + "'");
+  }
+  topics_.emplace(dds_name, SharedTopic{topic, 1});
+  ++topics_of_type_[type_name];
+  return *topic;
+}
+
+void Participant::release_topic(fdds::Topic& topic) {
+  const auto found = topics_.find(topic.get_name());
+  if (--found->second.users != 0) {
+    return;
+  }
+  const std::string type_name = topic.get_type_name();
+  topics_.erase(found);
+  participant_->delete_topic(&topic);
+  // The library with the type support may be unloaded after the last one. To ask Fast DDS each time, which would refuse
+  // while a topic uses the type, is to have it go through all endpoints.
+  const auto topics = topics_of_type_.find(type_name);
+  if (--topics->second == 0) {
+    topics_of_type_.erase(topics);
+    participant_->unregister_type(type_name);
+  }
+}
+
+fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name,
+                                            const message_type_support_callbacks_t& type) const {
+  fdds::DataWriterQos qos = publisher_->get_default_datawriter_qos();
+  publisher_->get_datawriter_qos_from_profile(topic_name, qos);
+  if (!qos_from_xml_) {
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+    qos.publish_mode().kind = publish_mode(qos.publish_mode().kind);
+  }
+  qos.user_data().data_vec(type_hash_user_data(type));
+  return qos;
+}
+
+fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name,
+                                            const message_type_support_callbacks_t& type) const {
+  fdds::DataReaderQos qos = subscriber_->get_default_datareader_qos();
+  subscriber_->get_datareader_qos_from_profile(topic_name, qos);
+  if (!qos_from_xml_) {
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+  }
+  qos.user_data().data_vec(type_hash_user_data(type));
+  return qos;
+}
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The DDS participant of a context, with its topics, and what discovery tells it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "graph/graph_cache.hpp"
+#include "participant/unanswered_participants.hpp"
+#include "rmw/init_options.h"
+#include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
+#include "types/gid.hpp"
+
+namespace eprosima::fastdds::dds {
+class DataReaderQos;
+class DataWriterQos;
+class DomainParticipant;
+class Publisher;
+class Subscriber;
+class Topic;
+}  // namespace eprosima::fastdds::dds
+
+namespace rmw_fastrtps {
+
+// Constructor and functions throw std::runtime_error. Not thread safe; every endpoint must be deleted before.
+//
+// Environment, as in rmw_fastrtps_cpp: FASTRTPS_DEFAULT_PROFILES_FILE names a file of XML profiles, of which the
+// default ones and those named like a topic apply; with RMW_FASTRTPS_USE_QOS_FROM_XML=1 they also decide about memory,
+// data sharing and publish mode; RMW_FASTRTPS_PUBLICATION_MODE is SYNCHRONOUS (default), ASYNCHRONOUS or AUTO (as in
+// the profile).
+class Participant {
+ public:
+  // Finds go to `graph`, which must outlive the participant.
+  Participant(const rmw_init_options_t& options, GraphCache& graph);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  // Those to whom announce_again() may be news, when it is time for it.
+  UnansweredParticipants& unanswered() { return unanswered_; }
+  // Tells all participants of this one once more. Not from a listener of Fast DDS.
+  void announce_again();
+
+  const Gid& gid() const { return gid_; }
+  eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
+  eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
+
+  // Topics are shared by all endpoints on them. Release as often as acquired.
+  eprosima::fastdds::dds::Topic& acquire_topic(const std::string& dds_name,
+                                               const message_type_support_callbacks_t& callbacks);
+  void release_topic(eprosima::fastdds::dds::Topic& topic);
+
+  // What an endpoint is created with, before the ROS profile is applied.
+  eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name,
+                                                   const message_type_support_callbacks_t& type) const;
+  eprosima::fastdds::dds::DataReaderQos reader_qos(const std::string& topic_name,
+                                                   const message_type_support_callbacks_t& type) const;
+
+ private:
+  class DiscoveryListener;
+
+  struct SharedTopic {
+    eprosima::fastdds::dds::Topic* topic;
+    std::size_t users;
+  };
+
+  UnansweredParticipants unanswered_;
+  std::unique_ptr<DiscoveryListener> listener_;
+  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
+  eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
+  std::map<std::string, SharedTopic> topics_;
+  std::map<std::string, std::size_t> topics_of_type_;
+  Gid gid_{};
+  bool qos_from_xml_ = false;
+};
+
+}  // namespace rmw_fastrtps

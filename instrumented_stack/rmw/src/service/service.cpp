@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Services: the end of a service that takes requests and sends responses.
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "context/context_impl.hpp"
+#include "context/node.hpp"
+#include "rmw/error_handling.h"
+#include "service/service_channel.hpp"
+#include "service/service_clients.hpp"
+#include "tracetools/tracetools.h"
+#include "types/dds_gid.hpp"
+#include "types/identifier.hpp"
+#include "types/message_type.hpp"
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+using rmw_fastrtps::IncomingMessage;
+using rmw_fastrtps::kIdentifier;
+using rmw_fastrtps::OutgoingMessage;
+using rmw_fastrtps::ServiceChannel;
+using rmw_fastrtps::ServiceClients;
+using rmw_fastrtps::Waitable;
+
+namespace {
+
+// How long a response waits for discovery to find the reader of a client whose request is here already.
+constexpr std::chrono::milliseconds kDiscoveryPatience{100};
+
+struct Service final : ServiceChannel {
+  void on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& info) override {
+    if (info.current_count_change < 0) {
+      clients.writer_unmatched(rmw_fastrtps::to_gid(rtps::iHandle2GUID(info.last_publication_handle)));
+    }
+  }
+
+  void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& info) override {
+    const auto client = rmw_fastrtps::to_gid(rtps::iHandle2GUID(info.last_subscription_handle));
+    if (info.current_count_change > 0) {
+      clients.reader_matched(client);
+    } else if (info.current_count_change < 0) {
+      clients.reader_unmatched(client);
+    }
+  }
+
+  rmw_service_t handle{};
+  ServiceClients clients;
+};
+
+// rmw_wait() takes `data` as a Waitable.
+Service& service_of(const rmw_service_t& handle) {
+  return *static_cast<Service*>(static_cast<Waitable*>(handle.data));
+}
+
+}  // namespace
+
+rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_type_support_t* type_support,
+                                  const char* service_name, const rmw_qos_profile_t* qos_policies) try {
+  RMW_CHECK_HANDLE(node, nullptr);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, nullptr);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_name, nullptr);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos_policies, nullptr);
+  std::lock_guard lock(node->context->impl->mutex);
+  auto service = std::make_unique<Service>();
+  service->open(ServiceChannel::End::kService, node, *type_support, service_name, *qos_policies);
+  service->handle = {kIdentifier, static_cast<Waitable*>(service.get()), service->service_name().c_str()};
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, static_cast<const void*>(&service->handle), service->reader_gid().data());
+  return &service.release()->handle;
+} catch (const std::exception& error) {
+  RMW_SET_ERROR_MSG(error.what());
+  return nullptr;
+}
+
+rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service) try {
+  RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  std::lock_guard lock(node->context->impl->mutex);
+  TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, static_cast<const void*>(service));
+  const std::unique_ptr<Service> owned(&service_of(*service));
+  owned->close(node);
+  return RMW_RET_OK;
+} catch (const std::exception& error) {
+  RMW_SET_ERROR_MSG(error.what());
+  return RMW_RET_ERROR;
+}
+
+rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* request_header, void* ros_request,
+                           bool* taken) {
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(request_header, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_request, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);
+  Service& owned = service_of(*service);
+  *taken = false;
+  IncomingMessage incoming{ros_request, nullptr};
+  fdds::SampleInfo sample;
+  // Invalid samples tell of the end of a client, not of a request.
+  while (!*taken && owned.take_next(&incoming, sample)) {
+    *taken = sample.valid_data;
+  }
+  rmw_request_id_t& id = request_header->request_id;
+  if (*taken) {
+    const auto writer = rmw_fastrtps::to_gid(sample.sample_identity.writer_guid());
+    const rtps::GUID_t& reader_guid = sample.related_sample_identity.writer_guid();
+    // A client that names no reader of its own (not one of ROS 2) is known by its writer.
+    const auto client = reader_guid == rtps::GUID_t::unknown() ? writer : rmw_fastrtps::to_gid(reader_guid);
+    std::copy(client.begin(), client.end(), id.writer_guid);
+    id.sequence_number = sample.sample_identity.sequence_number().to64long();
+    request_header->source_timestamp = sample.source_timestamp.to_ns();
+    request_header->received_timestamp = sample.reception_timestamp.to_ns();
+    owned.clients.request_taken(client, writer);
+  }
+  TRACETOOLS_TRACEPOINT(rmw_take_request, static_cast<const void*>(service), ros_request,
+                        reinterpret_cast<const uint8_t*>(id.writer_guid), id.sequence_number, *taken);
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* request_header, void* ros_response) {
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(request_header, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_response, RMW_RET_INVALID_ARGUMENT);
+  Service& owned = service_of(*service);
+  rmw_fastrtps::Gid client;
+  std::copy(std::begin(request_header->writer_guid), std::end(request_header->writer_guid), client.begin());
+  switch (owned.clients.wait_for_reader(client, kDiscoveryPatience)) {
+    case ServiceClients::Presence::kGone:
+      return RMW_RET_OK;
+    case ServiceClients::Presence::kUnmatched:
+      RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the client of service '%s' that a response is for cannot receive it yet",
+                                           service->service_name);
+      return RMW_RET_TIMEOUT;
+    case ServiceClients::Presence::kMatched:
+      break;
+  }
+  rtps::WriteParams params;
+  params.related_sample_identity().writer_guid() = rmw_fastrtps::to_guid(client);
+  params.related_sample_identity().sequence_number() =
+      rtps::SequenceNumber_t(static_cast<uint64_t>(request_header->sequence_number));
+  rmw_time_point_value_t now = 0;
+  (void)rcutils_system_time_now(&now);
+  params.source_timestamp().from_ns(now);
+  TRACETOOLS_TRACEPOINT(rmw_send_response, static_cast<const void*>(service), ros_response, client.data(),
+                        request_header->sequence_number, now);
+  OutgoingMessage outgoing{ros_response, nullptr};
+  if (!owned.writer->write(&outgoing, params)) {
+    RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a response of service '%s' cannot be written", service->service_name);
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_service_request_subscription_get_actual_qos(const rmw_service_t* service, rmw_qos_profile_t* qos) {
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  return service_of(*service).get_reader_qos(qos);
+}
+
+rmw_ret_t rmw_service_response_publisher_get_actual_qos(const rmw_service_t* service, rmw_qos_profile_t* qos) {
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  return service_of(*service).get_writer_qos(qos);
+}
+
+rmw_ret_t rmw_service_set_on_new_request_callback(rmw_service_t* service, rmw_event_callback_t callback,
+                                                  const void* user_data) {
+  RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  service_of(*service).set_on_new_data(callback, user_data);
+  return RMW_RET_OK;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Between the GUID of Fast DDS and ours.
+#pragma once
+
+#include <fastdds/rtps/common/Guid.h>
+
+#include <algorithm>
+
+#include "types/gid.hpp"
+
+namespace rmw_fastrtps {
+
+inline Gid to_gid(const eprosima::fastrtps::rtps::GUID_t& guid) {
+  Gid gid;
+  const auto end = std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value), gid.begin());
+  std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), end);
+  return gid;
+}
+
+inline eprosima::fastrtps::rtps::GUID_t to_guid(const Gid& gid) {
+  eprosima::fastrtps::rtps::GUID_t guid;
+  constexpr auto kPrefixSize = sizeof(guid.guidPrefix.value);
+  std::copy(gid.begin(), gid.begin() + kPrefixSize, std::begin(guid.guidPrefix.value));
+  std::copy(gid.begin() + kPrefixSize, gid.end(), std::begin(guid.entityId.value));
+  return guid;
+}
+
+}  // namespace rmw_fastrtps

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "types/message_type.hpp"
+
+#include <fastcdr/Cdr.h>
+#include <fastcdr/exceptions/Exception.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "rmw/error_handling.h"
+#include "rmw/rmw.h"
+#include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
+
+namespace rmw_fastrtps {
+namespace {
+
+using eprosima::fastcdr::Cdr;
+using eprosima::fastcdr::FastBuffer;
+using eprosima::fastrtps::rtps::SerializedPayload_t;
+
+constexpr std::uint32_t kEncapsulationSize = 4;
+
+// Bytes written with the encapsulation header, 0 if the buffer is too small.
+[[gnu::hot]] std::uint32_t to_cdr(const message_type_support_callbacks_t& callbacks, const void* message, void* buffer,
+                                  std::size_t capacity) {
+  FastBuffer memory(static_cast<char*>(buffer), capacity);
+  Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  try {
+    cdr.serialize_encapsulation();
+  } catch (const eprosima::fastcdr::exception::Exception&) {
+    return 0;
+  }
+  return callbacks.cdr_serialize(message, cdr) ? static_cast<std::uint32_t>(cdr.getSerializedDataLength()) : 0;
+}
+
+[[gnu::hot]] bool from_cdr(const message_type_support_callbacks_t& callbacks, const void* buffer, std::size_t length,
+                           void* message) {
+  // Fast CDR has one buffer type for both directions; reading does not write.
+  FastBuffer memory(static_cast<char*>(const_cast<void*>(buffer)), length);
+  Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  try {
+    cdr.read_encapsulation();
+  } catch (const eprosima::fastcdr::exception::Exception&) {
+    return false;
+  }
+  return callbacks.cdr_deserialize(cdr, message);
+}
+
+bool assign(rmw_serialized_message_t& target, const void* bytes, std::size_t length) {
+  if (target.buffer_capacity < length && rmw_serialized_message_resize(&target, length) != RCUTILS_RET_OK) {
+    return false;
+  }
+  std::memcpy(target.buffer, bytes, length);
+  target.buffer_length = length;
+  return true;
+}
+
+}  // namespace
+
+MessageType::MessageType(const message_type_support_callbacks_t& callbacks) : callbacks_(callbacks) {
+  setName(dds_type_name(callbacks).c_str());
+  char bounds = 0;
+  const std::size_t size = callbacks.max_serialized_size(bounds);
+  is_bounded_ = bounds != ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
+  is_plain_ = bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
+  // Submessages of RTPS are aligned to four bytes; a plain message in memory may end with padding.
+  const std::uint32_t alignment = is_plain_ ? 8 : 4;
+  const std::uint32_t rounded = (static_cast<std::uint32_t>(size) + alignment - 1) / alignment * alignment;
+  m_typeSize = kEncapsulationSize + rounded;
+}
+
+[[gnu::hot]] bool MessageType::serialize(void* data, SerializedPayload_t* payload) {
+  const auto& outgoing = *static_cast<const OutgoingMessage*>(data);
+  payload->encapsulation = CDR_LE;
+  if (outgoing.serialized != nullptr) {
+    if (outgoing.serialized->buffer_length > payload->max_size) {
+      return false;
+    }
+    payload->length = static_cast<std::uint32_t>(outgoing.serialized->buffer_length);
+    std::memcpy(payload->data, outgoing.serialized->buffer, payload->length);
+    return true;
+  }
+  payload->length = to_cdr(callbacks_, outgoing.message, payload->data, payload->max_size);
+  return payload->length != 0;
+}
+
+[[gnu::hot]] bool MessageType::deserialize(SerializedPayload_t* payload, void* data) {
+  const auto& incoming = *static_cast<const IncomingMessage*>(data);
+  if (incoming.serialized != nullptr) {
+    return assign(*incoming.serialized, payload->data, payload->length);
+  }
+  return from_cdr(callbacks_, payload->data, payload->length, incoming.message);
+}
+
+[[gnu::hot]] std::function<uint32_t()> MessageType::getSerializedSizeProvider(void* data) {
+  // Two pointers fit into a std::function without allocation.
+  const auto* outgoing = static_cast<const OutgoingMessage*>(data);
+  return [this, outgoing] {
+    if (outgoing->serialized != nullptr) {
+      return static_cast<uint32_t>(outgoing->serialized->buffer_length);
+    }
+    return is_bounded_ ? m_typeSize : kEncapsulationSize + callbacks_.get_serialized_size(outgoing->message);
+  };
+}
+
+bool is_plain(const message_type_support_callbacks_t& callbacks) {
+  char bounds = 0;
+  (void)callbacks.max_serialized_size(bounds);
+  return bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
+}
+
+std::string dds_type_name(const message_type_support_callbacks_t& callbacks) {
+  return std::string(callbacks.message_namespace_) + "::dds_::" + callbacks.message_name_ + "_";
+}
+
+const message_type_support_callbacks_t& callbacks_of(const rosidl_message_type_support_t* type_support) {
+  const auto* found =
+      get_message_typesupport_handle(type_support, rosidl_typesupport_fastrtps_cpp::typesupport_identifier);
+  if (found == nullptr) {
+    throw std::runtime_error(std::string("the type support is of kind '") + type_support->typesupport_identifier +
+                             "', but must lead to '" + rosidl_typesupport_fastrtps_cpp::typesupport_identifier + "'");
+  }
+  return *static_cast<const message_type_support_callbacks_t*>(found->data);
+}
+
+}  // namespace rmw_fastrtps
+
+rmw_ret_t rmw_serialize(const void* ros_message, const rosidl_message_type_support_t* type_support,
+                        rmw_serialized_message_t* serialized_message) try {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RMW_RET_INVALID_ARGUMENT);
+  const auto& callbacks = rmw_fastrtps::callbacks_of(type_support);
+  const std::size_t size = rmw_fastrtps::kEncapsulationSize + callbacks.get_serialized_size(ros_message);
+  if (serialized_message->buffer_capacity < size &&
+      rmw_serialized_message_resize(serialized_message, size) != RCUTILS_RET_OK) {
+    return RMW_RET_BAD_ALLOC;
+  }
+  serialized_message->buffer_length =
+      rmw_fastrtps::to_cdr(callbacks, ros_message, serialized_message->buffer, serialized_message->buffer_capacity);
+  if (serialized_message->buffer_length == 0) {
+    RMW_SET_ERROR_MSG("the message cannot be serialized");
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+} catch (const std::exception& error) {
+  RMW_SET_ERROR_MSG(error.what());
+  return RMW_RET_ERROR;
+}
+
+rmw_ret_t rmw_deserialize(const rmw_serialized_message_t* serialized_message,
+                          const rosidl_message_type_support_t* type_support, void* ros_message) try {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RMW_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
+  if (!rmw_fastrtps::from_cdr(rmw_fastrtps::callbacks_of(type_support), serialized_message->buffer,
+                              serialized_message->buffer_length, ros_message)) {
+    RMW_SET_ERROR_MSG("the bytes are no serialized message of this type");
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+} catch (const std::exception& error) {
+  RMW_SET_ERROR_MSG(error.what());
+  return RMW_RET_ERROR;
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A DDS DataReader that rmw_wait() can wait for.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <fastdds/dds/core/LoanableCollection.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <optional>
+
+#include "wait/ready_callback.hpp"
+#include "wait/waitable.hpp"
+
+namespace rmw_fastrtps {
+
+// The listener of `reader`, for data_available at least.
+class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, public Waitable {
+ public:
+  [[gnu::hot]] void on_data_available(eprosima::fastdds::dds::DataReader* from) override {
+    arrivals_.fetch_add(1, std::memory_order_release);
+    notify();
+    if (on_new_data_.is_set()) {
+      on_new_data_.tell_available(from->get_unread_count());
+    }
+  }
+
+  // `callback` is told of samples that come, and of those that wait. Null: of none.
+  void set_on_new_data(rmw_event_callback_t callback, const void* user_data) {
+    on_new_data_.set(callback, user_data);
+    if (callback != nullptr) {
+      on_new_data_.tell_available(reader->get_unread_count());
+    }
+  }
+
+  // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap, and not for the
+  // first sample after the reader was empty, which is on its way to a callback: at worst somebody looks once in vain.
+  bool is_ready() override {
+    const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
+    if (const auto known = is_known_to_be_ready(arrivals)) {
+      return *known;
+    }
+    eprosima::fastdds::dds::SampleInfo info;
+    if (reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK) {
+      return true;
+    }
+    settle(arrivals);
+    return false;
+  }
+
+  // Takes the next sample; false when there is none to take. The reader is then not ready until something arrives: it
+  // may hold a sample all the same, one behind another that is missing, which arrives once more when its writer has
+  // resent or given up the other.
+  bool take_next(void* data, eprosima::fastdds::dds::SampleInfo& info) {
+    return take([&] { return reader->take_next_sample(data, &info); });
+  }
+  // The same for a sample that stays where the reader has it.
+  bool take_next_loan(eprosima::fastdds::dds::LoanableCollection& samples,
+                      eprosima::fastdds::dds::SampleInfoSeq& infos) {
+    return take([&] { return reader->take(samples, infos, 1); });
+  }
+
+  eprosima::fastdds::dds::DataReader* reader = nullptr;
+
+ protected:
+  // What is known without asking the reader.
+  std::optional<bool> is_known_to_be_ready() const {
+    return is_known_to_be_ready(arrivals_.load(std::memory_order_acquire));
+  }
+
+ private:
+  std::optional<bool> is_known_to_be_ready(std::uint64_t arrivals) const {
+    if (settled_.load(std::memory_order_acquire) == arrivals) {
+      return false;
+    }
+    if (!is_taken_from_.load(std::memory_order_acquire)) {
+      return true;
+    }
+    return std::nullopt;
+  }
+
+  template <typename TakeT>
+  bool take(TakeT take_from_reader) {
+    on_new_data_.about_to_take();
+    const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
+    const ReturnCode_t result = take_from_reader();
+    if (result == ReturnCode_t::RETCODE_NO_DATA) {
+      settle(arrivals);
+    } else {
+      is_taken_from_.store(true, std::memory_order_release);
+    }
+    return result == ReturnCode_t::RETCODE_OK;
+  }
+
+  // Nothing can be taken of what had arrived.
+  void settle(std::uint64_t arrivals) {
+    settled_.store(arrivals, std::memory_order_release);
+    is_taken_from_.store(false, std::memory_order_release);
+  }
+
+  std::atomic<std::uint64_t> arrivals_{0};
+  std::atomic<std::uint64_t> settled_{0};   // arrivals that are known to have left nothing to take
+  std::atomic<bool> is_taken_from_{false};  // since it was settled
+  ReadyCallback on_new_data_;
+};
+
+}  // namespace rmw_fastrtps
