@@ -9,6 +9,8 @@
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/session/event_classes.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/tracer.hpp"
 
 namespace launch {
 

@@ -8,7 +8,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "tracing/session/event_rule.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace launch {
 

@@ -9,6 +9,7 @@
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/run_scope.hpp"
 #include "tracing/session/overhead_guard.hpp"
+#include "tracing/session/trace_config.hpp"
 
 namespace launch {
 

@@ -8,8 +8,10 @@
 
 #include "actions/trace_scope.hpp"
 #include "tracing/session/buffer_estimate.hpp"
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/preload.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/trace_config.hpp"
 
 namespace launch {
 

@@ -13,7 +13,11 @@
 #include "launcher/base/diagnostic.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/loss_account.hpp"
+#include "tracing/session/loss_text.hpp"
 #include "tracing/session/preload.hpp"
+#include "tracing/session/session_step.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace launch {
 

@@ -13,7 +13,9 @@
 #include "tracing/session/event_counters.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
+#include "tracing/session/loss_account.hpp"
 #include "tracing/session/overhead_guard.hpp"
+#include "tracing/session/trace_config.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which channels a trace has, how large their buffers are, and what is recorded into each.
+// A channel of a trace: how large its buffers are and what is recorded into it.
 #pragma once
 
 #include <lttng/domain.h>
@@ -33,16 +33,5 @@ struct ChannelPlan {
   std::uint64_t tracefile_size = 0;   // bytes
   std::uint64_t tracefile_count = 0;
 };
-
-// The channels into which `config` records something: `ros2` and `kchan`, with `init_channel` also `ros2_init`, and
-// those of `config.channels`. What occurs twice is taken once, and a default event that a channel of `config.channels`
-// takes is taken there only. Warnings (a sub-buffer size that had to be rounded up) are appended. Throws TraceError for
-// what can't be had: a context field, an event rule, or attributes that exclude each other.
-std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
-
-// Makes the userspace sub-buffers of `plans` smaller, with a warning, until those of one user fit into `free` bytes of
-// shared memory. Throws TraceError when the smallest don't.
-void fit_into_shared_memory(std::vector<ChannelPlan>& plans, std::uint64_t free, std::uint64_t processors,
-                            std::vector<std::string>& warnings);
 
 }  // namespace tracing

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "tracing/session/context_fields.hpp"
+#include "tracing/session/event_rule.hpp"
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

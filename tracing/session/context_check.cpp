@@ -12,7 +12,8 @@
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/packet_index.hpp"
-#include "tracing/session/setup_checks.hpp"
+#include "tracing/session/perf_check.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

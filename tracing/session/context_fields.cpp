@@ -10,7 +10,7 @@
 
 #include "tracing/session/nearest_name.hpp"
 #include "tracing/session/perf_counters.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "tracing/session/event_rule.hpp"
 #include "tracing/session/trace_config.hpp"
 
 namespace tracing {

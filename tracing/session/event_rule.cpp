@@ -9,7 +9,7 @@
 #include <array>
 
 #include "tracing/session/trace_config.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "tracing/session/event_rule.hpp"
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

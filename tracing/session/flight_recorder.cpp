@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "tracing/session/snapshot.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 #include "tracing/session/verdict.hpp"
 
 namespace tracing {

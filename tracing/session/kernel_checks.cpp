@@ -12,9 +12,10 @@
 #include <memory>
 
 #include "tracing/session/channels.hpp"
+#include "tracing/session/event_rule.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/nearest_name.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

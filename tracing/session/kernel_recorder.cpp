@@ -20,6 +20,10 @@
 #include <set>
 #include <string_view>
 
+#include "tracing/session/event_rule.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/trace_error.hpp"
+
 namespace tracing {
 namespace {
 

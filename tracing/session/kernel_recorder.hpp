@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tracing/session/channel_plan.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/loss_account.hpp"
 
 namespace tracing {
 

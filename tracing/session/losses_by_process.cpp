@@ -6,10 +6,14 @@
 #include <filesystem>
 #include <optional>
 
+#include "tracing/session/event_cuts.hpp"
 #include "tracing/session/installed_program.hpp"
 #include "tracing/session/loss_account.hpp"
-#include "tracing/session/overhead_guard.hpp"
+#include "tracing/session/loss_attribution.hpp"
 #include "tracing/session/packet_index.hpp"
+#include "tracing/session/recorded_events.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "tracing/session/event_counters.hpp"
-#include "tracing/session/process_account.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/recorded_events.hpp"
+#include "tracing/session/trace_config.hpp"
 
 namespace tracing {
 

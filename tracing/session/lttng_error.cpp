@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 
+#include "tracing/session/trace_error.hpp"
+
 namespace tracing {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 

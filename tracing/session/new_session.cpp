@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

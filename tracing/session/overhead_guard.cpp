@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 
 #include "tracing/session/channels.hpp"
 #include "tracing/session/event_counters.hpp"
+#include "tracing/session/plan_channels.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {
@@ -55,10 +54,6 @@ bool is_worth_a_cut(const DroppableClass& drop, const Counts& came) {
     const auto found = came.find(rule.event);
     return found != came.end() && found->second != 0;
   });
-}
-
-std::filesystem::path cuts_file(const TraceConfig& config) {
-  return std::filesystem::path(config.event_counters) / ("cuts." + config.lttng_session_name());
 }
 
 }  // namespace
@@ -132,27 +127,6 @@ void OverheadGuard::cut(const DroppableClass& drop, std::uint64_t rate) {
   if (made.events.empty()) return;  // somebody else has ended the session, or switched them off
   note_cut(config_, made);
   told_(made);
-}
-
-void note_cut(const TraceConfig& config, const EventCut& cut) {
-  const nlohmann::json line = {
-      {"class", cut.event_class}, {"events", cut.events}, {"time", cut.time}, {"rate", cut.rate}, {"share", cut.share}};
-  std::ofstream(cuts_file(config), std::ios::app) << line.dump() << '\n';
-}
-
-std::vector<EventCut> read_cuts(const TraceConfig& config) {
-  std::vector<EventCut> cuts;
-  std::ifstream file(cuts_file(config));
-  for (std::string line; std::getline(file, line);) {
-    const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object()) continue;  // of a launcher that was killed while it wrote
-    cuts.push_back({.event_class = json.value("class", ""),
-                    .events = json.value("events", std::vector<std::string>()),
-                    .time = json.value("time", std::int64_t{0}),
-                    .rate = json.value("rate", std::uint64_t{0}),
-                    .share = json.value("share", 0.0)});
-  }
-  return cuts;
 }
 
 }  // namespace tracing

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "tracing/session/event_classes.hpp"
+#include "tracing/session/event_cuts.hpp"
 #include "tracing/session/trace_config.hpp"
-#include "tracing/session/tracer.hpp"
 
 namespace tracing {
 
@@ -42,9 +42,5 @@ class OverheadGuard {
 
 // Whether `rate` events a second cost more than `config` allows.
 bool is_over_budget(const TraceConfig& config, double ns_per_event, std::uint64_t rate);
-
-// The cuts of a session stand in a file beside the counters, so that whoever ends the session knows of them.
-void note_cut(const TraceConfig& config, const EventCut& cut);
-std::vector<EventCut> read_cuts(const TraceConfig& config);
 
 }  // namespace tracing

@@ -2,13 +2,9 @@
 #include "tracing/session/perf_counters.hpp"
 
 #include <linux/perf_event.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <string_view>
 
 namespace tracing {
@@ -100,19 +96,6 @@ std::optional<PerfCounter> find_perf_counter(const std::string& name) {
     if (counter.name == name) return PerfCounter{name, counter.type, counter.config};
   }
   return find_cache_counter(name);
-}
-
-std::string why_not_countable(const PerfCounter& counter) {
-  perf_event_attr attributes{};
-  attributes.size = sizeof attributes;
-  attributes.type = counter.type;
-  attributes.config = counter.config;
-  attributes.disabled = 1;
-  attributes.exclude_kernel = 1;  // as LTTng-UST does where it must
-  const long fd = syscall(SYS_perf_event_open, &attributes, 0, -1, -1, PERF_FLAG_FD_CLOEXEC);
-  if (fd < 0) return std::strerror(errno);
-  close(static_cast<int>(fd));
-  return {};
 }
 
 }  // namespace tracing

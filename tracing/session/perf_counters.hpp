@@ -17,7 +17,4 @@ struct PerfCounter {
 // "cycles", "L1-dcache-load-misses", "raw:r1C7:NAME". Nothing when there is no such counter.
 std::optional<PerfCounter> find_perf_counter(const std::string& name);
 
-// Why this process cannot count it (no such hardware counter, no permission), or "" when it can.
-std::string why_not_countable(const PerfCounter& counter);
-
 }  // namespace tracing

@@ -21,6 +21,8 @@
 #include <string_view>
 #include <thread>
 
+#include "tracing/session/trace_error.hpp"
+
 namespace tracing {
 namespace {
 

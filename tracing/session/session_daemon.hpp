@@ -6,15 +6,7 @@
 
 #include <string>
 
-#include "tracing/session/tracer.hpp"
-
 namespace tracing {
-
-// `lttng-sessiond` is not installed: no trace is possible on this machine.
-class SessionDaemonMissing : public TraceError {
- public:
-  using TraceError::TraceError;
-};
 
 // Makes sure that a session daemon answers and that it lives in the same container as we do. Starts one when there is
 // none; that one survives this process and holds none of its files open. Returns whether it was started. Blocks until

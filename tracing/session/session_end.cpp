@@ -5,12 +5,13 @@
 #include <lttng/lttng.h>
 
 #include <algorithm>
+#include <chrono>
 #include <thread>
-#include <utility>
 
-#include "tracing/session/loss_account.hpp"
+#include "tracing/session/loss_counters.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_listing.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {
@@ -42,18 +43,6 @@ void stop(const std::string& name) {
 }
 
 }  // namespace
-
-void StepTimer::finished(std::string name) {
-  const auto now = steady_clock::now();
-  steps_.push_back({std::move(name), now - std::exchange(begin_, now)});
-}
-
-std::optional<SessionSummary> find_session(const std::string& name) {
-  for (SessionSummary& session : list_sessions()) {
-    if (session.name == name) return std::move(session);
-  }
-  return std::nullopt;
-}
 
 LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up, StepTimer& timer) {
   try {

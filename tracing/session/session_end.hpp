@@ -2,29 +2,13 @@
 // The end of a session: stopped, written to the last byte, destroyed.
 #pragma once
 
-#include <chrono>
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/step_timer.hpp"
 
 namespace tracing {
-
-// Takes the time of the steps of a set-up or an end, from its making on.
-class StepTimer {
- public:
-  explicit StepTimer(std::vector<SessionStep>& steps) : steps_(steps) {}
-  void finished(std::string name);
-
- private:
-  std::vector<SessionStep>& steps_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
-// Throws TraceError.
-std::optional<SessionSummary> find_session(const std::string& lttng_session_name);
 
 // Stops the session and reads its losses once they are final, or as they are when give_up says so. A session that fails
 // in this can't be used any more and is destroyed. Throws TraceError.

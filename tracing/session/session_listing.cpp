@@ -12,12 +12,14 @@
 #include <memory>
 #include <set>
 
+#include "tracing/session/channel_plan.hpp"
 #include "tracing/session/channels.hpp"
 #include "tracing/session/context_fields.hpp"
 #include "tracing/session/kernel_checks.hpp"
-#include "tracing/session/loss_account.hpp"
+#include "tracing/session/loss_counters.hpp"
 #include "tracing/session/lttng_error.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {
@@ -86,16 +88,6 @@ std::vector<TraceableEvent> userspace_events() {
   return traceable;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-std::string counted(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::vector<SessionSummary> list_sessions() {
@@ -116,11 +108,16 @@ std::vector<SessionSummary> list_sessions() {
   return summaries;
 }
 
+std::optional<SessionSummary> find_session(const std::string& name) {
+  for (SessionSummary& session : list_sessions()) {
+    if (session.name == name) return std::move(session);
+  }
+  return std::nullopt;
+}
+
 SessionDetails describe_session(const std::string& name) {
-  const std::vector<SessionSummary> sessions = list_sessions();
-  const auto found = std::find_if(sessions.begin(), sessions.end(),
-                                  [&](const SessionSummary& session) { return session.name == name; });
-  if (found == sessions.end()) {
+  const std::optional<SessionSummary> found = find_session(name);
+  if (!found) {
     throw TraceError(fmt::format("there is no trace session '{}'", name),
                      "`launch trace list` shows the sessions that exist");
   }
@@ -150,56 +147,6 @@ TraceableEvents list_traceable_events() {
   events.context_fields_ust = context_field_names(LTTNG_DOMAIN_UST);
   events.context_fields_kernel = context_field_names(LTTNG_DOMAIN_KERNEL);
   return events;
-}
-
-std::string sessions_as_text(const std::vector<SessionSummary>& sessions) {
-  if (sessions.empty()) return "no trace sessions\n";
-  std::string text;
-  for (const SessionSummary& session : sessions) {
-    text += fmt::format("{} ({}{}){}{}\n", session.name, session.active ? "recording" : "paused",
-                        session.snapshot ? ", snapshot" : "", session.path.empty() ? "" : " ", session.path);
-  }
-  return text;
-}
-
-std::string session_as_text(const SessionDetails& session) {
-  std::string text = sessions_as_text({session.summary});
-  for (const ChannelDetails& channel : session.channels) {
-    text += fmt::format("  {} channel {}: {} of {} bytes per {}, {} when full\n", channel.domain, channel.name,
-                        counted(channel.subbuffer_count, "sub-buffer"), channel.subbuffer_size, "processor",
-                        channel.overwrite ? "overwrites the oldest events" : "drops the newest events");
-    text += fmt::format("    {}: {}\n", counted(channel.events.size(), "event rule"), joined(channel.events));
-  }
-  return text + fmt::format("  {}\n", describe_losses(session.losses));
-}
-
-std::string events_as_text(const TraceableEvents& events) {
-  std::string text;
-  if (events.started_daemon) {
-    text +=
-        "the session daemon was not running and has been started: programs that run already tell it of their events "
-        "within a moment\n";
-  }
-  if (events.userspace.empty()) {
-    text +=
-        "userspace: no running program has registered events; rules for events to come can be enabled all the same\n";
-  } else {
-    text += fmt::format("userspace: {} of running programs\n", counted(events.userspace.size(), "event"));
-    for (const TraceableEvent& event : events.userspace) {
-      text += fmt::format("  {} ({})\n", event.name, joined(event.processes));
-    }
-  }
-  if (!events.why_no_kernel.empty()) {
-    text += fmt::format("kernel: {}\n  {}\n", events.why_no_kernel, events.kernel_remedy);
-  } else {
-    text += fmt::format("kernel: {}, {}\n", counted(events.kernel.size(), "event"),
-                        counted(events.syscalls, "system call"));
-    for (const std::string& name : events.kernel) text += fmt::format("  {}\n", name);
-  }
-  text += fmt::format("context fields of userspace events: {}, perf:thread:COUNTER, $app.PROVIDER:TYPE\n",
-                      joined(events.context_fields_ust));
-  text += fmt::format("context fields of kernel events: {}, perf:cpu:COUNTER\n", joined(events.context_fields_kernel));
-  return text;
 }
 
 }  // namespace tracing

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "tracing/session/lttng_error.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

@@ -10,10 +10,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <string_view>
 
-#include "tracing/session/perf_counters.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {
@@ -88,23 +86,6 @@ std::uint64_t free_shared_memory() {
         "mount a tmpfs there that all users can write to; containers have one unless it was taken away");
   }
   return std::uint64_t{usage.f_bavail} * usage.f_frsize;
-}
-
-std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust) {
-  constexpr std::string_view kPrefix = "perf:thread:";
-  std::vector<std::string> warnings;
-  for (const std::string& name : context_fields_ust) {
-    if (!name.starts_with(kPrefix)) continue;
-    const auto counter = find_perf_counter(name.substr(kPrefix.size()));
-    if (!counter) continue;
-    if (const std::string reason = why_not_countable(*counter); !reason.empty()) {
-      warnings.push_back(
-          fmt::format("context field '{}' cannot be counted here ({}): LTTng will record no events; leave it "
-                      "out, or see whether /proc/sys/kernel/perf_event_paranoid forbids it",
-                      name, reason));
-    }
-  }
-  return warnings;
 }
 
 }  // namespace tracing

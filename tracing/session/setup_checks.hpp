@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "tracing/session/trace_config.hpp"
 
@@ -18,8 +17,5 @@ void check_writable(const std::string& base_path);
 
 // Bytes that the buffers of userspace channels can take: the free space of /dev/shm. Throws when it can't be written.
 std::uint64_t free_shared_memory();
-
-// One for each thread counter that cannot be counted here: LTTng would record no event at all then, without an error.
-std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust);
 
 }  // namespace tracing

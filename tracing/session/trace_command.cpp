@@ -9,12 +9,16 @@
 #include <cstdio>
 #include <optional>
 
+#include "tracing/session/cost_measurement.hpp"
 #include "tracing/session/enter_or_signal.hpp"
 #include "tracing/session/event_cost.hpp"
 #include "tracing/session/event_counters.hpp"
 #include "tracing/session/loss_account.hpp"
-#include "tracing/session/session_daemon.hpp"
-#include "tracing/session/session_listing.hpp"
+#include "tracing/session/loss_text.hpp"
+#include "tracing/session/session_details.hpp"
+#include "tracing/session/session_text.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 #include "tracing/session/trace_options.hpp"
 
 namespace tracing {

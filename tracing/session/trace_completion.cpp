@@ -9,9 +9,12 @@
 
 #include "tracing/session/context_fields.hpp"
 #include "tracing/session/kernel_checks.hpp"
+#include "tracing/session/session_details.hpp"
 #include "tracing/session/session_listing.hpp"
 #include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 #include "tracing/session/trace_options.hpp"
+#include "tracing/session/traceable_events.hpp"
 
 namespace tracing {
 namespace {

@@ -13,6 +13,8 @@
 #include <cstring>
 #include <limits>
 
+#include "tracing/session/loss_account.hpp"
+
 namespace tracing {
 namespace {
 

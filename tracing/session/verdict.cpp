@@ -12,6 +12,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "tracing/session/event_cost.hpp"
+#include "tracing/session/event_cuts.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/process_account.hpp"
+#include "tracing/session/trace_error.hpp"
+
 namespace tracing {
 namespace {
 

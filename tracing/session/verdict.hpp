@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tracing/session/loss_account.hpp"
 #include "tracing/session/packet_index.hpp"
-#include "tracing/session/tracer.hpp"
 
 namespace tracing {
 

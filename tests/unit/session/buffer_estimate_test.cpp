@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tracing/session/trace_config.hpp"
+
 namespace {
 
 using tracing::buffer_warning;

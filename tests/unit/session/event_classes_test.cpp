@@ -6,6 +6,11 @@
 
 #include <set>
 
+#include "tracing/session/channel_plan.hpp"
+#include "tracing/session/event_rule.hpp"
+#include "tracing/session/plan_channels.hpp"
+#include "tracing/session/trace_config.hpp"
+
 namespace {
 
 using testing::ElementsAre;

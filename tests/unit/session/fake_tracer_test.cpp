@@ -7,6 +7,9 @@
 #include <atomic>
 #include <thread>
 
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
+
 namespace {
 
 using testing::ElementsAre;

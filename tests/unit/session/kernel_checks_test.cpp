@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/session/trace_error_text.hpp"
+#include "tracing/session/channel_plan.hpp"
 
 namespace {
 

@@ -4,7 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include "tracing/session/event_counters.hpp"
 #include "tracing/session/loss_account.hpp"
+#include "tracing/session/loss_attribution.hpp"
+#include "tracing/session/loss_text.hpp"
+#include "tracing/session/packet_index.hpp"
+#include "tracing/session/recorded_events.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace {
 

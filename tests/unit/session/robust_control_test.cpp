@@ -18,7 +18,10 @@
 #include "tests/unit/session/listed_session.hpp"
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/session/context_check.hpp"
+#include "tracing/session/loss_account.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace {

@@ -13,6 +13,8 @@
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace {
 

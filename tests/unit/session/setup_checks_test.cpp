@@ -12,10 +12,14 @@
 
 #include "tests/support/command.hpp"
 #include "tests/unit/session/trace_error_text.hpp"
-#include "tracing/session/channels.hpp"
+#include "tracing/session/channel_plan.hpp"
 #include "tracing/session/context_fields.hpp"
+#include "tracing/session/perf_check.hpp"
 #include "tracing/session/perf_counters.hpp"
+#include "tracing/session/plan_channels.hpp"
 #include "tracing/session/session_daemon.hpp"
+#include "tracing/session/shared_memory_fit.hpp"
+#include "tracing/session/trace_config.hpp"
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "tracing/session/fake/fake_tracer.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace {
 

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 
+#include "tracing/session/trace_config.hpp"
+
 namespace {
 
 using testing::ElementsAre;

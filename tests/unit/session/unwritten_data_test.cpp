@@ -6,6 +6,8 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/packet_index.hpp"
 
 namespace {
 

@@ -12,6 +12,9 @@
 #include "tests/support/sandbox.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
 #include "tracing/session/loss_account.hpp"
+#include "tracing/session/loss_text.hpp"
+#include "tracing/session/packet_index.hpp"
+#include "tracing/session/trace_error.hpp"
 
 namespace {
 

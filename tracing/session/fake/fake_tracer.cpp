@@ -3,6 +3,11 @@
 
 #include <algorithm>
 
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/session_details.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/traceable_events.hpp"
+
 namespace tracing {
 namespace {
 

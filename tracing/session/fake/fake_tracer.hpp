@@ -8,6 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "tracing/session/loss_account.hpp"
+#include "tracing/session/session_details.hpp"
+#include "tracing/session/trace_config.hpp"
+#include "tracing/session/trace_error.hpp"
+#include "tracing/session/traceable_events.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace tracing {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which events a session records, as the session daemon knows it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+// What the userspace channels of a session record.
+struct RecordedEvents {
+  struct Rule {
+    std::string channel;
+    std::string pattern;
+    std::vector<std::string> exclusions = {};
+    bool conditional = false;  // a filter or a log level decides
+
+    bool takes(const std::string& event) const;
+  };
+  std::vector<Rule> rules;
+
+  // In how many channels the event is recorded, each time that it is fired.
+  std::size_t times(const std::string& event) const;
+  // A process counts an event whether a filter takes it or not: nothing is known of losses among those that have one.
+  bool countable(const std::string& event) const;
+};
+
+// What the userspace channels of the session record. Throws TraceError.
+RecordedEvents read_recorded_events(const std::string& lttng_session_name);
+
+}  // namespace tracing
