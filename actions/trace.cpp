@@ -8,8 +8,8 @@
 #include "actions/trace_scope.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
-#include "tracing/session/event_classes.hpp"
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/event_classes.hpp"
+#include "tracing/plan/trace_config.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {

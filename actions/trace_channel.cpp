@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "launcher/base/diagnostic.hpp"
-#include "tracing/session/event_rule.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/plan/event_rule.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace launch {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "launcher/language/fields.hpp"
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace launch {
 

@@ -10,12 +10,12 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/visit/launch_context.hpp"
+#include "tracing/account/cost_measurement.hpp"
+#include "tracing/account/event_cuts.hpp"
 #include "tracing/launch_provider/launch_provider.h"
-#include "tracing/session/cost_measurement.hpp"
-#include "tracing/session/event_classes.hpp"
-#include "tracing/session/event_cuts.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/plan/event_classes.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace launch {
 

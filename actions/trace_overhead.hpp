@@ -8,8 +8,8 @@
 
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/run_scope.hpp"
-#include "tracing/session/overhead_guard.hpp"
-#include "tracing/session/trace_config.hpp"
+#include "tracing/account/overhead_guard.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace launch {
 

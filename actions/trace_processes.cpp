@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "actions/trace_scope.hpp"
-#include "tracing/session/buffer_estimate.hpp"
-#include "tracing/session/event_counters.hpp"
-#include "tracing/session/preload.hpp"
-#include "tracing/session/session_daemon.hpp"
-#include "tracing/session/trace_config.hpp"
+#include "tracing/account/event_counters.hpp"
+#include "tracing/lttng/session_daemon.hpp"
+#include "tracing/plan/buffer_estimate.hpp"
+#include "tracing/plan/preload.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace launch {
 

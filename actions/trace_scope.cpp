@@ -11,13 +11,13 @@
 
 #include "actions/trace_overhead.hpp"
 #include "launcher/base/diagnostic.hpp"
-#include "tracing/session/installed_program.hpp"
-#include "tracing/session/loss_account.hpp"
-#include "tracing/session/loss_text.hpp"
-#include "tracing/session/preload.hpp"
-#include "tracing/session/session_step.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/loss_text.hpp"
+#include "tracing/account/session_step.hpp"
+#include "tracing/lttng/installed_program.hpp"
+#include "tracing/plan/preload.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace launch {
 

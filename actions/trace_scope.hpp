@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "launcher/visit/run_scope.hpp"
-#include "tracing/session/event_counters.hpp"
+#include "tracing/account/event_counters.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/overhead_guard.hpp"
+#include "tracing/plan/trace_config.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
-#include "tracing/session/loss_account.hpp"
-#include "tracing/session/overhead_guard.hpp"
-#include "tracing/session/trace_config.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {

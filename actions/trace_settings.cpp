@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "actions/trace_scope.hpp"
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace launch {
 

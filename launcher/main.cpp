@@ -15,8 +15,8 @@
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "launcher/cli/schema_command.hpp"
-#include "tracing/session/trace_command.hpp"
-#include "tracing/session/trace_completion.hpp"
+#include "tracing/command/trace_command.hpp"
+#include "tracing/command/trace_completion.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "tracing/session/event_rule.hpp"
-#include "tracing/session/lttng_error.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/plan/event_rule.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "tracing/session/event_rule.hpp"
+#include "tracing/plan/event_rule.hpp"
 
 struct lttng_notification_channel;
 struct lttng_trigger;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "tracing/account/verdict.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/snapshot.hpp"
-#include "tracing/session/trace_error.hpp"
-#include "tracing/session/verdict.hpp"
 
 namespace tracing {
 namespace {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace tracing {
 

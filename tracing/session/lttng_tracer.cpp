@@ -10,38 +10,38 @@
 #include <optional>
 #include <utility>
 
-#include "tracing/session/channel_plan.hpp"
-#include "tracing/session/channels.hpp"
-#include "tracing/session/consumer_priority.hpp"
-#include "tracing/session/context_check.hpp"
-#include "tracing/session/cost_measurement.hpp"
+#include "tracing/account/cost_measurement.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/losses_by_process.hpp"
+#include "tracing/account/packet_index.hpp"
+#include "tracing/account/session_step.hpp"
+#include "tracing/account/unwritten_data.hpp"
+#include "tracing/account/verdict.hpp"
+#include "tracing/checks/context_check.hpp"
+#include "tracing/checks/kernel_checks.hpp"
+#include "tracing/checks/setup_checks.hpp"
+#include "tracing/checks/unreachable_processes.hpp"
+#include "tracing/kernel/kernel_recorder.hpp"
+#include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/consumer_priority.hpp"
+#include "tracing/lttng/installed_program.hpp"
+#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/session_daemon.hpp"
+#include "tracing/plan/channel_plan.hpp"
+#include "tracing/plan/plan_channels.hpp"
+#include "tracing/plan/shared_memory_fit.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/event_watch.hpp"
-#include "tracing/session/installed_program.hpp"
-#include "tracing/session/kernel_checks.hpp"
-#include "tracing/session/kernel_recorder.hpp"
-#include "tracing/session/loss_account.hpp"
-#include "tracing/session/losses_by_process.hpp"
-#include "tracing/session/lttng_error.hpp"
 #include "tracing/session/new_session.hpp"
-#include "tracing/session/packet_index.hpp"
-#include "tracing/session/plan_channels.hpp"
-#include "tracing/session/session_daemon.hpp"
 #include "tracing/session/session_details.hpp"
 #include "tracing/session/session_end.hpp"
 #include "tracing/session/session_listing.hpp"
-#include "tracing/session/session_step.hpp"
 #include "tracing/session/session_store.hpp"
-#include "tracing/session/setup_checks.hpp"
-#include "tracing/session/shared_memory_fit.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/step_timer.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
 #include "tracing/session/traceable_events.hpp"
 #include "tracing/session/tracer.hpp"
-#include "tracing/session/unreachable_processes.hpp"
-#include "tracing/session/unwritten_data.hpp"
-#include "tracing/session/verdict.hpp"
 
 namespace tracing {
 namespace {
@@ -190,11 +190,11 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   LossAccount losses = stop_and_account(name, give_up, timer);
   LossesByProcess by_process(config, losses);
   timer.finished("losses");
-  std::optional<ChannelLoss> kernel;
+  std::optional<std::uint64_t> lost_by_kernel;
   std::string kernel_failure;
   if (session) {
     try {
-      kernel = finish_kernel_recorder(recorder_directory(name));
+      lost_by_kernel = finish_kernel_recorder(recorder_directory(name));
     } catch (const TraceError& error) {
       kernel_failure = error.what();
     }
@@ -203,7 +203,10 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   timer.finished("destroy");
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
-  if (kernel && !session->snapshot) losses.channels.push_back(*kernel);
+  if (lost_by_kernel && !session->snapshot) {
+    losses.channels.push_back(
+        {.domain = "kernel", .channel = kKernelRecorderChannel, .discarded_events = *lost_by_kernel});
+  }
   const bool hurried = losses.cut_short || (give_up && give_up());
   // The first session on a machine takes some 30 ms longer to end: the measurement. It disturbs nobody then.
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);

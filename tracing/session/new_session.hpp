@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace tracing {
 

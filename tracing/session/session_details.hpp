@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/session/loss_account.hpp"
+#include "tracing/account/loss_account.hpp"
 
 namespace tracing {
 

@@ -8,10 +8,10 @@
 #include <chrono>
 #include <thread>
 
-#include "tracing/session/loss_counters.hpp"
-#include "tracing/session/lttng_error.hpp"
+#include "tracing/account/loss_counters.hpp"
+#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/session_listing.hpp"
-#include "tracing/session/trace_error.hpp"
 
 namespace tracing {
 namespace {

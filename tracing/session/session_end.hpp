@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "tracing/session/loss_account.hpp"
+#include "tracing/account/loss_account.hpp"
 #include "tracing/session/step_timer.hpp"
 
 namespace tracing {

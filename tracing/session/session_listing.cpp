@@ -12,14 +12,14 @@
 #include <memory>
 #include <set>
 
-#include "tracing/session/channel_plan.hpp"
-#include "tracing/session/channels.hpp"
-#include "tracing/session/context_fields.hpp"
-#include "tracing/session/kernel_checks.hpp"
-#include "tracing/session/loss_counters.hpp"
-#include "tracing/session/lttng_error.hpp"
-#include "tracing/session/session_daemon.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/account/loss_counters.hpp"
+#include "tracing/checks/kernel_checks.hpp"
+#include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/session_daemon.hpp"
+#include "tracing/plan/channel_plan.hpp"
+#include "tracing/plan/context_fields.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
 namespace {

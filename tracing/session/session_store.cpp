@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "tracing/session/lttng_error.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
 namespace {

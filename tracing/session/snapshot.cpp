@@ -9,8 +9,8 @@
 #include <charconv>
 #include <memory>
 
-#include "tracing/session/kernel_recorder.hpp"
-#include "tracing/session/lttng_error.hpp"
+#include "tracing/kernel/kernel_recorder.hpp"
+#include "tracing/lttng/lttng_error.hpp"
 
 namespace tracing {
 namespace {

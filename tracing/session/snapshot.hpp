@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace tracing {
 

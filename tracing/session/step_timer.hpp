@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/session/session_step.hpp"
+#include "tracing/account/session_step.hpp"
 
 namespace tracing {
 

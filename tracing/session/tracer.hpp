@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tracing/session/loss_account.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/session_step.hpp"
+#include "tracing/plan/trace_config.hpp"
 #include "tracing/session/session_details.hpp"
-#include "tracing/session/session_step.hpp"
-#include "tracing/session/trace_config.hpp"
 #include "tracing/session/traceable_events.hpp"
 
 namespace tracing {

@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "tracing/session/loss_account.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/tracer.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"
-#include "tracing/session/trace_config.hpp"
+#include "tracing/plan/trace_config.hpp"
 
 namespace {
 

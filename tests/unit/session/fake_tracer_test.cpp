@@ -7,8 +7,8 @@
 #include <atomic>
 #include <thread>
 
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "tests/support/sandbox.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace trace_test {

@@ -8,11 +8,11 @@
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/session/loss_account.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/session_step.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/session_details.hpp"
-#include "tracing/session/session_step.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace {

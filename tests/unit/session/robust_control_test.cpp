@@ -17,11 +17,11 @@
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/session/context_check.hpp"
-#include "tracing/session/loss_account.hpp"
-#include "tracing/session/session_daemon.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/checks/context_check.hpp"
+#include "tracing/lttng/session_daemon.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace {

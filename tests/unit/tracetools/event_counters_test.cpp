@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What processes say about the events that they fire, as the launcher reads it.
-#include "tracing/session/event_counters.hpp"
+#include "tracing/account/event_counters.hpp"
 
 #include <gtest/gtest.h>
 

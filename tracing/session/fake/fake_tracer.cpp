@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "tracing/session/loss_account.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/plan/trace_config.hpp"
 #include "tracing/session/session_details.hpp"
-#include "tracing/session/trace_config.hpp"
 #include "tracing/session/traceable_events.hpp"
 
 namespace tracing {

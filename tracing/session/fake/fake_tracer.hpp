@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "tracing/session/loss_account.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/trace_error.hpp"
 #include "tracing/session/session_details.hpp"
-#include "tracing/session/trace_config.hpp"
-#include "tracing/session/trace_error.hpp"
 #include "tracing/session/traceable_events.hpp"
 #include "tracing/session/tracer.hpp"
 

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which process the lost events are of, from what processes fired and what a trace holds.
+#include "tracing/account/process_account.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tracing/account/event_counters.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/loss_attribution.hpp"
+#include "tracing/account/loss_text.hpp"
+#include "tracing/account/packet_index.hpp"
+#include "tracing/account/recorded_events.hpp"
+#include "tracing/plan/trace_error.hpp"
+
+namespace {
+
+using testing::ElementsAre;
+using tracing::EventCounts;
+using tracing::LossAccount;
+using tracing::LossAttribution;
+using tracing::RecordedEvents;
+using tracing::RecordedProcesses;
+
+constexpr std::uint64_t kSecond = 1'000'000'000;
+
+std::vector<EventCounts> talker_and_listener() {
+  return {{.pid = 12,
+           .process = "talker",
+           .begin = kSecond,
+           .end = 3 * kSecond,
+           .cpu = kSecond / 2,
+           .events = {{"ros2:rcl_publish", 1000}, {"ros2:callback_end", 500}, {"ros2_ext:rcl_node_fini", 3}}},
+          {.pid = 13, .process = "listener", .begin = 2 * kSecond, .events = {{"ros2:rmw_take", 800}}}};
+}
+
+const RecordedEvents kRosEvents = {{{.channel = "ros2", .pattern = "ros2:*"}}};
+
+LossAccount account(std::uint64_t discarded) {
+  LossAccount losses;
+  losses.channels = {{.domain = "ust", .channel = "ros2", .discarded_events = discarded}};
+  losses.processes = tracing::account_processes(talker_and_listener(), kRosEvents, 5 * kSecond);
+  return losses;
+}
+
+RecordedProcesses recorded() {
+  return {{12, {.nodes = {"/talker"}, .events = {{"ros2:rcl_publish", 900}, {"ros2:callback_end", 500}}}},
+          {13, {.nodes = {"/a/ear", "/a/other"}, .events = {{"ros2:rmw_take", 650}}}},
+          {99, {.nodes = {}, .events = {{"launch:exec", 1}}}}};
+}
+
+TEST(ProcessAccount, SaysWhatProcessesFiredForHowLong) {
+  const std::vector<tracing::ProcessAccount> processes =
+      tracing::account_processes(talker_and_listener(), kRosEvents, 5 * kSecond);
+  ASSERT_EQ(processes.size(), 2u);
+  EXPECT_EQ(processes[0].name, "talker");
+  EXPECT_EQ(processes[0].events, 1500u) << "another session records the event of ros2_ext";
+  EXPECT_EQ(processes[0].callbacks, 500u);
+  EXPECT_DOUBLE_EQ(processes[0].seconds, 2);
+  EXPECT_DOUBLE_EQ(processes[0].cpu_seconds, 0.5);
+  EXPECT_DOUBLE_EQ(processes[1].seconds, 3) << "it has not told its end";
+}
+
+TEST(ProcessAccount, AnEventCountsOnceForEachChannelOfTheSessionThatRecordsIt) {
+  const RecordedEvents events = {
+      {{.channel = "ros2", .pattern = "ros2:*", .exclusions = {"rmw_*"}},
+       {.channel = "ros2", .pattern = "ros2:rcl_publish"},
+       {.channel = "again", .pattern = "ros2:rcl_publish"},
+       {.channel = "again", .pattern = "ros2:callback_end", .exclusions = {"ros2:callback_*"}}}};
+  EXPECT_EQ(events.times("ros2:rcl_publish"), 2u);
+  EXPECT_EQ(events.times("ros2:callback_end"), 1u);
+  EXPECT_EQ(events.times("ros2:rmw_take"), 0u);
+  const auto processes = tracing::account_processes(talker_and_listener(), events, 5 * kSecond);
+  EXPECT_EQ(processes[0].events, 2500u);
+  EXPECT_EQ(processes[1].events, 0u);
+}
+
+TEST(ProcessAccount, WhatWasFiredAndIsNotInTheTraceIsLost) {
+  LossAccount losses = account(250);
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
+  EXPECT_EQ(losses.processes[0].lost, 100u);
+  EXPECT_EQ(losses.processes[1].lost, 150u);
+  EXPECT_THAT(losses.processes[1].nodes, ElementsAre("/a/ear", "/a/other"));
+  EXPECT_EQ(losses.attribution, LossAttribution::kExact);
+  EXPECT_EQ(losses.unattributed, 0u);
+  EXPECT_EQ(tracing::describe_losses(losses),
+            "250 events lost in ust channel ros2\n"
+            "lost by process: listener [13] 150 of 800 (nodes /a/ear, /a/other), talker [12] 100 of 1500 (node "
+            "/talker)");
+}
+
+TEST(ProcessAccount, WhatProgramsLoseThatDoNotCountIsLeftOver) {
+  LossAccount losses = account(257);
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
+  EXPECT_EQ(losses.attribution, LossAttribution::kExact);
+  EXPECT_EQ(losses.unattributed, 7u);
+  EXPECT_THAT(tracing::describe_losses(losses), testing::EndsWith("; 7 by programs that do not count"));
+}
+
+TEST(ProcessAccount, IsAnEstimateWhenTheDaemonCountsLess) {
+  LossAccount losses = account(200);
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
+  EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
+  EXPECT_THAT(tracing::describe_losses(losses), testing::HasSubstr("\nlost by process, estimated: listener [13]"));
+}
+
+TEST(ProcessAccount, NothingIsKnownOfEventsWithAConditionAndOfThoseThatWereNotAskedFor) {
+  LossAccount losses = account(250);
+  const RecordedEvents events = {{{.channel = "ros2", .pattern = "ros2:rcl_publish"},
+                                  {.channel = "ros2", .pattern = "ros2:rmw_take"},
+                                  {.channel = "ros2", .pattern = "ros2:rmw_*", .conditional = true}}};
+  tracing::attribute_losses(losses, talker_and_listener(), events, recorded(), {});
+  EXPECT_EQ(losses.processes[0].lost, 100u);
+  EXPECT_EQ(losses.processes[1].lost, std::nullopt);
+}
+
+TEST(ProcessAccount, BuffersOfAProcessTellByThemselves) {
+  LossAccount losses = account(40);
+  const std::vector<tracing::Stream> streams = {
+      {.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 12, .packets = {{.discarded_events = 30}}},
+      {.domain = "ust", .channel = "ros2", .cpu = "1", .pid = 12, .packets = {{.discarded_events = 5}}},
+      {.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 77, .packets = {{.discarded_events = 5}}}};
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, {}, streams);
+  ASSERT_EQ(losses.processes.size(), 3u);
+  EXPECT_EQ(losses.processes[0].lost, 35u);
+  EXPECT_EQ(losses.processes[2].pid, 77);
+  EXPECT_EQ(losses.processes[2].lost, 5u);
+  EXPECT_EQ(losses.attribution, LossAttribution::kExact);
+}
+
+TEST(ProcessAccount, CostIsWhatTheEventsTake) {
+  LossAccount losses = account(0);
+  losses.cost = {.ns_per_event = 100, .cpu = "some processor", .lttng = "2.13.5", .context_fields = {}, .measured = ""};
+  EXPECT_EQ(
+      tracing::describe_cost(losses),
+      "estimated cost of tracing: 0.000 s of processor time, 0.01 % of a processor; most in talker [12], 0.0 % of "
+      "its own processor time, 0.3 µs for each callback (100 ns for each event)");
+  EXPECT_DOUBLE_EQ(losses.processes[0].own_share(100), 1500 * 100e-9 / 0.5);
+  EXPECT_EQ(losses.processes[1].own_share(100), 0);
+}
+
+TEST(ProcessAccount, IsReadFromWhatLaunchReportPrints) {
+  const RecordedProcesses parsed = tracing::parse_recorded_processes(
+      R"json({"processes":[{"vpid":12,"nodes":["/talker"],"events":{"ros2:rcl_publish":900}}]})json");
+  EXPECT_EQ(parsed.at(12).events.at("ros2:rcl_publish"), 900u);
+  EXPECT_THROW(tracing::parse_recorded_processes("{}"), tracing::TraceError);
+}
+
+}  // namespace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said of a trace whose streams end before its session.
+#include "tracing/account/unwritten_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/packet_index.hpp"
+
+namespace {
+
+using tracing::LossAccount;
+using tracing::Stream;
+
+constexpr std::uint64_t kSecond = 1'000'000'000;
+
+LossAccount account() {
+  LossAccount losses;
+  losses.channels = {{.domain = "ust", .channel = "ros2"}, {.domain = "kernel", .channel = "kchan"}};
+  return losses;
+}
+
+// From the first second of the clock on; processor 1 is not written any more after half a second, 2 was never.
+std::vector<Stream> streams() {
+  return {{.domain = "ust", .channel = "ros2", .cpu = "0", .packets = {{.begin = kSecond, .end = 4 * kSecond}}},
+          {.domain = "ust", .channel = "ros2", .cpu = "1", .packets = {{.begin = kSecond, .end = kSecond * 3 / 2}}},
+          {.domain = "ust", .channel = "ros2", .cpu = "2", .packets = {}},
+          {.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 7, .packets = {{.begin = kSecond, .end = kSecond}}},
+          {.domain = "kernel", .channel = "kchan", .cpu = "0", .packets = {{.begin = kSecond, .end = kSecond}}}};
+}
+
+TEST(UnwrittenData, IsWhatComesAfterTheLastPacketOfAStreamThatEndsBeforeTheSession) {
+  LossAccount losses = account();
+  tracing::find_unwritten(losses, streams(), 4 * kSecond, false);
+  const auto& ranges = losses.channels[0].unwritten;
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_EQ(ranges[0].cpu, "1");
+  EXPECT_EQ(ranges[0].begin_ns, kSecond / 2);
+  EXPECT_EQ(ranges[0].end_ns, 3 * kSecond);
+  EXPECT_EQ(ranges[1].cpu, "2");
+  EXPECT_EQ(ranges[1].begin_ns, 0u);
+  EXPECT_TRUE(losses.channels[1].unwritten.empty());
+  EXPECT_EQ(tracing::describe_damage(losses, "", "/traces/run"),
+            "data could not be written to /traces/run: events after 0.000 s of 3.000 s are missing; make room there, "
+            "or choose another base-path");
+  EXPECT_EQ(tracing::describe_damage(losses, "the file system of /traces/run is full", "/traces/run"),
+            "the file system of /traces/run is full: events after 0.000 s of 3.000 s are missing; make room there, "
+            "or choose another base-path");
+}
+
+TEST(UnwrittenData, MayBeAllThatThereWas) {
+  LossAccount losses = account();
+  const std::vector<Stream> empty = {{.domain = "ust", .channel = "ros2", .cpu = "0", .packets = {}}};
+  tracing::find_unwritten(losses, empty, 4 * kSecond, true);
+  EXPECT_EQ(losses.channels[0].unwritten.size(), 1u);
+  EXPECT_EQ(tracing::describe_damage(losses, "the disk quota for /traces/run is used up", "/traces/run"),
+            "the disk quota for /traces/run is used up: no event could be written; make room there, or choose another "
+            "base-path");
+}
+
+TEST(UnwrittenData, IsNotLookedForWhereTheEndOfTheSessionIsNotKnown) {
+  LossAccount paused = account();
+  tracing::find_unwritten(paused, streams(), 0, true);
+  EXPECT_TRUE(paused.channels[0].unwritten.empty());
+  LossAccount hurried = account();
+  hurried.cut_short = true;
+  tracing::find_unwritten(hurried, streams(), 4 * kSecond, true);
+  EXPECT_TRUE(hurried.channels[0].unwritten.empty());
+  EXPECT_EQ(tracing::describe_damage(hurried, "", "/traces/run"), "");
+  EXPECT_EQ(tracing::describe_damage(hurried, "the file system of /traces/run is full", "/traces/run"),
+            "the file system of /traces/run is full: events are missing, nobody knows how many; make room there, or "
+            "choose another base-path");
+}
+
+TEST(UnwrittenData, BuffersThatWereFullAtTheEndAreNoFailureToWrite) {
+  LossAccount losses = account();
+  losses.channels[0].discarded_events = 12;
+  tracing::find_unwritten(losses, streams(), 4 * kSecond, false);
+  EXPECT_TRUE(losses.channels[0].unwritten.empty());
+  tracing::find_unwritten(losses, streams(), 4 * kSecond, true);
+  EXPECT_EQ(losses.channels[0].unwritten.size(), 2u);
+}
+
+TEST(UnwrittenData, ADirectoryWithRoomIsLeftAsItIs) {
+  const test_support::Sandbox sandbox;
+  std::filesystem::create_directories(sandbox.trace_directory());
+  EXPECT_EQ(tracing::why_no_room(sandbox.trace_directory()), "");
+  EXPECT_TRUE(std::filesystem::is_empty(sandbox.trace_directory()));
+}
+
+}  // namespace

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said about a trace that lost events, from index files written here.
+#include "tracing/account/verdict.hpp"
+
+#include <endian.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/loss_text.hpp"
+#include "tracing/account/packet_index.hpp"
+#include "tracing/plan/trace_error.hpp"
+
+namespace {
+
+using tracing::ChannelLoss;
+using tracing::LossAccount;
+
+struct IndexEntry {
+  std::uint64_t begin;
+  std::uint64_t end;
+  std::uint64_t bytes;
+  std::uint64_t discarded;
+};
+
+struct Verdict : testing::Test {
+  void write_index(const std::string& stream, const std::vector<IndexEntry>& entries) const {
+    const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index" / (stream + ".idx");
+    std::filesystem::create_directories(path.parent_path());
+    const std::filesystem::path packets = path.parent_path().parent_path() / stream;  // which are not looked into
+    std::ofstream{packets};
+    std::filesystem::resize_file(packets, 32768);
+    std::ofstream file(path, std::ios::binary);
+    for (const std::uint32_t word : {0xC1F1DCC1U, 1U, 1U, 72U}) {
+      const std::uint32_t big = htobe32(word);
+      file.write(reinterpret_cast<const char*>(&big), sizeof big);
+    }
+    for (const IndexEntry& entry : entries) {
+      for (const std::uint64_t word :
+           {std::uint64_t{0}, std::uint64_t{32768 * 8}, entry.bytes * 8, entry.begin, entry.end, entry.discarded,
+            std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{0}}) {
+        const std::uint64_t big = htobe64(word);
+        file.write(reinterpret_cast<const char*>(&big), sizeof big);
+      }
+    }
+  }
+
+  LossAccount account(std::uint64_t discarded) const {
+    LossAccount result;
+    result.channels = {{.domain = "ust", .channel = "ros2", .discarded_events = discarded}};
+    result.channels[0].subbuffer_size = 32768;
+    result.channels[0].subbuffer_count = 2;
+    return result;
+  }
+
+  test_support::Sandbox sandbox;
+};
+
+TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
+  write_index("ros2_0", {{1000, 2000, 32000, 0},
+                         {2100, 3000, 32000, 300},
+                         {3100, 4000, 32000, 1000},
+                         {4100, 5000, 100, 1000},
+                         {5100, 6000, 32000, 1500}});
+  write_index("ros2_1", {{900, 5900, 500, 0}});
+  LossAccount losses = account(1500);
+  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
+  const ChannelLoss& channel = losses.channels.at(0);
+  EXPECT_EQ(channel.bytes, 4 * 32000u + 100u + 500u);
+  ASSERT_EQ(channel.ranges.size(), 2u);
+  EXPECT_EQ(channel.ranges[0].cpu, "0");
+  EXPECT_EQ(channel.ranges[0].begin_ns, 1100u);
+  EXPECT_EQ(channel.ranges[0].end_ns, 3100u);
+  EXPECT_EQ(channel.ranges[0].events, 1000u);
+  EXPECT_EQ(channel.ranges[1].events, 500u);
+  // 2 * (2 * 32 KiB + 1000 * 128 bytes) in 4 sub-buffers, rounded up.
+  EXPECT_EQ(channel.advised_subbuffer_size, 131072u);
+  EXPECT_EQ(tracing::describe_losses(losses),
+            "1500 events lost in ust channel ros2 with 2 sub-buffers of 32768 bytes; 4 of 131072 would have held them");
+}
+
+TEST_F(Verdict, AdvisesNothingWhereNoBufferHelps) {
+  write_index("ros2_0", {{1000, 2000, 32000, 10'000'000}});
+  LossAccount losses = account(10'000'000);
+  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
+  EXPECT_EQ(losses.channels.at(0).advised_subbuffer_size, 0u);
+}
+
+TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
+  write_index("ros2_0", {{1000, 2000, 32000, 0}});
+  LossAccount losses = account(0);
+  const std::filesystem::path directory = sandbox.directory() / "run";
+  losses.attribution = tracing::LossAttribution::kExact;
+  losses.processes = {
+      {.name = "talker", .pid = 12, .seconds = 2, .cpu_seconds = 0.5, .events = 1000, .callbacks = 50, .lost = 0}};
+  losses.cost = {.ns_per_event = 100,
+                 .cpu = "some processor",
+                 .lttng = "2.13.5",
+                 .context_fields = {"vpid"},
+                 .measured = "2026-11-21 20:15:00"};
+  losses.cuts = {{.event_class = "executor",
+                  .events = {"ros2:rclcpp_executor_execute"},
+                  .time = 77,
+                  .rate = 300'000,
+                  .share = 0.03}};
+  tracing::explain_losses(losses, tracing::read_packet_index(directory));
+  tracing::write_verdict(losses, "run", directory);
+  EXPECT_EQ(test_support::read_file(directory / tracing::kVerdictFile), R"json({
+  "session": "run",
+  "complete": true,
+  "cut_short": false,
+  "damage": "",
+  "discarded_events": 0,
+  "lost_packets": 0,
+  "channels": [
+    {
+      "domain": "ust",
+      "channel": "ros2",
+      "subbuffer_size": 32768,
+      "subbuffer_count": 2,
+      "bytes": 32000,
+      "discarded_events": 0,
+      "lost_packets": 0,
+      "lost": []
+    }
+  ],
+  "lost_by_process": {
+    "method": "exact",
+    "unattributed": 0
+  },
+  "event_cost": {
+    "ns": 100.0,
+    "measured": "2026-11-21 20:15:00",
+    "cpu": "some processor",
+    "lttng": "2.13.5",
+    "context_fields": [
+      "vpid"
+    ]
+  },
+  "cuts": [
+    {
+      "class": "executor",
+      "events": [
+        "ros2:rclcpp_executor_execute"
+      ],
+      "time_ns": 77,
+      "rate": 300000,
+      "processor_share": 0.03
+    }
+  ],
+  "processes": [
+    {
+      "name": "talker",
+      "pid": 12,
+      "seconds": 2.0,
+      "events": 1000,
+      "callbacks": 50,
+      "lost": 0,
+      "tracing": {
+        "seconds": 0.0001,
+        "processor_share": 5e-05,
+        "own_share": 0.0002,
+        "ns_per_callback": 2000.0
+      }
+    }
+  ]
+}
+)json");
+}
+
+TEST_F(Verdict, ThatCannotBeWrittenIsAnError) {
+  const std::string path = sandbox.directory() / "nowhere" / "verdict.json";
+  try {
+    tracing::write_verdict(account(0), "run", sandbox.directory() / "nowhere");
+    FAIL();
+  } catch (const tracing::TraceError& error) {
+    EXPECT_EQ(std::string(error.what()), "cannot write " + path + ": No such file or directory");
+  }
+}
+
+TEST_F(Verdict, IgnoresWhatIsNoIndex) {
+  const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index/ros2_0.idx";
+  std::filesystem::create_directories(path.parent_path());
+  test_support::write_file(path, "not an index at all, and long enough to be read as one");
+  LossAccount losses = account(3);
+  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
+  EXPECT_EQ(losses.channels.at(0).bytes, 0u);
+  EXPECT_TRUE(losses.channels.at(0).ranges.empty());
+}
+
+TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
+  const std::filesystem::path snapshot = sandbox.directory() / "snapshot-1";
+  tracing::testing::TraceWriter writer(snapshot / "ust/uid/0/64-bit");
+  const tracing::testing::Thread thread{.vpid = 1, .vtid = 1, .procname = "a"};
+  writer.write(0, 1000, thread, tracing::ros2::RclTake{1});
+  writer.end_packet(0);
+  writer.discard_events(0, 12);
+  writer.lose_packets(0, 3);
+  writer.write(0, 2000, thread, tracing::ros2::RclTake{1});
+  writer.write(1, 500, thread, tracing::ros2::RclTake{1});
+  writer.finish();
+  tracing::write_snapshot_verdict(snapshot, "run", {"c-1 died of SIGSEGV", "SIGUSR1"});
+  EXPECT_EQ(test_support::read_file(snapshot / "verdict.json"),
+            "{\n"
+            "  \"session\": \"run\",\n"
+            "  \"reasons\": [\n"
+            "    \"c-1 died of SIGSEGV\",\n"
+            "    \"SIGUSR1\"\n"
+            "  ],\n"
+            "  \"complete\": false,\n"
+            "  \"discarded_events\": 12,\n"
+            "  \"lost_packets\": 3,\n"
+            "  \"begin_ns\": 500,\n"
+            "  \"end_ns\": 2000\n"
+            "}\n");
+}
+
+}  // namespace

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/plan/channel_plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/unit/plan/trace_error_text.hpp"
+#include "tracing/plan/plan_channels.hpp"
+#include "tracing/plan/shared_memory_fit.hpp"
+#include "tracing/plan/trace_config.hpp"
+
+namespace {
+
+using tracing::TraceConfig;
+using tracing::testing::error_of;
+
+TEST(ChannelPlan, TakesNamesOnceAndOnlyUsedDomains) {
+  TraceConfig config;
+  config.events_ust = {"ros2:a", "ros2:b", "ros2:a"};
+  std::vector<std::string> warnings;
+  const auto plans = tracing::plan_channels(config, warnings);
+  ASSERT_EQ(plans.size(), 1u);
+  EXPECT_EQ(plans[0].channel, "ros2");
+  ASSERT_EQ(plans[0].events.size(), 2u);
+  EXPECT_EQ(plans[0].events[1].pattern, "ros2:b");
+  EXPECT_FALSE(plans[0].overwrite);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(ChannelPlan, FitsIntoTheSharedMemoryThatThereIs) {
+  TraceConfig config;  // 4 x 1 MiB
+  std::vector<std::string> warnings;
+  auto plans = tracing::plan_channels(config, warnings);
+  const std::uint64_t mib = std::uint64_t{1} << 20;
+  tracing::fit_into_shared_memory(plans, 64 * mib, 8, warnings);
+  EXPECT_EQ(plans[0].subbuffer_size, mib);
+  EXPECT_TRUE(warnings.empty());
+  tracing::fit_into_shared_memory(plans, 64 * mib, 32, warnings);
+  EXPECT_EQ(plans[0].subbuffer_size, mib / 4);
+  EXPECT_THAT(warnings, testing::ElementsAre(
+                            "/dev/shm has 67108864 bytes left, and the buffers would need 142606336: sub-buffers "
+                            "are made smaller, 262144 bytes; more room is given to a container with --shm-size"));
+  EXPECT_EQ(error_of([&] { tracing::fit_into_shared_memory(plans, mib, 32, warnings); }),
+            "the buffers need 4456448 bytes of shared memory, and /dev/shm has 1048576 left\n"
+            "give it more (in a container with --shm-size), or leave channels out");
+}
+
+TEST(ChannelPlan, HasAKernelChannelForSystemCalls) {
+  TraceConfig config;
+  config.syscalls = {"openat"};
+  config.snapshot_mode = true;
+  std::vector<std::string> warnings;
+  const auto plans = tracing::plan_channels(config, warnings);
+  ASSERT_EQ(plans.size(), 2u);
+  EXPECT_EQ(plans[1].channel, "kchan");
+  EXPECT_EQ(plans[1].subbuffer_size, 131072u);
+  EXPECT_TRUE(plans[0].overwrite && plans[1].overwrite);
+}
+
+TEST(ChannelPlan, RoundsSubbuffersUpToAPageAndAPowerOfTwo) {
+  TraceConfig config;
+  config.subbuffer_size_ust = 1;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(tracing::plan_channels(config, warnings)[0].subbuffer_size, static_cast<std::uint64_t>(getpagesize()));
+  config.subbuffer_size_ust = 65537;
+  EXPECT_EQ(tracing::plan_channels(config, warnings)[0].subbuffer_size, 131072u);
+  EXPECT_EQ(warnings.size(), 2u);
+  config.subbuffer_size_ust = ~std::uint64_t{0};
+  EXPECT_EQ(error_of([&] { tracing::plan_channels(config, warnings); }),
+            "sub-buffer size of 18446744073709551615 bytes for the ust domain is too large\n");
+}
+
+}  // namespace

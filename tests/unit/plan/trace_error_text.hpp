@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a function says when it refuses something.
+#pragma once
+
+#include <string>
+
+#include "tracing/plan/trace_error.hpp"
+
+namespace tracing::testing {
+
+// "what\nremedy" of the TraceError that `function` throws; "no error" when it throws none.
+template <typename Function>
+std::string error_of(Function function) {
+  try {
+    function();
+  } catch (const TraceError& error) {
+    return std::string(error.what()) + "\n" + error.remedy();
+  }
+  return "no error";
+}
+
+}  // namespace tracing::testing

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/account/loss_attribution.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tracing/account/process_account.hpp"
+#include "tracing/plan/trace_error.hpp"
+
+namespace tracing {
+namespace {
+
+constexpr const char* kCallbackEnd = "ros2:callback_end";
+constexpr double kNanosecondsPerSecond = 1e9;
+
+std::uint64_t userspace_losses(const LossAccount& account) {
+  std::uint64_t sum = 0;
+  for (const ChannelLoss& channel : account.channels) {
+    if (channel.domain == "ust") sum += channel.discarded_events;
+  }
+  return sum;
+}
+
+// Of each process whose buffers are its own.
+std::map<std::int64_t, std::uint64_t> losses_by_buffers(const std::vector<Stream>& streams) {
+  std::map<std::int64_t, std::uint64_t> losses;
+  for (const Stream& stream : streams) {
+    if (stream.pid && !stream.packets.empty()) losses[*stream.pid] += stream.packets.back().discarded_events;
+  }
+  return losses;
+}
+
+// Of each process that counts: what it fired, less what the trace holds.
+std::map<std::int64_t, std::uint64_t> losses_by_counters(const std::vector<EventCounts>& counts,
+                                                         const RecordedEvents& events,
+                                                         const RecordedProcesses& recorded) {
+  std::map<std::int64_t, std::map<std::string, std::uint64_t>> fired;
+  for (const EventCounts& process : counts) {
+    for (const auto& [event, count] : process.events) {
+      if (events.countable(event)) fired[process.pid][event] += count * events.times(event);
+    }
+  }
+  std::map<std::int64_t, std::uint64_t> losses;
+  for (const auto& [pid, by_event] : fired) {
+    const auto found = recorded.find(pid);
+    for (const auto& [event, count] : by_event) {
+      std::uint64_t arrived = 0;
+      if (found != recorded.end() && found->second.events.contains(event)) arrived = found->second.events.at(event);
+      losses[pid] += count - std::min(count, arrived);
+    }
+  }
+  return losses;
+}
+
+}  // namespace
+
+RecordedProcesses parse_recorded_processes(const std::string& text) {
+  try {
+    RecordedProcesses recorded;
+    const nlohmann::json parsed = nlohmann::json::parse(text);
+    for (const nlohmann::json& process : parsed.at("processes")) {
+      recorded[process.at("vpid")] = {.nodes = process.at("nodes"), .events = process.at("events")};
+    }
+    return recorded;
+  } catch (const nlohmann::json::exception& error) {
+    throw TraceError(fmt::format("cannot count the events of the trace: {}", error.what()));
+  }
+}
+
+std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, const RecordedEvents& events,
+                                              std::uint64_t now) {
+  std::vector<ProcessAccount> processes;
+  for (const EventCounts& process : counts) {
+    const std::uint64_t end = process.end != 0 ? process.end : std::max(now, process.begin);
+    const auto callbacks = process.events.find(kCallbackEnd);
+    std::uint64_t recorded = 0;
+    for (const auto& [event, count] : process.events) recorded += count * events.times(event);
+    processes.push_back({.name = process.process,
+                         .pid = process.pid,
+                         .seconds = static_cast<double>(end - process.begin) / kNanosecondsPerSecond,
+                         .cpu_seconds = static_cast<double>(process.cpu) / kNanosecondsPerSecond,
+                         .events = recorded,
+                         .callbacks = callbacks != process.events.end() ? callbacks->second : 0,
+                         .lost = 0});
+  }
+  return processes;
+}
+
+void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,
+                      const RecordedProcesses& recorded, const std::vector<Stream>& streams) {
+  std::map<std::int64_t, std::uint64_t> losses = losses_by_buffers(streams);
+  const bool by_buffers = !losses.empty();
+  if (!by_buffers) losses = losses_by_counters(counts, events, recorded);
+  std::uint64_t sum = 0;
+  for (const auto& [pid, lost] : losses) {
+    sum += lost;
+    const bool counted = std::any_of(account.processes.begin(), account.processes.end(),
+                                     [pid = pid](const ProcessAccount& process) { return process.pid == pid; });
+    if (!counted && lost != 0) account.processes.push_back({.name = "", .pid = pid});
+  }
+  for (ProcessAccount& process : account.processes) {
+    process.lost.reset();
+    // Programs that one process became after another (exec) are one in the trace.
+    if (const auto found = losses.find(process.pid); found != losses.end()) {
+      process.lost = found->second;
+      losses.erase(found);
+    }
+    if (const auto found = recorded.find(process.pid); found != recorded.end()) process.nodes = found->second.nodes;
+  }
+  if (account.processes.empty()) return;
+  const std::uint64_t total = userspace_losses(account);
+  account.attribution = sum <= total ? LossAttribution::kExact : LossAttribution::kEstimate;
+  account.unattributed = total - std::min(sum, total);
+}
+
+}  // namespace tracing

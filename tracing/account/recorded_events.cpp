@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/account/recorded_events.hpp"
+
+#include <fmt/core.h>
+#include <fnmatch.h>
+#include <lttng/lttng.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <set>
+
+#include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_error.hpp"
+
+namespace tracing {
+namespace {
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
+std::vector<std::string> exclusions_of(lttng_event& rule) {
+  std::vector<std::string> names;
+  const int count = lttng_event_get_exclusion_name_count(&rule);
+  for (int i = 0; i < count; ++i) {
+    const char* name = nullptr;
+    if (lttng_event_get_exclusion_name(&rule, static_cast<std::size_t>(i), &name) == 0) names.emplace_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+bool RecordedEvents::Rule::takes(const std::string& event) const {
+  const auto matches = [&event](const std::string& name) { return fnmatch(name.c_str(), event.c_str(), 0) == 0; };
+  // Exclusions are given without the provider, and LTTng takes them for those of the pattern's.
+  const std::string provider = event.substr(0, event.find(':') + 1);
+  return matches(pattern) && std::none_of(exclusions.begin(), exclusions.end(), [&](const std::string& name) {
+           return matches(name) || matches(provider + name);
+         });
+}
+
+std::size_t RecordedEvents::times(const std::string& event) const {
+  std::set<std::string> channels;
+  for (const Rule& rule : rules) {
+    if (rule.takes(event)) channels.insert(rule.channel);
+  }
+  return channels.size();
+}
+
+bool RecordedEvents::countable(const std::string& event) const {
+  bool taken = false;
+  for (const Rule& rule : rules) {
+    if (!rule.takes(event)) continue;
+    if (rule.conditional) return false;
+    taken = true;
+  }
+  return taken;
+}
+
+RecordedEvents read_recorded_events(const std::string& lttng_session_name) {
+  RecordedEvents recorded;
+  const DomainHandle handle = domain_handle(lttng_session_name, LTTNG_DOMAIN_UST);
+  const std::string doing = fmt::format("list the events of session '{}'", lttng_session_name);
+  lttng_channel* listed = nullptr;
+  const int count = check_lttng(lttng_list_channels(handle.get(), &listed), doing);
+  const std::unique_ptr<lttng_channel, Free> channels(listed);
+  for (int i = 0; i < count; ++i) {
+    lttng_event* rules = nullptr;
+    const int rule_count = check_lttng(lttng_list_events(handle.get(), listed[i].name, &rules), doing);
+    const std::unique_ptr<lttng_event, Free> owned(rules);
+    for (int rule = 0; rule < rule_count; ++rule) {
+      recorded.rules.push_back(
+          {.channel = listed[i].name,
+           .pattern = rules[rule].name,
+           .exclusions = exclusions_of(rules[rule]),
+           .conditional = rules[rule].filter != 0 || rules[rule].loglevel_type != LTTNG_EVENT_LOGLEVEL_ALL});
+    }
+  }
+  return recorded;
+}
+
+}  // namespace tracing

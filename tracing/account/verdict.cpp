@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/account/verdict.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "tracing/account/event_cost.hpp"
+#include "tracing/account/event_cuts.hpp"
+#include "tracing/account/loss_account.hpp"
+#include "tracing/account/process_account.hpp"
+#include "tracing/plan/trace_error.hpp"
+
+namespace tracing {
+namespace {
+
+std::uint64_t first_time(const std::vector<Stream>& streams) {
+  std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
+  for (const Stream& stream : streams) {
+    if (!stream.packets.empty()) first = std::min(first, stream.packets.front().begin);
+  }
+  return first;
+}
+
+// The unbroken runs of packets before which events were lost. Returns the events of the longest.
+std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector<LossRange>& ranges) {
+  std::uint64_t longest = 0;
+  std::uint64_t discarded = 0;
+  bool in_run = false;
+  for (std::size_t i = 0; i < stream.packets.size(); ++i) {
+    const Packet& packet = stream.packets[i];
+    const std::uint64_t lost = packet.discarded_events - std::exchange(discarded, packet.discarded_events);
+    if (lost != 0) {
+      const std::uint64_t begin = i == 0 ? packet.begin : stream.packets[i - 1].end;
+      if (!in_run) ranges.push_back({.cpu = stream.cpu, .begin_ns = begin - origin, .end_ns = 0, .events = 0});
+      ranges.back().end_ns = packet.end - origin;
+      ranges.back().events += lost;
+      longest = std::max(longest, ranges.back().events);
+    }
+    in_run = lost != 0;
+  }
+  return longest;
+}
+
+nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
+  nlohmann::ordered_json json = {{"domain", channel.domain},
+                                 {"channel", channel.channel},
+                                 {"subbuffer_size", channel.subbuffer_size},
+                                 {"subbuffer_count", channel.subbuffer_count},
+                                 {"bytes", channel.bytes},
+                                 {"discarded_events", channel.discarded_events},
+                                 {"lost_packets", channel.lost_packets},
+                                 {"lost", nlohmann::ordered_json::array()}};
+  for (const LossRange& range : channel.ranges) {
+    json["lost"].push_back(
+        {{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}, {"events", range.events}});
+  }
+  for (const UnwrittenRange& range : channel.unwritten) {
+    json["unwritten"].push_back({{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});
+  }
+  if (channel.advised_subbuffer_size != 0) {
+    json["would_have_held"] = {{"subbuffer_size", channel.advised_subbuffer_size},
+                               {"subbuffer_count", kAdvisedSubbuffers}};
+  }
+  return json;
+}
+
+nlohmann::ordered_json process_as_json(const ProcessAccount& process, const std::optional<EventCost>& cost) {
+  nlohmann::ordered_json json = {{"name", process.name},
+                                 {"pid", process.pid},
+                                 {"seconds", process.seconds},
+                                 {"events", process.events},
+                                 {"callbacks", process.callbacks}};
+  json["lost"] = process.lost ? nlohmann::ordered_json(*process.lost) : nlohmann::ordered_json(nullptr);
+  if (!process.nodes.empty()) json["nodes"] = process.nodes;
+  if (!cost) return json;
+  const double ns = cost->ns_per_event;
+  json["tracing"] = {{"seconds", process.tracing_seconds(ns)}, {"processor_share", process.processor_share(ns)}};
+  if (process.cpu_seconds > 0) json["tracing"]["own_share"] = process.own_share(ns);
+  if (process.callbacks != 0) json["tracing"]["ns_per_callback"] = process.ns_per_callback(ns);
+  return json;
+}
+
+const char* name_of(LossAttribution attribution) {
+  return attribution == LossAttribution::kExact      ? "exact"
+         : attribution == LossAttribution::kEstimate ? "estimate"
+                                                     : "unknown";
+}
+
+void write_file(const std::filesystem::path& directory, const std::string& text) {
+  const std::filesystem::path path = directory / kVerdictFile;
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) {
+    throw TraceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+}
+
+}  // namespace
+
+void explain_losses(LossAccount& account, const std::vector<Stream>& streams) {
+  const std::uint64_t origin = first_time(streams);
+  for (ChannelLoss& channel : account.channels) {
+    std::uint64_t longest = 0;
+    for (const Stream& stream : streams) {
+      if (stream.domain != channel.domain || stream.channel != channel.channel) continue;
+      for (const Packet& packet : stream.packets) channel.bytes += packet.bytes;
+      longest = std::max(longest, add_ranges(stream, origin, channel.ranges));
+    }
+    if (channel.discarded_events == 0 || channel.subbuffer_count == 0) continue;
+    // What was lost after the last packet is known as a sum only.
+    const std::uint64_t missing = std::max(longest, std::uint64_t{1}) * kBytesPerLostEvent;
+    const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + missing);
+    if (needed <= kLargestAdvice) channel.advised_subbuffer_size = std::bit_ceil(needed / kAdvisedSubbuffers);
+  }
+}
+
+std::string verdict_as_json(const LossAccount& account, const std::string& session_name) {
+  nlohmann::ordered_json json = {{"session", session_name},
+                                 {"complete", account.complete()},
+                                 {"cut_short", account.cut_short},
+                                 {"damage", account.damage},
+                                 {"discarded_events", account.discarded_events()},
+                                 {"lost_packets", account.lost_packets()},
+                                 {"channels", nlohmann::ordered_json::array()}};
+  for (const ChannelLoss& channel : account.channels) json["channels"].push_back(channel_as_json(channel));
+  json["lost_by_process"] = {{"method", name_of(account.attribution)}, {"unattributed", account.unattributed}};
+  if (account.cost) {
+    json["event_cost"] = {{"ns", account.cost->ns_per_event},
+                          {"measured", account.cost->measured},
+                          {"cpu", account.cost->cpu},
+                          {"lttng", account.cost->lttng},
+                          {"context_fields", account.cost->context_fields}};
+  }
+  for (const EventCut& cut : account.cuts) {
+    json["cuts"].push_back({{"class", cut.event_class},
+                            {"events", cut.events},
+                            {"time_ns", cut.time},
+                            {"rate", cut.rate},
+                            {"processor_share", cut.share}});
+  }
+  json["processes"] = nlohmann::ordered_json::array();
+  for (const ProcessAccount& process : account.processes)
+    json["processes"].push_back(process_as_json(process, account.cost));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_verdict(const LossAccount& account, const std::string& session_name,
+                   const std::filesystem::path& directory) {
+  write_file(directory, verdict_as_json(account, session_name));
+}
+
+void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                            const std::vector<std::string>& reasons) {
+  std::uint64_t discarded = 0;
+  std::uint64_t lost = 0;
+  std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t end = 0;
+  for (const Stream& stream : read_packet_index(directory)) {
+    for (std::size_t i = 0; i < stream.packets.size(); ++i) {
+      const Packet& packet = stream.packets[i];
+      begin = std::min(begin, packet.begin);
+      end = std::max(end, packet.end);
+      if (i == 0) continue;
+      const Packet& before = stream.packets[i - 1];
+      discarded += packet.discarded_events - before.discarded_events;
+      if (packet.sequence_number && before.sequence_number) {
+        lost += *packet.sequence_number - *before.sequence_number - 1;
+      }
+    }
+  }
+  const nlohmann::ordered_json json = {{"session", session_name},
+                                       {"reasons", reasons},
+                                       {"complete", discarded == 0 && lost == 0},
+                                       {"discarded_events", discarded},
+                                       {"lost_packets", lost},
+                                       {"begin_ns", std::min(begin, end)},
+                                       {"end_ns", end}};
+  write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace tracing

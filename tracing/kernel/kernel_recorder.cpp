@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/kernel/kernel_recorder.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/inotify.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+#include "tracing/plan/event_rule.hpp"
+#include "tracing/plan/trace_error.hpp"
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolder = "kernel";
+constexpr int kLongestEnd = 30'000;  // ms
+
+std::vector<std::string> arguments_of(const fs::path& program, const std::string& session, const fs::path& recording,
+                                      const std::vector<ChannelPlan>& plans, KernelRecording what) {
+  std::vector<std::string> arguments = {program.string(), "launch-" + session, (recording / kFolder).string()};
+  if (what == KernelRecording::kSnapshots) arguments.emplace_back("snapshots");
+  std::set<std::string> fields;  // of all channels: they go into one
+  for (const ChannelPlan& plan : plans) {
+    if (plan.domain != LTTNG_DOMAIN_KERNEL) continue;
+    for (const EventRule& rule : plan.events) arguments.insert(arguments.end(), {"event", rule.pattern, rule.filter});
+    for (const std::string& name : plan.syscalls) arguments.insert(arguments.end(), {"syscall", name});
+    for (const std::string& field : plan.context_fields) fields.insert(field);
+  }
+  for (const std::string& field : fields) arguments.insert(arguments.end(), {"context", field});
+  return arguments;
+}
+
+// What the program says until it closes its output. It goes on then, in a session of its own: a Ctrl-C is not for it.
+std::string start_and_listen(const std::vector<std::string>& arguments) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw TraceError("cannot start the kernel recorder: no pipe");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  pid_t pid = -1;
+  const int error = posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  std::string said;
+  std::array<char, 1024> buffer{};
+  if (error == 0) {
+    for (ssize_t length; (length = read(ends[0], buffer.data(), buffer.size())) > 0;) {
+      said.append(buffer.data(), static_cast<std::size_t>(length));
+    }
+  }
+  close(ends[0]);
+  if (error != 0) throw TraceError(fmt::format("cannot start {}: {}", arguments[0], std::strerror(error)));
+  if (!said.starts_with("ready")) waitpid(pid, nullptr, 0);
+  return said;
+}
+
+// The rest of the line that begins with `key`.
+std::string line_after(const std::string& text, const std::string& key) {
+  const std::size_t found = text.find(key);
+  if (found == std::string::npos) return {};
+  const std::size_t begin = found + key.size();
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+constexpr std::array<std::string_view, 5> kFields = {"procname", "pid", "tid", "vpid", "vtid"};  // ctf_writer.hpp
+
+struct Recorder {
+  pid_t pid = 0;  // 0: none
+  std::string state;
+  std::string reason;  // of state "failed"
+};
+
+Recorder recorder_of(const fs::path& recording) {
+  Recorder recorder;
+  std::ifstream file(recording / "kernel-recorder.pid");
+  file >> recorder.pid >> recorder.state >> std::ws;
+  std::getline(file, recorder.reason);
+  return recorder;
+}
+
+// Sends the signal and waits until the recorder says that it is in that state.
+void bring_to(const std::string& state, int signal, const fs::path& recording) {
+  const Recorder recorder = recorder_of(recording);
+  if (recorder.pid <= 0 || recorder.state == state) return;
+  const int changes = inotify_init1(IN_CLOEXEC);
+  inotify_add_watch(changes, recording.c_str(), IN_MOVED_TO);
+  if (kill(recorder.pid, signal) != 0) {
+    close(changes);
+    throw TraceError(fmt::format("the kernel recorder (process {}) is gone", recorder.pid),
+                     "kernel events are recorded again by another session");
+  }
+  pollfd change{changes, POLLIN, 0};
+  for (Recorder now; (now = recorder_of(recording)).state != state;) {
+    if (now.state == "failed" && now.reason != recorder.reason) {
+      close(changes);
+      throw TraceError(fmt::format("the kernel recorder cannot write a snapshot: {}", now.reason));
+    }
+    const int ready = poll(&change, 1, kLongestEnd);
+    std::array<char, 4096> event{};
+    if (ready > 0 && read(changes, event.data(), event.size()) > 0) continue;
+    if (ready < 0 && errno == EINTR) continue;
+    close(changes);
+    throw TraceError(fmt::format("the kernel recorder (process {}) does not answer", recorder.pid),
+                     "kernel events go on as they were");
+  }
+  close(changes);
+}
+
+}  // namespace
+
+void check_kernel_recorder_fields(const std::vector<ChannelPlan>& plans) {
+  for (const ChannelPlan& plan : plans) {
+    for (const std::string& field : plan.context_fields) {
+      if (plan.domain != LTTNG_DOMAIN_KERNEL || std::find(kFields.begin(), kFields.end(), field) != kFields.end()) {
+        continue;
+      }
+      throw TraceError(
+          fmt::format("context field '{}' of kernel events cannot be recorded without LTTng's kernel modules", field),
+          "give context-fields-kernel some of procname, pid, tid, vpid and vtid; or install lttng-modules-dkms");
+    }
+  }
+}
+
+void pause_kernel_recorder(const fs::path& recording) {
+  bring_to("paused", SIGUSR1, recording);
+}
+
+void resume_kernel_recorder(const fs::path& recording) {
+  bring_to("recording", SIGUSR2, recording);
+}
+
+void take_kernel_snapshot(const fs::path& recording, const fs::path& snapshot, bool clear) {
+  if (recorder_of(recording).pid <= 0) return;
+  std::ofstream(recording / "kernel-recorder.request") << snapshot.string() << "\n" << (clear ? "clear\n" : "keep\n");
+  bring_to(snapshot.filename(), SIGRTMIN, recording);
+}
+
+std::string start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
+                                  const std::vector<ChannelPlan>& plans, KernelRecording what) {
+  const std::string said = start_and_listen(arguments_of(program, session, recording, plans, what));
+  if (said.starts_with("ready")) return line_after(said, "warning: ");
+  const std::string reason = line_after(said, "error: ");
+  throw TraceError(
+      fmt::format("kernel events cannot be recorded: {}", reason.empty() ? "their recorder ended at once" : reason),
+      line_after(said, "hint: "));
+}
+
+std::optional<std::uint64_t> finish_kernel_recorder(const fs::path& recording) {
+  const pid_t pid = recorder_of(recording).pid;
+  if (pid <= 0) return std::nullopt;
+  const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+  if (pidfd >= 0) {
+    kill(pid, SIGTERM);
+    pollfd end{pidfd, POLLIN, 0};
+    while (poll(&end, 1, kLongestEnd) < 0 && errno == EINTR) {
+    }
+    close(pidfd);
+    waitpid(pid, nullptr, WNOHANG);  // when it is our child
+  }
+  const fs::path result = recording / "kernel-recorder.json";
+  std::ifstream file(result);
+  const auto said = nlohmann::json::parse(file, nullptr, false);
+  std::error_code ignored;
+  fs::remove(result, ignored);
+  if (said.is_discarded()) {
+    throw TraceError("the kernel recorder has not ended as it should: kernel events of this trace are lost");
+  }
+  return said.value("lost_events", std::uint64_t{0});
+}
+
+}  // namespace tracing

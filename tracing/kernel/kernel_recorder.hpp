@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records events of the kernel without LTTng's modules: runs launch-kernel-recorder beside a session.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/plan/channel_plan.hpp"
+
+namespace tracing {
+
+inline constexpr const char* kKernelRecorder = "launch-kernel-recorder";
+inline constexpr const char* kKernelRecorderChannel = "kernel";
+
+enum class KernelRecording {
+  kEverything,  // into `recording`/kernel
+  kSnapshots,   // the newest events are kept for take_kernel_snapshot()
+};
+
+// Starts it for the kernel channels of `plans`. Returns when it records: a warning that names the events that the
+// kernel hasn't, "" when there are none. Throws TraceError, also when there is nothing to record.
+std::string start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
+                                  const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans,
+                                  KernelRecording what);
+
+// Writes what the recorder of `recording` has kept beside what the snapshot has of userspace; with `clear` the next
+// snapshot begins after this one. Nothing happens when none runs there. Throws TraceError.
+void take_kernel_snapshot(const std::filesystem::path& recording, const std::filesystem::path& snapshot, bool clear);
+
+// What keeps these kernel channels from being recorded this way: a context field that tracefs does not tell. Throws
+// TraceError.
+void check_kernel_recorder_fields(const std::vector<ChannelPlan>& plans);
+
+// Let the recorder of `recording` rest, with everything written, and go on. Nothing happens when none runs there. Throw
+// TraceError when it does not answer within seconds.
+void pause_kernel_recorder(const std::filesystem::path& recording);
+void resume_kernel_recorder(const std::filesystem::path& recording);
+
+// Ends the recorder of `recording`, waits until everything is written, and returns how many events it has lost.
+// Nothing when none runs there.
+std::optional<std::uint64_t> finish_kernel_recorder(const std::filesystem::path& recording);
+
+}  // namespace tracing

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/lttng/session_daemon.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <lttng/lttng.h>
+#include <pwd.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <thread>
+
+#include "tracing/plan/trace_error.hpp"
+
+namespace tracing {
+namespace {
+
+constexpr const char* kDaemon = "lttng-sessiond";
+// For a daemon that another process is starting: LTTng has nothing to wait on.
+constexpr std::chrono::seconds kLongestStart{10};
+constexpr std::chrono::milliseconds kBetweenLooks{5};
+constexpr const char* kInstallRemedy = "install LTTng: sudo apt-get install lttng-tools liblttng-ust-dev";
+
+bool daemon_answers() {
+  return lttng_session_daemon_alive() == 1;
+}
+
+// Root's daemon lives in the global run directory, whatever LTTNG_HOME says. Everybody else has one of their own; the
+// members of group `tracing` are served by root's daemon where one runs, and the other file does not exist then.
+std::string pid_file_of_daemon() {
+  if (geteuid() == 0) return "/run/lttng/lttng-sessiond.pid";
+  const char* home = std::getenv("LTTNG_HOME");
+  if (home == nullptr || *home == '\0') home = std::getenv("HOME");
+  if (home == nullptr || *home == '\0') {
+    const passwd* entry = getpwuid(geteuid());
+    home = entry != nullptr ? entry->pw_dir : "/";
+  }
+  return fmt::format("{}/.lttng/lttng-sessiond.pid", home);
+}
+
+struct ProcessStat {
+  std::string name;
+  char state = '?';
+};
+
+// From /proc/PID/stat, proc(5): "pid (name) state …". An empty name when the process can't be seen.
+ProcessStat read_process_stat(pid_t pid) {
+  std::ifstream file(fmt::format("/proc/{}/stat", pid));
+  std::string line;
+  std::getline(file, line);
+  const std::size_t open = line.find('(');
+  const std::size_t close = line.rfind(')');
+  if (open == std::string::npos || close == std::string::npos || close + 2 >= line.size()) return {};
+  return {line.substr(open + 1, close - open - 1), line[close + 2]};
+}
+
+// What the started daemon says goes to a memory file: a pipe of ours would be held open for the daemon's whole life,
+// and the terminal would get LTTng's messages in place of ours.
+class DaemonOutput {
+ public:
+  DaemonOutput() : fd_(memfd_create("lttng-sessiond-output", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {}
+  // The daemon keeps it for good: what it says from now on fails instead of filling memory.
+  ~DaemonOutput() {
+    if (fd_ < 0) return;
+    fcntl(fd_, F_ADD_SEALS, F_SEAL_WRITE);
+    close(fd_);
+  }
+  DaemonOutput(const DaemonOutput&) = delete;
+  DaemonOutput& operator=(const DaemonOutput&) = delete;
+
+  int fd() const { return fd_; }
+
+  // The first line that is not empty.
+  std::string first_line() const {
+    std::array<char, 1024> text{};
+    const ssize_t length = pread(fd_, text.data(), text.size(), 0);
+    std::string_view rest(text.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+    rest.remove_prefix(std::min(rest.find_first_not_of('\n'), rest.size()));
+    return std::string(rest.substr(0, rest.find('\n')));
+  }
+
+ private:
+  int fd_;
+};
+
+[[noreturn]] void throw_spawn_error(int error) {
+  if (error == ENOENT) {
+    throw SessionDaemonMissing(fmt::format("cannot trace: {} is not installed or not in PATH", kDaemon),
+                               kInstallRemedy);
+  }
+  throw TraceError(fmt::format("cannot start {}: {}", kDaemon, std::strerror(error)), kInstallRemedy);
+}
+
+pid_t spawn_daemon(const DaemonOutput& output) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDWR, 0);
+  const int out = output.fd() >= 0 ? output.fd() : STDIN_FILENO;
+  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, out, STDERR_FILENO);
+  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+
+  // Our blocked signals would make the daemon deaf to SIGTERM for ever; our session would let Ctrl-C reach it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  sigset_t all;
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID);
+
+  // --daemonize would close every descriptor that the limit allows, one by one: 10 ms for 20,000, half a second for
+  // the million of many containers. Here nothing is open but what it is given.
+  std::array<char*, 3> arguments = {const_cast<char*>(kDaemon), const_cast<char*>("--background"), nullptr};
+  pid_t pid = -1;
+  const int error = posix_spawnp(&pid, kDaemon, &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw_spawn_error(error);
+  return pid;
+}
+
+// Whoever starts a daemon first holds this lock; the others' daemons give up before the first one answers.
+bool another_daemon_starts() {
+  const std::string lock_file = std::filesystem::path(pid_file_of_daemon()).replace_extension(".lck");
+  const int fd = open(lock_file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  const bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  close(fd);
+  return held;
+}
+
+// With --background the started process ends when the daemon it left behind accepts commands.
+void start_daemon() {
+  const DaemonOutput output;
+  const pid_t pid = spawn_daemon(output);
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  const auto give_up = std::chrono::steady_clock::now() + kLongestStart;
+  while (!daemon_answers() && another_daemon_starts() && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
+  if (daemon_answers()) return;  // also when another process was faster than we
+
+  const std::string said = output.first_line();
+  throw TraceError(
+      fmt::format("{} was started but does not answer{}{}", kDaemon, said.empty() ? "" : ": ", said),
+      fmt::format(
+          "run `{} --verbose` to see why; a daemon of another container that shares HOME is kept apart by another "
+          "LTTNG_HOME",
+          kDaemon));
+}
+
+// 0 when there is none.
+pid_t read_pid(const std::string& pid_file) {
+  std::ifstream file(pid_file);
+  pid_t pid = 0;
+  return file >> pid && pid > 0 ? pid : 0;
+}
+
+void check_not_stopped(pid_t pid, const ProcessStat& process) {
+  if (process.name != kDaemon || process.state != 'T') return;
+  throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and answers nobody", pid),
+                   fmt::format("continue it with `kill -CONT {}`", pid));
+}
+
+}  // namespace
+
+void check_daemon_is_here(const std::string& pid_file) {
+  const pid_t pid = read_pid(pid_file);
+  if (pid == 0) return;
+  const ProcessStat process = read_process_stat(pid);
+  const bool hidden = process.name.empty() && kill(pid, 0) != 0 && errno == EPERM;  // /proc with hidepid
+  if (hidden) return;
+  if (process.name != kDaemon || process.state == 'Z') {
+    throw TraceError(
+        fmt::format("the LTTng session daemon exists but is unreachable: {} names process {}, which is not a {} here",
+                    pid_file, pid, kDaemon),
+        "another container shares this home directory: give each container its own LTTNG_HOME (LTTng bug 1371)");
+  }
+  check_not_stopped(pid, process);
+}
+
+std::string session_daemon_directory() {
+  return std::filesystem::path(pid_file_of_daemon()).parent_path().string();
+}
+
+pid_t session_daemon_pid() {
+  return read_pid(pid_file_of_daemon());
+}
+
+bool session_daemon_can_answer() {
+  const pid_t pid = session_daemon_pid();
+  return pid == 0 || read_process_stat(pid).state != 'T';
+}
+
+void check_daemon_not_stopped() {
+  if (const pid_t pid = session_daemon_pid(); pid != 0) check_not_stopped(pid, read_process_stat(pid));
+}
+
+bool ensure_session_daemon() {
+  // A stopped daemon accepts the connection and would block us for ever: look at the process first.
+  const bool alive = daemon_answers();
+  if (!alive) start_daemon();
+  check_daemon_is_here(pid_file_of_daemon());
+  return !alive;
+}
+
+}  // namespace tracing

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides which channels a trace has, how large their buffers are, and what is recorded into each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracing/plan/channel_plan.hpp"
+#include "tracing/plan/trace_config.hpp"
+
+namespace tracing {
+
+// The channels into which `config` records something: `ros2` and `kchan`, with `init_channel` also `ros2_init`, and
+// those of `config.channels`. What occurs twice is taken once, and a default event that a channel of `config.channels`
+// takes is taken there only. Warnings (a sub-buffer size that had to be rounded up) are appended. Throws TraceError for
+// what can't be had: a context field, an event rule, or attributes that exclude each other.
+std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
+
+}  // namespace tracing
