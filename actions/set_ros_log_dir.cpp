@@ -2,25 +2,13 @@
 // <set_ros_log_dir new_log_dir="…"/>: where later nodes write their log files.
 #include <filesystem>
 
+#include "launcher/base/home_directory.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 
 namespace {
-
-// Where nodes write when nothing is set: rcl_logging's rule.
-std::filesystem::path current_log_directory(const Environment& environment) {
-  const auto value = [&](const char* name) {
-    const auto found = environment.find(name);
-    return found == environment.end() ? std::string() : found->second;
-  };
-  if (const std::string directory = value("ROS_LOG_DIR"); !directory.empty()) {
-    return directory;
-  }
-  const std::string home = value("ROS_HOME");
-  return home.empty() ? std::filesystem::path(value("HOME")) / ".ros" / "log" : std::filesystem::path(home) / "log";
-}
 
 class SetRosLogDir : public Action {
  public:
@@ -30,7 +18,7 @@ class SetRosLogDir : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     Scope& scope = context.scope();
-    const auto directory = current_log_directory(scope.environment) / directory_.perform(scope);
+    const auto directory = std::filesystem::path(ros_log_directory(scope.environment)) / directory_.perform(scope);
     scope.environment.insert_or_assign("ROS_LOG_DIR", directory.string());
   }
 

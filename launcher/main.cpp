@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
@@ -36,7 +37,7 @@ launch::Environment environment_of_process() {
 
 // A program of its own: the launcher does without the libraries that reading traces needs.
 int report(char** argv) {
-  const std::string program = launch::own_install_prefix() + "/lib/launch/launch-report";
+  const std::string program = launch::own_library_file("launch-report");
   argv[1] = const_cast<char*>("launch report");
   ::execv(program.c_str(), argv + 1);
   fmt::print(stderr, "launch: error: can't run {}: {}\n", program, std::strerror(errno));

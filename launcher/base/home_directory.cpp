@@ -55,4 +55,9 @@ std::string ros_home(const std::map<std::string, std::string>& environment) {
   return expand_home(given.empty() ? "~/.ros" : given, environment);
 }
 
+std::string ros_log_directory(const std::map<std::string, std::string>& environment) {
+  const std::string given = value_of(environment, "ROS_LOG_DIR");
+  return given.empty() ? ros_home(environment) + "/log" : expand_home(given, environment);
+}
+
 }  // namespace launch

@@ -23,4 +23,7 @@ std::string expand_home(const std::string& path, const std::map<std::string, std
 // Where ROS 2 keeps logs and traces: $ROS_HOME, else ~/.ros, with "~" replaced.
 std::string ros_home(const std::map<std::string, std::string>& environment);
 
+// Where nodes write their logs, by rcl_logging's rule: $ROS_LOG_DIR, else "log" in ros_home(), with "~" replaced.
+std::string ros_log_directory(const std::map<std::string, std::string>& environment);
+
 }  // namespace launch

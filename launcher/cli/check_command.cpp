@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check_launch_file.hpp"
 #include "launcher/cli/diagnostic_output.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/run_command.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 Scope scope_of(const Environment& environment) {
   Scope scope;
   scope.environment = environment;
-  scope.packages = std::make_shared<PackageIndex>(own_install_prefix());
+  scope.packages = std::make_shared<PackageIndex>(own_prefix());
   return scope;
 }
 

@@ -11,9 +11,9 @@
 #include <set>
 #include <system_error>
 
+#include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/run_command.hpp"
 #include "launcher/cli/strict_ros2.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/process/program_search.hpp"
@@ -32,7 +32,7 @@ class Checker {
 
   std::vector<Diagnostic> run(const std::string& path) {
     try {
-      LaunchContext context(registry_, environment_, own_install_prefix(), [](auto, auto, auto) {});
+      LaunchContext context(registry_, environment_, own_prefix(), [](auto, auto, auto) {});
       context.scope().warn = [this](const SourceRange& where, const std::string& text) { warn(text, where); };
       for (const auto& [name, value] : options_.arguments) {
         context.scope().configurations.insert_or_assign(name, value);

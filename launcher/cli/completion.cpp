@@ -7,8 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/run_command.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -50,7 +50,7 @@ class Completer {
   Completer(const Registry& registry, const Environment& environment, const CompleteTrace& trace_words)
       : registry_(registry), trace_words_(trace_words) {
     scope_.environment = environment;
-    scope_.packages = std::make_shared<PackageIndex>(own_install_prefix());
+    scope_.packages = std::make_shared<PackageIndex>(own_prefix());
   }
 
   Words candidates(const Words& words) {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <fstream>
 
+#include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/graph.hpp"
-#include "launcher/cli/run_command.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/visit/launch_plan.hpp"
 
@@ -28,7 +28,7 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     return *exit_code;
   }
   try {
-    LaunchContext context(registry, environment, own_install_prefix(), [](auto, auto, auto) {});
+    LaunchContext context(registry, environment, own_prefix(), [](auto, auto, auto) {});
     for (const auto& [name, value] : target.arguments) {
       context.scope().configurations.insert_or_assign(name, value);
     }

@@ -5,9 +5,9 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <filesystem>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
@@ -92,14 +92,14 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   supervisor.observe(process_messages(output));
 
   RosClientProcess ros_client(*loop);
-  LaunchContext context(registry, environment, own_install_prefix(),
+  LaunchContext context(registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
                         });
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context.scope());
 
-  LaunchTracepoints tracepoints(own_install_prefix());
+  LaunchTracepoints tracepoints(own_prefix());
   LaunchService service(context, *loop, supervisor, print_error);
   service.use_ros_client(ros_client);
   service.guard_scopes(guardian);
@@ -126,11 +126,6 @@ int dry_run(const CommandLine& command, LaunchContext& context, const LaunchDesc
 
 }  // namespace
 
-std::string own_install_prefix() {
-  std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path().string();
-}
-
 int run_command(const CommandLine& command, Environment environment) {
   if (command.show_all_output) {
     environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
@@ -140,7 +135,7 @@ int run_command(const CommandLine& command, Environment environment) {
   }
   const Registry registry = builtin_actions();
   try {
-    LaunchContext context(registry, environment, own_install_prefix(),
+    LaunchContext context(registry, environment, own_prefix(),
                           [](LogLevel, std::string_view logger, std::string_view text) {
                             fmt::print(stderr, "[{}]: {}\n", logger, text);
                           });

@@ -10,7 +10,4 @@ namespace launch {
 // Returns the exit code: 0, or 1 after an error of the launch itself. Errors go to standard error.
 int run_command(const CommandLine& command, Environment environment);
 
-// The prefix that this launcher is installed in: the parent of the directory of its program.
-std::string own_install_prefix();
-
 }  // namespace launch

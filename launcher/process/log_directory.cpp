@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <pwd.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -11,38 +10,13 @@
 #include <filesystem>
 #include <system_error>
 
+#include "launcher/base/home_directory.hpp"
 #include "launcher/process/output_router.hpp"
 
 namespace launch {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string value_of(const std::map<std::string, std::string>& environment, const char* name) {
-  const auto variable = environment.find(name);
-  return variable == environment.end() ? std::string() : variable->second;
-}
-
-std::string home(const std::map<std::string, std::string>& environment) {
-  std::string directory = value_of(environment, "HOME");
-  if (directory.empty()) {
-    const passwd* user = ::getpwuid(::getuid());
-    directory = user == nullptr ? "/" : user->pw_dir;
-  }
-  return directory;
-}
-
-fs::path base_directory(const std::map<std::string, std::string>& environment) {
-  std::string base = value_of(environment, "ROS_LOG_DIR");
-  if (base.empty()) {
-    const std::string ros_home = value_of(environment, "ROS_HOME");
-    base = (ros_home.empty() ? "~/.ros" : ros_home) + "/log";
-  }
-  if (base == "~" || base.starts_with("~/")) {
-    base.replace(0, 1, home(environment));
-  }
-  return fs::absolute(base);
-}
 
 // YYYY-MM-DD-HH-MM-SS-ffffff-HOST-PID, local time.
 std::string run_name() {
@@ -78,7 +52,7 @@ std::string renew_latest(const fs::path& base, const std::string& name) {
 }  // namespace
 
 LogDirectory LogDirectory::create(const std::map<std::string, std::string>& environment) {
-  const fs::path base = base_directory(environment);
+  const fs::path base = fs::absolute(ros_log_directory(environment));
   fs::create_directories(base);
   while (true) {
     const std::string name = run_name();

@@ -4,7 +4,6 @@
 #include <linux/close_range.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
@@ -13,15 +12,16 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/pipe.hpp"
+#include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/process_runner.hpp"
@@ -35,27 +35,11 @@ namespace {
   throw std::system_error(errno, std::system_category(), what);
 }
 
-void check(int error, const char* what) {
-  if (error != 0) {
-    throw std::system_error(error, std::system_category(), what);
-  }
-}
-
-// Two ends of a pipe or of a pseudo-terminal, both close-on-exec.
+// For the output of a child: two ends of a pipe or of a pseudo-terminal, both close-on-exec.
 struct Channel {
   UniqueFd parent;
   UniqueFd child;
 };
-
-Channel make_pipe(int parent_end) {
-  std::array<int, 2> fds{};
-  if (::pipe2(fds.data(), O_CLOEXEC) != 0) {
-    fail("cannot create a pipe");
-  }
-  Channel channel{UniqueFd(fds[static_cast<std::size_t>(parent_end)]),
-                  UniqueFd(fds[static_cast<std::size_t>(1 - parent_end)])};
-  return channel;
-}
 
 // Reads must not block, but the flag must not reach the child: the two ends of a pipe have flags of their own.
 void set_nonblocking(const UniqueFd& fd) {
@@ -65,9 +49,9 @@ void set_nonblocking(const UniqueFd& fd) {
 }
 
 Channel make_output_pipe() {
-  Channel channel = make_pipe(0);
-  set_nonblocking(channel.parent);
-  return channel;
+  Pipe pipe = make_pipe();
+  set_nonblocking(pipe.read);
+  return {std::move(pipe.read), std::move(pipe.write)};
 }
 
 Channel make_pseudo_terminal() {
@@ -82,78 +66,6 @@ Channel make_pseudo_terminal() {
   }
   return channel;
 }
-
-class FileActions {
- public:
-  FileActions() { check(posix_spawn_file_actions_init(&actions_), "cannot prepare a process"); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-
-  void redirect(const UniqueFd& from, int to) {
-    check(posix_spawn_file_actions_adddup2(&actions_, from.get(), to), "cannot prepare a process");
-  }
-  void change_directory(const std::string& path) {
-    check(posix_spawn_file_actions_addchdir_np(&actions_, path.c_str()), "cannot prepare a process");
-  }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
-
-class SpawnAttributes {
- public:
-  SpawnAttributes() {
-    check(posix_spawnattr_init(&attributes_), "cannot prepare a process");
-    sigset_t signals;
-    sigfillset(&signals);
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  }
-  ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
-  SpawnAttributes(const SpawnAttributes&) = delete;
-  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
-  const posix_spawnattr_t* get() const { return &attributes_; }
-
- private:
-  posix_spawnattr_t attributes_;
-};
-
-// A null-terminated array of C strings, as exec wants it.
-class StringArray {
- public:
-  explicit StringArray(const std::vector<std::string>& strings) {
-    reserve(strings.size());
-    for (const std::string& string : strings) {
-      pointers_.push_back(const_cast<char*>(string.c_str()));  // exec does not write, C has no way to say so
-    }
-    pointers_.push_back(nullptr);
-  }
-  explicit StringArray(const std::map<std::string, std::string>& variables) {
-    reserve(variables.size());
-    std::size_t size = 0;
-    for (const auto& [name, value] : variables) {
-      size += name.size() + value.size() + 2;
-    }
-    text_.reserve(size);  // so that no pointer moves
-    for (const auto& [name, value] : variables) {
-      pointers_.push_back(text_.data() + text_.size());
-      text_.append(name).append("=").append(value).push_back('\0');
-    }
-    pointers_.push_back(nullptr);
-  }
-  char* const* get() const { return pointers_.data(); }
-
- private:
-  void reserve(std::size_t count) { pointers_.reserve(count + 1); }
-
-  std::string text_;
-  std::vector<char*> pointers_;
-};
 
 std::vector<std::string> command_line(const ProcessSpec& spec) {
   if (!spec.shell) {
@@ -189,7 +101,6 @@ class PosixProcessRunner final : public ProcessRunner {
   static ProcessExit wait(const Process& process, int flags);
 
   std::string exec_program_;
-  SpawnAttributes attributes_;
   std::optional<rlimit> limit_of_children_;  // only if it differs from the launcher's
 };
 
@@ -216,47 +127,47 @@ PosixProcessRunner::PosixProcessRunner(std::string exec_program) : exec_program_
 Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   const std::string program = spec.shell ? "/bin/sh" : find_program(spec);
 
-  Channel in = make_pipe(1);
+  Pipe in = make_pipe();
   Channel out = spec.emulate_tty ? make_pseudo_terminal() : make_output_pipe();
   Channel err = spec.emulate_tty ? make_pseudo_terminal() : make_output_pipe();
 
-  FileActions actions;
-  actions.redirect(in.child, STDIN_FILENO);
-  actions.redirect(out.child, STDOUT_FILENO);
-  actions.redirect(err.child, STDERR_FILENO);
-  if (!spec.working_directory.empty()) {
-    actions.change_directory(spec.working_directory);
-  }
-
-  std::vector<std::string> strings = command_line(spec);
+  ChildProgram child{
+      .program = program,
+      .argv = command_line(spec),
+      .environment = &spec.environment.variables(),
+      .directory = spec.working_directory,
+      .descriptors = {{STDIN_FILENO, in.read.get()},
+                      {STDOUT_FILENO, out.child.get()},
+                      {STDERR_FILENO, err.child.get()}},
+      .group = ChildGroup::kOwn,
+      .signals = ChildSignals::kFresh,
+  };
   const bool limited = spec.limits.any();
-  Channel failures;
+  Pipe failures;
   if (limited) {
-    failures = make_pipe(0);
-    actions.redirect(failures.child, kLaunchExecError);
+    failures = make_pipe();
+    child.descriptors.push_back({kLaunchExecError, failures.write.get()});
     std::vector<std::string> wrapper = launch_exec_arguments(spec.limits);
     wrapper.insert(wrapper.begin(), exec_program_);
     wrapper.push_back(program);
-    strings.insert(strings.begin(), wrapper.begin(), wrapper.end());
+    child.argv.insert(child.argv.begin(), wrapper.begin(), wrapper.end());
+    child.program = exec_program_;
   }
-  const std::string& started = limited ? exec_program_ : program;
-  const StringArray argv(strings);
-  const StringArray environment(spec.environment);
 
   // Libraries open descriptors without close-on-exec, and whoever started us may have left some open. One call marks
   // them all (Linux 5.11; older kernels leave the marks as they are).
   static_cast<void>(::syscall(SYS_close_range, 3U, ~0U, CLOSE_RANGE_CLOEXEC));
 
   Process process;
-  const int error =
-      ::posix_spawn(&process.pid, started.c_str(), actions.get(), attributes_.get(), argv.get(), environment.get());
-  if (error != 0) {
-    throw spawn_failure(error, spec, started);
+  try {
+    process.pid = launch::spawn(child);
+  } catch (const SpawnError& error) {
+    throw spawn_failure(error.code().value(), spec, child.program);
   }
   if (limited) {
-    failures.child.reset();
-    if (const std::optional<LaunchExecFailure> failure = read_failure(failures.parent)) {
-      ::waitpid(process.pid, nullptr, 0);
+    failures.write.reset();
+    if (const std::optional<LaunchExecFailure> failure = read_failure(failures.read)) {
+      wait_for(process.pid);
       if (failure->step == kStepExec) {
         throw spawn_failure(failure->error, spec, program);
       }
@@ -272,10 +183,10 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   if (!process.pidfd) {
     const int open_error = errno;
     ::kill(-process.pid, SIGKILL);
-    ::waitpid(process.pid, nullptr, 0);
+    wait_for(process.pid);
     throw std::system_error(open_error, std::system_category(), "cannot open a descriptor for a process");
   }
-  process.in = std::move(in.parent);
+  process.in = std::move(in.write);
   process.out = std::move(out.parent);
   process.err = std::move(err.parent);
   return process;
@@ -311,8 +222,7 @@ std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec
 }
 
 std::string default_exec_program() {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  return (self.parent_path().parent_path() / "lib/launch/launch-exec").string();
+  return own_library_file("launch-exec");
 }
 
 }  // namespace launch

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/base/monotonic_clock.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/descriptor_watch.hpp"
 #include "launcher/process/event_loop.hpp"
@@ -229,9 +230,7 @@ void SdEventLoop::run_posted() {
 }
 
 Duration SdEventLoop::now() const {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  return std::chrono::nanoseconds(monotonic_time());
 }
 
 void SdEventLoop::run() {

@@ -1,36 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/substitution/command_output.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/pipe.hpp"
+#include "launcher/base/spawn.hpp"
 
 namespace launch {
 
 namespace {
-
-struct Pipe {
-  UniqueFd read;
-  UniqueFd write;
-};
-
-Pipe make_pipe() {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) {
-    throw std::runtime_error(fmt::format("pipe: {}", std::strerror(errno)));
-  }
-  return {UniqueFd(ends[0]), UniqueFd(ends[1])};
-}
 
 // Appends what is there; false at the end of the stream.
 bool read_some(int fd, std::string& text) {
@@ -42,45 +27,26 @@ bool read_some(int fd, std::string& text) {
   return count > 0 || (count < 0 && errno == EINTR);
 }
 
-std::vector<char*> pointers(const std::vector<std::string>& words) {
-  std::vector<char*> result;
-  for (const std::string& word : words) {
-    result.push_back(const_cast<char*>(word.c_str()));
-  }
-  result.push_back(nullptr);
-  return result;
-}
-
 }  // namespace
 
 CommandOutput capture_command(const std::string& program, const std::vector<std::string>& argv,
                               const Environment& environment, bool merge_error) {
   Pipe out = make_pipe();
   Pipe error = make_pipe();
-  std::vector<std::string> variables;
-  for (const auto& [name, value] : environment) {
-    variables.push_back(name + "=" + value);
-  }
-
-  // The launcher blocks signals that its loop reads; a program expects none to be blocked.
-  sigset_t none;
-  ::sigemptyset(&none);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setsigmask(&attributes, &none);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, out.write.get(), STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, (merge_error ? out : error).write.get(), STDERR_FILENO);
   pid_t pid = 0;
-  const int failure =
-      ::posix_spawn(&pid, program.c_str(), &files, &attributes, pointers(argv).data(), pointers(variables).data());
-  ::posix_spawn_file_actions_destroy(&files);
-  ::posix_spawnattr_destroy(&attributes);
-  if (failure != 0) {
-    throw std::runtime_error(std::strerror(failure));
+  try {
+    pid = spawn({
+        .program = program,
+        .argv = argv,
+        .environment = &environment.variables(),
+        .descriptors = {{STDIN_FILENO, kDevNull},
+                        {STDOUT_FILENO, out.write.get()},
+                        {STDERR_FILENO, (merge_error ? out : error).write.get()}},
+        // The launcher blocks signals that its loop reads; a program expects none to be blocked.
+        .signals = ChildSignals::kNoneBlocked,
+    });
+  } catch (const SpawnError& failure) {
+    throw std::runtime_error(failure.code().message());
   }
   out.write.reset();
   error.write.reset();
@@ -98,8 +64,7 @@ CommandOutput capture_command(const std::string& program, const std::vector<std:
       }
     }
   }
-  while (::waitpid(pid, &output.status, 0) < 0 && errno == EINTR) {
-  }
+  output.status = wait_for(pid);
   return output;
 }
 

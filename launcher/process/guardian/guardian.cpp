@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/guardian/guardian.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 
+#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/spawn.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 
 namespace launch {
@@ -40,33 +37,20 @@ Guardian::Guardian(const std::string& program, Duration grace) {
   socket_.reset(ends[0]);
   const UniqueFd other(ends[1]);
 
-  std::string name = "launch-guardian";
-  std::string milliseconds = std::to_string(std::chrono::ceil<std::chrono::milliseconds>(grace).count());
-  const std::array<char*, 3> argv{name.data(), milliseconds.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, other.get(), STDIN_FILENO);
-  // Whoever reads the launcher's output through a pipe must not wait for the helper.
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addchdir_np(&actions, "/");
-  posix_spawnattr_init(&attributes);
-  sigset_t signals;
-  sigfillset(&signals);  // until it ignores those that it shall survive
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
-  const int error = ::posix_spawn(&pid_, program.c_str(), &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    throw std::system_error(error, std::system_category(), fmt::format("cannot start '{}'", program));
-  }
+  pid_ = spawn({
+      .program = program,
+      .argv = {"launch-guardian", std::to_string(std::chrono::ceil<std::chrono::milliseconds>(grace).count())},
+      .directory = "/",
+      // Whoever reads the launcher's output through a pipe must not wait for the helper.
+      .descriptors = {{STDIN_FILENO, other.get()}, {STDOUT_FILENO, kDevNull}},
+      .group = ChildGroup::kOwnSession,
+      .signals = ChildSignals::kAllBlocked,
+  });
 }
 
 Guardian::~Guardian() {
   socket_.reset();
-  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  wait_for(pid_);
 }
 
 void Guardian::attach(pid_t group) {
@@ -95,8 +79,7 @@ void Guardian::remove_clean_up(std::int32_t number) {
 }
 
 std::string Guardian::default_program() {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  return (self.parent_path().parent_path() / "lib/launch/launch-guardian").string();
+  return own_library_file("launch-guardian");
 }
 
 Process GuardedProcessRunner::spawn(const ProcessSpec& spec) {

@@ -8,10 +8,8 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,8 +21,10 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 
@@ -120,32 +120,16 @@ void end_groups(std::set<pid_t> groups, std::chrono::milliseconds grace) {
   }
 }
 
-// With the signals as a program expects them: those that are ignored here would be ignored there, too.
-pid_t spawn(const std::vector<std::string>& command) {
-  std::vector<char*> argv;
-  for (const std::string& word : command) {
-    argv.push_back(const_cast<char*>(word.c_str()));
-  }
-  argv.push_back(nullptr);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t all;
-  sigfillset(&all);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  pid_t pid = -1;
-  const int error = ::posix_spawn(&pid, argv[0], nullptr, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  if (error != 0) {
-    fmt::print(stderr, "launch-guardian: cannot run {}: {}\n", command.front(), std::strerror(error));
-    return -1;
-  }
-  return pid;
-}
-
 void clean_up(const std::vector<std::string>& command) {
-  const pid_t pid = command.empty() ? -1 : spawn(command);
-  if (pid < 0) {
+  if (command.empty()) {
+    return;
+  }
+  pid_t pid = -1;
+  try {
+    // The signals that are ignored here would be ignored there, too.
+    pid = launch::spawn({.program = command.front(), .argv = command, .signals = launch::ChildSignals::kFresh});
+  } catch (const std::system_error& error) {
+    fmt::print(stderr, "launch-guardian: cannot run {}: {}\n", command.front(), error.code().message());
     return;
   }
   const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
@@ -154,8 +138,7 @@ void clean_up(const std::vector<std::string>& command) {
     fmt::print(stderr, "launch-guardian: '{}' takes too long: killing it\n", fmt::join(command, " "));
     ::kill(pid, SIGKILL);
   }
-  while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  launch::wait_for(pid);
 }
 
 }  // namespace

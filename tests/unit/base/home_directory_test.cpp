@@ -48,5 +48,11 @@ TEST(RosHome, IsTheVariableOrDotRos) {
   EXPECT_EQ(ros_home({{"ROS_HOME", "/ros"}}), "/ros");
 }
 
+TEST(RosLogDirectory, IsTheVariableOrInRosHome) {
+  EXPECT_EQ(ros_log_directory({{"HOME", "/home/me"}}), "/home/me/.ros/log");
+  EXPECT_EQ(ros_log_directory({{"HOME", "/home/me"}, {"ROS_HOME", "/ros"}, {"ROS_LOG_DIR", ""}}), "/ros/log");
+  EXPECT_EQ(ros_log_directory({{"HOME", "/home/me"}, {"ROS_HOME", "/ros"}, {"ROS_LOG_DIR", "~/l"}}), "/home/me/l");
+}
+
 }  // namespace
 }  // namespace launch
