@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "actions/ros_names.hpp"
+#include "launcher/base/monotonic_clock.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/visit/launch_context.hpp"

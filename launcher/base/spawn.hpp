@@ -16,6 +16,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <map>
 #include <string>
 #include <system_error>
@@ -72,5 +73,8 @@ pid_t spawn(const ChildProgram& child);
 
 // Waits until the process has ended and reaps it. Its status is to be read with WIFEXITED and others, see waitpid(2).
 int wait_for(pid_t pid);
+
+// Waits until the process has ended, for `limit` at most; false when it still runs then. A child is not reaped yet.
+bool ends_within(pid_t pid, std::chrono::milliseconds limit);
 
 }  // namespace launch

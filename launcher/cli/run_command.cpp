@@ -5,8 +5,8 @@
 #include <signal.h>
 #include <unistd.h>
 
-
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/monotonic_clock.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/ros/ros_client_process.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <filesystem>
-#include <vector>
 
+#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/ros/ros_protocol.hpp"
 
@@ -108,43 +104,20 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
   socket_.reset(ends[0]);
   const UniqueFd other(ends[1]);
 
-  std::vector<std::string> variables;
-  for (const auto& [name, value] : environment) {
-    // Its libraries stand beside it; those of another installation of ROS 2 must not come before them. What is
-    // preloaded is meant for nodes.
-    if (name != "LD_LIBRARY_PATH" && name != "LD_PRELOAD" && name != "TRACETOOLS_RUNTIME_DISABLE") {
-      variables.push_back(name + "=" + value);
-    }
-  }
-  variables.emplace_back("TRACETOOLS_RUNTIME_DISABLE=1");  // the launcher's own traffic is no part of a trace
-  std::vector<char*> envp;
-  for (std::string& variable : variables) {
-    envp.push_back(variable.data());
-  }
-  envp.push_back(nullptr);
-  std::string name = "launch-ros-client";
-  std::string node = fmt::format("launch_ros_{}", ::getpid());
-  const std::array<char*, 3> argv{name.data(), node.data(), nullptr};
-
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, other.get(), STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigset_t all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  const int error = ::posix_spawn(&pid_, program.c_str(), &actions, &attributes, argv.data(), envp.data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    throw std::system_error(error, std::system_category(), fmt::format("cannot start '{}'", program));
-  }
+  Environment::Variables variables = environment.variables();
+  // Its libraries stand beside it; those of another installation of ROS 2 must not come before them. What is preloaded
+  // is meant for nodes.
+  variables.erase("LD_LIBRARY_PATH");
+  variables.erase("LD_PRELOAD");
+  variables["TRACETOOLS_RUNTIME_DISABLE"] = "1";  // the launcher's own traffic is no part of a trace
+  pid_ = spawn({
+      .program = program,
+      .argv = {"launch-ros-client", fmt::format("launch_ros_{}", ::getpid())},
+      .environment = &variables,
+      .descriptors = {{STDIN_FILENO, other.get()}, {STDOUT_FILENO, kDevNull}},
+      .group = ChildGroup::kOwnSession,
+      .signals = ChildSignals::kFresh,
+  });
   readable_ = loop_.on_readable(socket_.get(), [this] { on_readable(); });
 }
 
@@ -238,14 +211,10 @@ void RosClientProcess::Connection::lose() {
 }
 
 int RosClientProcess::Connection::reap() {
-  const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
-  pollfd ended{pidfd.get(), POLLIN, 0};
-  if (::poll(&ended, 1, static_cast<int>(kEndLimit.count())) == 0) {
+  if (!ends_within(pid_, kEndLimit)) {
     ::kill(pid_, SIGKILL);
   }
-  int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = wait_for(pid_);
   pid_ = -1;
   return status;
 }
@@ -287,8 +256,7 @@ void RosClientProcess::close() {
 }
 
 std::string RosClientProcess::default_program() {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  return (self.parent_path().parent_path() / "lib/launch/launch-ros-client").string();
+  return own_library_file("launch-ros-client");
 }
 
 }  // namespace launch

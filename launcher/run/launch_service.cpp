@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "launcher/base/monotonic_clock.hpp"
+
 namespace launch {
 
 namespace {

@@ -2,6 +2,7 @@
 // What the launch tells its recorder and its scopes.
 #include <algorithm>
 
+#include "launcher/base/monotonic_clock.hpp"
 #include "launcher/run/launch_service.hpp"
 
 namespace launch {

@@ -29,12 +29,9 @@ struct LaunchRecord {
   std::int32_t pid = 0;
   std::int32_t value = 0;
   bool asked_for = false;     // exit: a signal of the launcher or its shutdown came before
-  std::int64_t time = 0;      // CLOCK_MONOTONIC in nanoseconds, of the beginning where it took a while
+  std::int64_t time = 0;      // monotonic_time(), of the beginning where it took a while
   std::int64_t duration = 0;  // nanoseconds: load, include, visit
 };
-
-// CLOCK_MONOTONIC in nanoseconds, as LTTng's own time stamps.
-std::int64_t monotonic_time();
 
 // Where records go. All calls come from the loop's thread and must not block it, but for end().
 class LaunchRecorder {

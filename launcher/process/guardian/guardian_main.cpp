@@ -132,9 +132,7 @@ void clean_up(const std::vector<std::string>& command) {
     fmt::print(stderr, "launch-guardian: cannot run {}: {}\n", command.front(), error.code().message());
     return;
   }
-  const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
-  pollfd ended{pidfd.get(), POLLIN, 0};
-  if (::poll(&ended, 1, static_cast<int>(kCleanUpLimit.count())) == 0) {
+  if (!launch::ends_within(pid, kCleanUpLimit)) {
     fmt::print(stderr, "launch-guardian: '{}' takes too long: killing it\n", fmt::join(command, " "));
     ::kill(pid, SIGKILL);
   }

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "launcher/base/own_prefix.hpp"
+
 namespace launch {
 
 namespace {
@@ -21,8 +23,7 @@ python::Runtime* load_module() {
   std::string path = module_path();
   std::error_code ignored;
   if (path.empty()) {
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-    path = (program.parent_path().parent_path() / "lib/launch/liblaunch_python.so").string();
+    path = own_library_file("liblaunch_python.so");
   }
   if (!std::filesystem::exists(path, ignored)) {
     throw std::runtime_error(fmt::format(

@@ -149,6 +149,15 @@ TEST(Spawn, TellsWhyAProgramCannotBeStarted) {
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "no child is left";
 }
 
+TEST(Spawn, WaitsForTheEndAsLongAsTold) {
+  const pid_t pid = spawn({.program = "/bin/sleep", .argv = {"sleep", "1000"}});
+  EXPECT_FALSE(ends_within(pid, std::chrono::milliseconds(1)));
+  ::kill(pid, SIGKILL);
+  EXPECT_TRUE(ends_within(pid, std::chrono::seconds(60)));
+  EXPECT_TRUE(WIFSIGNALED(wait_for(pid))) << "it was not reaped before";
+  EXPECT_TRUE(ends_within(pid, std::chrono::seconds(60))) << "there is no such process any more";
+}
+
 TEST(Pipe, IsClosedInChildrenThatGetNoCopy) {
   Pipe pipe = make_pipe();
   const pid_t pid = spawn({.program = "/bin/sh", .argv = {"sh", "-c", "kill -STOP $$"}});
