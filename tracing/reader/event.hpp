@@ -12,6 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "tracing/ctf/field.hpp"
+#include "tracing/ctf/stream_cursor.hpp"
+
 struct bt_field;  // libbabeltrace2's
 
 namespace tracing {
@@ -36,19 +39,34 @@ struct EventClass {
 // The value of one field. Asking for another type than was recorded gives nullopt.
 class FieldValue {
  public:
-  explicit FieldValue(const bt_field* field) : field_(field) {}
+  explicit FieldValue(const ctf::Field& field) : direct_(field) {}
+  explicit FieldValue(const bt_field* field) : foreign_(field) {}
 
-  std::optional<std::uint64_t> unsigned_integer() const;  // only of unsigned fields, such as pointers and sizes
-  std::optional<std::int64_t> integer() const;            // of any integer that fits
+  std::optional<std::uint64_t> unsigned_integer() const {  // only of unsigned fields, such as pointers and sizes
+    return foreign_ == nullptr ? direct_.unsigned_integer() : foreign_unsigned_integer();
+  }
+  std::optional<std::int64_t> integer() const {  // of any integer that fits
+    return foreign_ == nullptr ? direct_.integer() : foreign_integer();
+  }
   std::optional<double> real() const;
   std::optional<std::string_view> string() const;
 
   bool is_array() const;
-  std::size_t size() const;                        // elements of an array or sequence, 0 of anything else
-  FieldValue operator[](std::size_t index) const;  // of an array; index < size()
+  bool is_structure() const;
+  bool is_variant() const;
+  // Elements of an array or a sequence, members of a structure, 1 of a variant, which has its selected option inside;
+  // 0 of anything else.
+  std::size_t size() const;
+  FieldValue operator[](std::size_t index) const;             // index < size()
+  std::string_view member_name(std::size_t index) const;      // of a structure
+  std::optional<std::string_view> enumeration_label() const;  // the first label of the value, if it has one
 
  private:
-  const bt_field* field_;
+  std::optional<std::uint64_t> foreign_unsigned_integer() const;
+  std::optional<std::int64_t> foreign_integer() const;
+
+  ctf::Field direct_;
+  const bt_field* foreign_ = nullptr;  // null: `direct_` is the field
 };
 
 struct Event {
@@ -61,7 +79,9 @@ struct Event {
   std::optional<std::int64_t> vtid;
   std::optional<std::string_view> procname;  // at most 15 characters; of the thread, not of the executable
 
-  const bt_field* payload = nullptr;  // for field(); null when the event has no fields
+  // For field(): one of the two holds the fields.
+  const ctf::Record* record = nullptr;
+  const bt_field* foreign_payload = nullptr;
 
   std::string_view name() const { return event_class->name; }
   FieldValue field(std::size_t index) const;  // index < event_class->fields.size()

@@ -74,7 +74,7 @@ void MessageTranslator::translate_event(const bt_message* message, TraceSink& si
     if (known.vtid) event.vtid = member(context, *known.vtid).integer();
     if (known.procname) event.procname = member(context, *known.procname).string();
   }
-  event.payload = bt_event_borrow_payload_field_const(recorded);
+  event.foreign_payload = bt_event_borrow_payload_field_const(recorded);
   sink.on_event(event);
 }
 

@@ -56,7 +56,7 @@ std::string identity(const bt_component_class_source* ctf_fs, const fs::path& di
 
 }  // namespace
 
-std::vector<TraceDirectories> find_traces(const bt_component_class_source* ctf_fs, const fs::path& directory) {
+std::vector<fs::path> find_traces(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) {
     throw TraceReadError(fmt::format("cannot read the trace '{}': no such directory", directory.string()),
@@ -80,7 +80,11 @@ std::vector<TraceDirectories> find_traces(const bt_component_class_source* ctf_f
                     kMetadata),
         "LTTng writes no trace when no traced process ran during the session, and none before 'snapshot record'");
   }
+  return directories;
+}
 
+std::vector<TraceDirectories> group_by_identity(const bt_component_class_source* ctf_fs,
+                                                const std::vector<fs::path>& directories) {
   std::vector<TraceDirectories> traces;
   std::map<std::string, std::size_t> by_identity;
   for (const fs::path& path : directories) {

@@ -12,8 +12,11 @@ namespace tracing {
 // Directories to be read as one trace: the chunks of a rotated session have one identity and continue each other.
 using TraceDirectories = std::vector<std::filesystem::path>;
 
-// One entry per trace, in the order of their paths. Throws TraceReadError when there is none.
-std::vector<TraceDirectories> find_traces(const bt_component_class_source* ctf_fs,
-                                          const std::filesystem::path& directory);
+// The directories with metadata at or below `directory`, sorted. Throws TraceReadError when there is none.
+std::vector<std::filesystem::path> find_traces(const std::filesystem::path& directory);
+
+// One entry per trace, in the order of their paths.
+std::vector<TraceDirectories> group_by_identity(const bt_component_class_source* ctf_fs,
+                                                const std::vector<std::filesystem::path>& directories);
 
 }  // namespace tracing

@@ -2,7 +2,7 @@
 // Reads the CTF traces below a directory and gives their events in the order of time.
 //
 // Several traces below the directory (userspace and kernel, the two halves of a dual session, several snapshots) are
-// merged into one sequence. Built on libbabeltrace2.
+// merged into one sequence. A decoder of our own reads what LTTng writes; libbabeltrace2 reads everything else.
 #pragma once
 
 #include <filesystem>
@@ -38,14 +38,20 @@ class TraceSink {
 
 class TraceReader {
  public:
+  enum class Decoder {
+    kAny,         // our own, or libbabeltrace2 where our own does not know something of the trace
+    kDirect,      // our own; TraceReadError where it does not know something
+    kBabeltrace,  // libbabeltrace2
+  };
+
   // Finds the traces. Throws TraceReadError when there is none.
-  explicit TraceReader(const std::filesystem::path& directory);
+  explicit TraceReader(const std::filesystem::path& directory, Decoder decoder = Decoder::kAny);
   ~TraceReader();
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;
 
   // Reads everything; to be called once. Throws TraceReadError on damaged data, after all events before the damage
-  // have been given to the sink. The library prints nothing.
+  // have been given to the sink, with our own decoder also those of other packets and streams.
   void read(TraceSink& sink);
 
  private:

@@ -247,8 +247,8 @@ TEST(TraceReader, NamesTheStreamFileThatIsTruncated) {
   RecordingSink sink;
   const TraceReadError error = error_of(directory.path(), sink);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() +
-                              "': Failed to index CTF stream file '" + stream.string() + "'");
+  EXPECT_EQ(error.what(), "the trace '" + directory.path().string() + "' is damaged or ends early: '" +
+                              stream.string() + "', the packet at byte 0 ends behind the end of the file");
 }
 
 TEST(TraceReader, GivesTheEventsBeforeDamagedData) {
@@ -265,7 +265,7 @@ TEST(TraceReader, GivesTheEventsBeforeDamagedData) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_THAT(error.what(),
               ::testing::StartsWith("the trace '" + directory.path().string() + "' is damaged or ends early: "));
-  EXPECT_EQ(error.remedy(), "what comes before the damage was read");
+  EXPECT_EQ(error.remedy(), "what can be read beside the damage was read");
   EXPECT_EQ(sink.events.size(), 100u);
 }
 

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes a valid CTF 1.8 trace of a shape that a seed decides: both event headers, clocks that wrap, byte orders,
+// alignments, every kind of field, nested ones included, losses, several streams.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace tracing::testing {
+
+// Creates the directory. The same seed gives the same trace.
+void write_random_trace(const std::filesystem::path& directory, std::uint32_t seed);
+
+}  // namespace tracing::testing

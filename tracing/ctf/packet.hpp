@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The packets of a stream file, which is mapped into memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/ctf/trace_class.hpp"
+
+namespace tracing::ctf {
+
+// A whole file, to be read. Its pages are read when they are touched.
+class MappedFile {
+ public:
+  // Throws std::system_error.
+  explicit MappedFile(const std::filesystem::path& path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  const std::uint8_t* begin() const { return begin_; }
+  const std::uint8_t* end() const { return begin_ + size_; }
+  std::size_t size() const { return size_; }
+  // The bytes from `begin` to `end` are not needed any more.
+  void forget(const std::uint8_t* begin, const std::uint8_t* end) const;
+
+ private:
+  const std::uint8_t* begin_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+// What a packet tells of itself. Bits count from its beginning, times are values of the stream's clock.
+struct Packet {
+  const MappedFile* file = nullptr;
+  const std::uint8_t* begin = nullptr;
+  std::uint64_t events_bit = 0;    // where the first event begins
+  std::uint64_t content_bits = 0;  // where the last event ends; with a cut packet, where the file ends
+  std::uint64_t size_bits = 0;     // with padding
+  bool is_cut = false;             // the file ends before the packet does
+  std::uint64_t stream_id = 0;
+  std::optional<std::uint64_t> stream_instance_id;
+  std::optional<std::uint64_t> time_begin;
+  std::optional<std::uint64_t> time_end;
+  std::optional<std::uint64_t> sequence_number;
+  std::optional<std::uint64_t> discarded_events;  // up to its end, since the stream began
+  std::optional<std::int64_t> cpu_id;
+};
+
+// All packets of a file, in its order. What can't be understood ends the list: `problem` then says why.
+struct PacketList {
+  std::vector<Packet> packets;
+  std::string problem;
+};
+PacketList find_packets(const TraceClass& trace, const MappedFile& file);
+
+}  // namespace tracing::ctf

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads traces with libbabeltrace2: whatever our own decoder does not know. Private to the reader.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "tracing/reader/trace_reader.hpp"
+
+namespace tracing {
+
+class BabeltraceReader {
+ public:
+  // `traces` are the directories with metadata below `directory`. Throws TraceReadError.
+  BabeltraceReader(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& traces);
+  ~BabeltraceReader();
+
+  // As TraceReader::read().
+  void read(TraceSink& sink);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tracing
