@@ -184,7 +184,7 @@ void DirectReader::read(TraceSink& sink) {
           // Without a number of its own a stream is a file.
           const std::string name = packet.stream_instance_id ? std::string() : file.string();
           Found& stream = found[{packet.stream_id, packet.stream_instance_id, name}];
-          if (stream.name.empty()) stream.name = file;
+          if (stream.name.empty()) stream.name = fs::canonical(file);
           stream.packets.push_back(std::move(packet));
         }
       }
