@@ -11,10 +11,10 @@
 #include <fstream>
 #include <memory>
 
+#include "launcher/base/nearest_name.hpp"
 #include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/event_rule.hpp"
-#include "tracing/plan/nearest_name.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -44,7 +44,7 @@ struct UnknownName {
 
 UnknownName unknown(const std::string& what, const std::string& pattern, const std::vector<std::string>& names,
                     const std::string& remedy) {
-  const std::string nearest = nearest_name(pattern, names);
+  const std::string nearest = launch::nearest_name(pattern, names);
   return {fmt::format("{} '{}'", what, pattern), nearest.empty() ? remedy : fmt::format("did you mean `{}`?", nearest)};
 }
 

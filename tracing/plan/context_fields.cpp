@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tracing/plan/nearest_name.hpp"
+#include "launcher/base/nearest_name.hpp"
 #include "tracing/plan/perf_counters.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -75,7 +75,7 @@ std::string_view events_of(lttng_domain_type domain) {
 }
 
 std::string suggestion(std::string_view name, lttng_domain_type domain) {
-  const std::string nearest = nearest_name(name, context_field_names(domain));
+  const std::string nearest = launch::nearest_name(name, context_field_names(domain));
   return nearest.empty() ? "lttng-add-context(1) lists the context fields" : fmt::format("did you mean `{}`?", nearest);
 }
 
