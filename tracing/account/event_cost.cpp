@@ -2,13 +2,15 @@
 #include "tracing/account/event_cost.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
+#include "launcher/base/home_directory.hpp"
+#include "launcher/base/replace_file.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -60,8 +62,7 @@ fs::path event_cost_file() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
     return fs::path(cache) / "launch/event_cost.json";
   }
-  const char* const home = std::getenv("HOME");
-  return fs::path(home != nullptr ? home : "/tmp") / ".cache/launch/event_cost.json";
+  return fs::path(launch::home_directory()) / ".cache/launch/event_cost.json";
 }
 
 std::optional<EventCost> known_event_cost(const std::vector<std::string>& context_fields) {
@@ -85,13 +86,11 @@ void remember(const EventCost& cost) {
   }
   kept.push_back(as_json(cost));
   const fs::path file = event_cost_file();
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  // In one step, for launches at the same time.
-  const fs::path temporary = file.string() + fmt::format(".{}", getpid());
-  std::ofstream(temporary) << kept.dump(2) << '\n';
-  fs::rename(temporary, file, error);
-  if (error) throw TraceError(fmt::format("cannot write {}: {}", file.string(), error.message()));
+  try {
+    launch::replace_file(launch::open_or_make_directory(file.parent_path()), file.filename(), kept.dump(2) + "\n");
+  } catch (const std::system_error& error) {
+    throw TraceError(fmt::format("cannot write {}: {}", file.string(), error.code().message()));
+  }
 }
 
 }  // namespace tracing

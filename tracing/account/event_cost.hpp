@@ -21,13 +21,15 @@ struct EventCost {
 // The model of this machine's processor, from /proc/cpuinfo, or "unknown processor".
 std::string processor_model();
 
-// $XDG_CACHE_HOME/launch/event_cost.json, or that of ~/.cache.
+// $XDG_CACHE_HOME/launch/event_cost.json, or that of ~/.cache. Without HOME, the home directory is that of the password
+// database.
 std::filesystem::path event_cost_file();
 
 // What was measured before, on this processor with this LTTng and these context fields.
 std::optional<EventCost> known_event_cost(const std::vector<std::string>& context_fields);
 
-// Keeps it for known_event_cost(). Throws TraceError.
+// Keeps it for known_event_cost(). A link at the place of the file is replaced and not followed; a link of another user
+// on the way to it is refused. Throws TraceError.
 void remember(const EventCost& cost);
 
 }  // namespace tracing

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
+#include "launcher/base/replace_file.hpp"
 #include "tracing/account/event_cost.hpp"
 #include "tracing/account/event_cuts.hpp"
 #include "tracing/account/loss_account.hpp"
@@ -96,10 +95,10 @@ const char* name_of(LossAttribution attribution) {
 
 void write_file(const std::filesystem::path& directory, const std::string& text) {
   const std::filesystem::path path = directory / kVerdictFile;
-  std::ofstream file(path);
-  file << text << std::flush;
-  if (!file) {
-    throw TraceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  try {
+    launch::replace_file(path, text);
+  } catch (const std::system_error& error) {
+    throw TraceError(fmt::format("cannot write {}: {}", path.string(), error.code().message()));
   }
 }
 

@@ -30,7 +30,7 @@ inline constexpr std::uint64_t kLargestAdvice = std::uint64_t{256} << 20;  // by
 // For programs: session, complete, cut_short, discarded_events, lost_packets, channels with their ranges and advice.
 std::string verdict_as_json(const LossAccount& account, const std::string& session_name);
 
-// Writes kVerdictFile. Throws TraceError.
+// Writes kVerdictFile as a whole; a link at its place is replaced and not followed. Throws TraceError.
 void write_verdict(const LossAccount& account, const std::string& session_name, const std::filesystem::path& directory);
 
 // The same for a snapshot: session, reasons, complete, discarded_events, lost_packets, begin_ns and end_ns of the trace

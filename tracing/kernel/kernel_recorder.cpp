@@ -19,7 +19,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <system_error>
 
+#include "launcher/base/replace_file.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -157,7 +159,12 @@ void resume_kernel_recorder(const fs::path& recording) {
 
 void take_kernel_snapshot(const fs::path& recording, const fs::path& snapshot, bool clear) {
   if (recorder_of(recording).pid <= 0) return;
-  std::ofstream(recording / "kernel-recorder.request") << snapshot.string() << "\n" << (clear ? "clear\n" : "keep\n");
+  const fs::path request = recording / "kernel-recorder.request";
+  try {
+    launch::replace_file(request, snapshot.string() + "\n" + (clear ? "clear\n" : "keep\n"));
+  } catch (const std::system_error& error) {
+    throw TraceError(fmt::format("cannot write {}: {}", request.string(), error.code().message()));
+  }
   bring_to(snapshot.filename(), SIGRTMIN, recording);
 }
 

@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/base/replace_file.hpp"
 #include "tracing/kernel/ctf_writer.hpp"
 #include "tracing/kernel/page_history.hpp"
 #include "tracing/kernel/ring_page.hpp"
@@ -159,16 +160,15 @@ std::string ready(const Options& options) {
   return options.warning.empty() ? "ready\n" : fmt::format("ready\nwarning: {}\n", options.warning);
 }
 
-// Whoever waits for a change watches the directory.
+// A program that waits for a change watches the directory: the new file comes into it by a rename.
 void tell_state(const fs::path& beside, const std::string& state) {
-  const fs::path next = beside / "kernel-recorder.next";
-  std::ofstream(next) << getpid() << " " << state << "\n";
-  fs::rename(next, beside / "kernel-recorder.pid");
+  launch::replace_file(beside / "kernel-recorder.pid", fmt::format("{} {}\n", getpid(), state));
 }
 
 void tell_end(const fs::path& beside, std::uint64_t events, std::uint64_t lost_events, std::uint64_t bytes) {
-  std::ofstream(beside / "kernel-recorder.json")
-      << fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n", events, lost_events, bytes);
+  launch::replace_file(
+      beside / "kernel-recorder.json",
+      fmt::format("{{\"events\": {}, \"lost_events\": {}, \"bytes\": {}}}\n", events, lost_events, bytes));
   fs::remove(beside / "kernel-recorder.pid");
 }
 

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <lttng/lttng.h>
-#include <pwd.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -21,6 +20,7 @@
 #include <string_view>
 #include <thread>
 
+#include "launcher/base/home_directory.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -40,13 +40,9 @@ bool daemon_answers() {
 // members of group `tracing` are served by root's daemon where one runs, and the other file does not exist then.
 std::string pid_file_of_daemon() {
   if (geteuid() == 0) return "/run/lttng/lttng-sessiond.pid";
-  const char* home = std::getenv("LTTNG_HOME");
-  if (home == nullptr || *home == '\0') home = std::getenv("HOME");
-  if (home == nullptr || *home == '\0') {
-    const passwd* entry = getpwuid(geteuid());
-    home = entry != nullptr ? entry->pw_dir : "/";
-  }
-  return fmt::format("{}/.lttng/lttng-sessiond.pid", home);
+  const char* const given = std::getenv("LTTNG_HOME");
+  const std::string home = given != nullptr && *given != '\0' ? given : launch::home_directory();
+  return home + "/.lttng/lttng-sessiond.pid";
 }
 
 struct ProcessStat {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/plan/trace_config.hpp"
 
-#include <pwd.h>
-#include <unistd.h>
-
 #include <array>
 #include <ctime>
 #include <filesystem>
+
+#include "launcher/base/home_directory.hpp"
 
 namespace tracing {
 namespace {
@@ -69,15 +68,8 @@ std::string value_or_empty(const std::map<std::string, std::string>& environment
   return found == environment.end() ? std::string() : found->second;
 }
 
-std::string home_directory(const std::map<std::string, std::string>& environment) {
-  if (std::string home = value_or_empty(environment, "HOME"); !home.empty()) return home;
-  const passwd* entry = getpwuid(getuid());
-  return entry != nullptr ? entry->pw_dir : "/";
-}
-
 std::string absolute_normalised(const std::string& path, const std::map<std::string, std::string>& environment) {
-  const bool in_home = path == "~" || path.starts_with("~/");
-  const std::filesystem::path expanded = in_home ? home_directory(environment) + path.substr(1) : path;
+  const std::filesystem::path expanded = launch::expand_home(path, environment);
   // The empty last component ("a/" is "a" and "") is dropped, else the session's name would not follow a single slash.
   const std::filesystem::path normal = std::filesystem::absolute(expanded).lexically_normal();
   return (normal.has_filename() || normal == normal.root_path() ? normal : normal.parent_path()).string();
@@ -133,10 +125,7 @@ std::string trace_base_path(const std::string& given, const std::map<std::string
   if (std::string trace_directory = value_or_empty(environment, "ROS_TRACE_DIR"); !trace_directory.empty()) {
     return absolute_normalised(trace_directory, environment);
   }
-  if (std::string ros_home = value_or_empty(environment, "ROS_HOME"); !ros_home.empty()) {
-    return absolute_normalised(ros_home + "/tracing", environment);
-  }
-  return absolute_normalised("~/.ros/tracing", environment);
+  return absolute_normalised(launch::ros_home(environment) + "/tracing", environment);
 }
 
 std::string session_timestamp() {

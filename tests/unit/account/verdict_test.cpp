@@ -183,6 +183,22 @@ TEST_F(Verdict, ThatCannotBeWrittenIsAnError) {
   }
 }
 
+TEST_F(Verdict, ReplacesAPlantedLinkAndLeavesItsTargetAsItWas) {
+  test_support::write_file(sandbox.directory() / "target", "precious\n");
+  for (const char* recording : {"run", "snapshot-1"}) {
+    std::filesystem::create_directories(sandbox.directory() / recording);
+    std::filesystem::create_symlink("../target", sandbox.directory() / recording / "verdict.json");
+  }
+  tracing::write_verdict(account(0), "run", sandbox.directory() / "run");
+  tracing::write_snapshot_verdict(sandbox.directory() / "snapshot-1", "run", {});
+  for (const char* recording : {"run", "snapshot-1"}) {
+    const std::filesystem::path verdict = sandbox.directory() / recording / "verdict.json";
+    EXPECT_FALSE(std::filesystem::is_symlink(verdict));
+    EXPECT_EQ(test_support::read_file(verdict).substr(0, 15), "{\n  \"session\": ");
+  }
+  EXPECT_EQ(test_support::read_file(sandbox.directory() / "target"), "precious\n");
+}
+
 TEST_F(Verdict, IgnoresWhatIsNoIndex) {
   const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index/ros2_0.idx";
   std::filesystem::create_directories(path.parent_path());

@@ -89,6 +89,7 @@ TEST(TraceBasePath, ExpandsTheHomeDirectory) {
   EXPECT_EQ(trace_base_path("", {{"ROS_TRACE_DIR", "~/t"}, {"HOME", "/home/me"}}), "/home/me/t");
   EXPECT_EQ(trace_base_path("/a/~/b", {{"HOME", "/home/me"}}), "/a/~/b");
   EXPECT_EQ(trace_base_path("~/x", {}), std::string(getpwuid(getuid())->pw_dir) + "/x");
+  EXPECT_EQ(trace_base_path("", {}), std::string(getpwuid(getuid())->pw_dir) + "/.ros/tracing");
 }
 
 TEST(TraceBasePath, IsAbsoluteAndNormalised) {
