@@ -39,12 +39,14 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   LaunchTarget target;
   Subcommand command(
       "launch check",
-      "Finds the errors of launch files without running anything: visits them, also what conditions leave out, and "
+      "Finds the errors of launch files without running anything: visits them, including actions that conditions leave "
+      "out, and "
       "looks for the packages, programs, parameter files and included files that they name. Exit code 1 when there are "
       "errors.");
   command.take_target(target);
   command.take_choice("--format", format, {"text", "json", "sarif"}, "text, json or sarif");
-  command.take_flag("--strict-ros2", options.strict_ros2, "what ros2 launch does not know is an error");
+  command.take_flag("--strict-ros2", options.strict_ros2,
+                    "tags and attributes that ros2 launch does not know are errors");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }

@@ -13,8 +13,7 @@ namespace {
 constexpr int kUsageError = 2;
 
 constexpr const char* kDescription =
-    "Runs a ROS 2 launch file (XML or YAML): starts its traces and processes, supervises them, and leaves nothing "
-    "behind.";
+    "Runs a ROS 2 launch file (XML, YAML or Python): starts its traces and processes, and supervises them to the end.";
 
 constexpr const char* kFooter =
     "Other commands:\n"
@@ -63,7 +62,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   app.add_flag("-a,--show-all-subprocesses-output", command.show_all_output,
                "show the output of every process on the screen and in launch.log");
   app.add_flag("--strict-args", command.strict_arguments,
-               "arguments that are unknown to the file, or given twice, are errors");
+               "arguments that the file does not declare, or that are given twice, are errors");
   app.add_flag("-n,--noninteractive", noninteractive, "accepted for compatibility; signals are always passed on");
   app.add_option("--launch-prefix", command.launch_prefix, "command line put in front of every process, such as gdb");
   app.add_option("--launch-prefix-filter", command.launch_prefix_filter,

@@ -51,20 +51,24 @@ void add_buffer_options(CLI::App& command, TraceConfig& config) {
                                  const std::string& help) {
     command.add_option(option, value, help)->option_text(unit);
   };
-  number("--subbuffer-size-ust", config.subbuffer_size_ust, "BYTES", "sub-buffers of the userspace channel");
-  command.add_flag("--init-channel", config.init_channel, "initialisation events in a channel of their own, ros2_init");
+  number("--subbuffer-size-ust", config.subbuffer_size_ust, "BYTES", "size of a sub-buffer of the userspace channel");
+  command.add_flag("--init-channel", config.init_channel,
+                   "record initialisation events into a channel of their own, ros2_init");
   number("--subbuffer-count-ust", config.subbuffer_count_ust, "NUMBER",
-         fmt::format("how many for each processor (default: {})", config.subbuffer_count_ust));
+         fmt::format("number of sub-buffers for each processor (default: {})", config.subbuffer_count_ust));
   number("--read-timer-ust", config.read_timer_ust, "MICROSECONDS",
          fmt::format("time between two reads of the buffers (default: {})", config.read_timer_ust));
   number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS", "time until a part-full sub-buffer is written");
-  number("--subbuffer-size-kernel", config.subbuffer_size_kernel, "BYTES", "sub-buffers of the kernel channel");
+  number("--subbuffer-size-kernel", config.subbuffer_size_kernel, "BYTES",
+         "size of a sub-buffer of the kernel channel");
   command.add_option("--overwrite-ust", config.overwrite_ust,
                      "when buffers are full lose the oldest events, not the newest (default: in snapshot mode only)");
   number("--blocking-timeout-ust", config.blocking_timeout_ust, "MICROSECONDS",
          "time that a traced thread waits for room before it loses an event; -1: for ever; its process needs "
          "LTTNG_UST_ALLOW_BLOCKING=1 (default: 0)");
-  command.add_option("--buffers-ust", config.buffers_ust, "whose the userspace buffers are: uid (default) or pid")
+  command
+      .add_option("--buffers-ust", config.buffers_ust,
+                  "owner of the userspace buffers: uid (the user, default) or pid (each process)")
       ->transform(CLI::Transformer(
           std::map<std::string, BufferOwner>{{"uid", BufferOwner::kUser}, {"pid", BufferOwner::kProcess}}))
       ->option_text("OWNER");
@@ -92,7 +96,7 @@ void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOp
       ->option_text("URL");
   command
       .add_option("--live-timer", config.live_timer,
-                  "be a live session: viewers of the relay daemon get new events this often")
+                  "make the session live: viewers of the relay daemon get new events this often")
       ->option_text("MICROSECONDS");
 }
 
@@ -176,7 +180,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},
       {add_verb(command, "resume", "record again after a pause", session), TraceVerb::kResume},
       {stop, TraceVerb::kStop},
-      {add_verb(command, "record_snapshot", "write what a snapshot session holds", session),
+      {add_verb(command, "record_snapshot", "write the events that a snapshot session holds", session),
        TraceVerb::kRecordSnapshot},
       {add_stored(command, "save", "write the configuration of a session to a file", session, options),
        TraceVerb::kSave},
