@@ -89,8 +89,10 @@ void MappedFile::forget(const std::uint8_t* begin, const std::uint8_t* end) cons
 }
 
 PacketList find_packets(const TraceClass& trace, const MappedFile& file) {
+  constexpr std::size_t kForget = 1 << 20;  // bytes: touching a header brings the pages around it
   PacketList list;
   FieldArena arena;
+  std::size_t forgotten = 0;
   for (std::size_t at = 0; at < file.size();) {
     Packet packet;
     packet.file = &file;
@@ -118,6 +120,10 @@ PacketList find_packets(const TraceClass& trace, const MappedFile& file) {
     }
     list.packets.push_back(packet);
     at += packet.size_bits / kByte;
+    if (at - forgotten >= kForget) {
+      file.forget(file.begin() + forgotten, file.begin() + at);
+      forgotten = at;
+    }
   }
   return list;
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstring>
 #include <map>
 #include <system_error>
 #include <tuple>
@@ -21,18 +21,53 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A context of every event of a stream.
+struct Context {
+  std::size_t index = 0;                // in the structure
+  std::optional<std::uint32_t> offset;  // bytes from its beginning, where that is always the same and the type is usual
+};
+
 // What all events of one stream class share.
 struct StreamClass {
   StreamClass(const ctf::TraceClass& trace, const ctf::StreamDeclaration& stream)
-      : layout(trace, stream),
-        vpid(layout.event_context().index_of("vpid")),
-        vtid(layout.event_context().index_of("vtid")),
-        procname(layout.event_context().index_of("procname")) {}
+      : layout(trace, stream), vpid(context("vpid")), vtid(context("vtid")), procname(context("procname")) {}
+
+  std::optional<Context> context(std::string_view name) const {
+    const ctf::StructureDecoder& contexts = layout.event_context();
+    const std::optional<std::size_t> index = contexts.index_of(name);
+    if (!index) return std::nullopt;
+    Context context{*index, std::nullopt};
+    const ctf::FieldClass& type = *contexts.type()->members[*index].type;
+    const bool is_usual = type.access == ctf::NumberAccess::kSigned32 || type.is_characters();
+    if (contexts.fixed_size() && is_usual) context.offset = contexts.fixed_places()[*index].offset;
+    return context;
+  }
+
   ctf::StreamLayout layout;
-  std::optional<std::size_t> vpid;
-  std::optional<std::size_t> vtid;
-  std::optional<std::size_t> procname;
+  std::optional<Context> vpid;
+  std::optional<Context> vtid;
+  std::optional<Context> procname;
 };
+
+// Both write the value in its place: to return an optional costs more than to read it.
+void read_number(const ctf::Record& contexts, const Context& context, std::optional<std::int64_t>& value) {
+  if (!context.offset) {
+    value = contexts[context.index].integer();
+    return;
+  }
+  std::int32_t number = 0;
+  std::memcpy(&number, contexts.base + *context.offset, sizeof number);
+  value.emplace(number);
+}
+
+void read_text(const ctf::Record& contexts, const Context& context, std::optional<std::string_view>& value) {
+  if (!context.offset) {
+    value = contexts[context.index].string();
+    return;
+  }
+  const auto* const bytes = reinterpret_cast<const char*>(contexts.base + *context.offset);
+  value.emplace(bytes, strnlen(bytes, contexts.places[context.index].length));
+}
 
 // Packets of one stream, of whatever files, in the order of time. A packet that stands in several snapshots counts
 // once.
@@ -86,22 +121,23 @@ struct DirectReader::OpenStream {
     }
   }
 
-  void give(TraceSink& sink) const;
+  void give(TraceSink& sink);
+
+ private:
+  Event event_;  // its record never changes its place
 };
 
-void DirectReader::OpenStream::give(TraceSink& sink) const {
+void DirectReader::OpenStream::give(TraceSink& sink) {
   if (item == ctf::StreamCursor::Item::kEvent) {
-    const ctf::EventLayout& layout = cursor.event();
-    Event event;
-    event.event_class = &trace.event_classes[layout.index];
-    event.timestamp_ns = cursor.time_ns();
-    event.cpu_id = cursor.packet().cpu_id;
-    const ctf::Record& context = cursor.stream_context();
-    if (stream_class.vpid) event.vpid = context[*stream_class.vpid].integer();
-    if (stream_class.vtid) event.vtid = context[*stream_class.vtid].integer();
-    if (stream_class.procname) event.procname = context[*stream_class.procname].string();
-    event.record = &cursor.payload();
-    sink.on_event(event);
+    event_.event_class = &trace.event_classes[cursor.event().index];
+    event_.timestamp_ns = cursor.time_ns();
+    event_.cpu_id = cursor.packet().cpu_id;
+    const ctf::Record& contexts = cursor.stream_context();
+    if (stream_class.vpid) read_number(contexts, *stream_class.vpid, event_.vpid);
+    if (stream_class.vtid) read_number(contexts, *stream_class.vtid, event_.vtid);
+    if (stream_class.procname) read_text(contexts, *stream_class.procname, event_.procname);
+    event_.record = &cursor.payload();
+    sink.on_event(event_);
     return;
   }
   Loss loss;
