@@ -2,10 +2,10 @@
 #include "tracing/account/losses_by_process.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
+#include "launcher/base/monotonic_clock.hpp"
 #include "tracing/account/event_cuts.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/loss_attribution.hpp"
@@ -16,13 +16,6 @@
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
-namespace {
-
-std::uint64_t monotonic_now() {
-  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
-}
-
-}  // namespace
 
 LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
   if (!config.event_counters.empty()) counts_ = EventCounters(config.event_counters).read();
@@ -33,7 +26,7 @@ LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses)
   } catch (const TraceError&) {
     unknown_ = true;
   }
-  losses.processes = account_processes(counts_, events_, monotonic_now());
+  losses.processes = account_processes(counts_, events_, static_cast<std::uint64_t>(launch::monotonic_time()));
 }
 
 void LossesByProcess::look_into(const std::string& recording) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/kernel/kernel_recorder.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/inotify.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -14,14 +12,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <system_error>
 
+#include "launcher/base/pipe.hpp"
 #include "launcher/base/replace_file.hpp"
+#include "launcher/base/spawn.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -50,36 +49,24 @@ std::vector<std::string> arguments_of(const fs::path& program, const std::string
 
 // What the program says until it closes its output. It goes on then, in a session of its own: a Ctrl-C is not for it.
 std::string start_and_listen(const std::vector<std::string>& arguments) {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw TraceError("cannot start the kernel recorder: no pipe");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::string said;
-  std::array<char, 1024> buffer{};
-  if (error == 0) {
-    for (ssize_t length; (length = read(ends[0], buffer.data(), buffer.size())) > 0;) {
-      said.append(buffer.data(), static_cast<std::size_t>(length));
-    }
+  try {
+    launch::Pipe pipe = launch::make_pipe();
+    const pid_t pid = launch::spawn({
+        .program = arguments[0],
+        .argv = arguments,
+        .descriptors = {{STDIN_FILENO, launch::kDevNull},
+                        {STDOUT_FILENO, pipe.write.get()},
+                        {STDERR_FILENO, launch::kDevNull}},
+        .only_standard_descriptors = true,
+        .group = launch::ChildGroup::kOwnSession,
+    });
+    pipe.write.reset();
+    std::string said = launch::read_to_end(pipe.read);
+    if (!said.starts_with("ready")) launch::wait_for(pid);
+    return said;
+  } catch (const std::system_error& error) {
+    throw TraceError(fmt::format("cannot start {}: {}", arguments[0], error.code().message()));
   }
-  close(ends[0]);
-  if (error != 0) throw TraceError(fmt::format("cannot start {}: {}", arguments[0], std::strerror(error)));
-  if (!said.starts_with("ready")) waitpid(pid, nullptr, 0);
-  return said;
 }
 
 // The rest of the line that begins with `key`.

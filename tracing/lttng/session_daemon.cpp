@@ -5,22 +5,21 @@
 #include <fmt/core.h>
 #include <lttng/lttng.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 #include "launcher/base/home_directory.hpp"
+#include "launcher/base/spawn.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -90,43 +89,32 @@ class DaemonOutput {
   int fd_;
 };
 
-[[noreturn]] void throw_spawn_error(int error) {
-  if (error == ENOENT) {
+[[noreturn]] void throw_spawn_error(const std::error_code& error) {
+  if (error.value() == ENOENT) {
     throw SessionDaemonMissing(fmt::format("cannot trace: {} is not installed or not in PATH", kDaemon),
                                kInstallRemedy);
   }
-  throw TraceError(fmt::format("cannot start {}: {}", kDaemon, std::strerror(error)), kInstallRemedy);
+  throw TraceError(fmt::format("cannot start {}: {}", kDaemon, error.message()), kInstallRemedy);
 }
 
 pid_t spawn_daemon(const DaemonOutput& output) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDWR, 0);
-  const int out = output.fd() >= 0 ? output.fd() : STDIN_FILENO;
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDERR_FILENO);
-  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-
-  // Our blocked signals would make the daemon deaf to SIGTERM for ever; our session would let Ctrl-C reach it.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigemptyset(&none);
-  sigset_t all;
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID);
-
-  // --daemonize would close every descriptor that the limit allows, one by one: 10 ms for 20,000, half a second for
-  // the million of many containers. Here nothing is open but what it is given.
-  std::array<char*, 3> arguments = {const_cast<char*>(kDaemon), const_cast<char*>("--background"), nullptr};
-  pid_t pid = -1;
-  const int error = posix_spawnp(&pid, kDaemon, &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw_spawn_error(error);
-  return pid;
+  const int out = output.fd() >= 0 ? output.fd() : launch::kDevNull;
+  try {
+    return launch::spawn({
+        .program = kDaemon,
+        // --daemonize would close every descriptor that the limit allows, one by one: 10 ms for 20,000, half a second
+        // for the million of many containers. Here nothing is open but what it is given.
+        .argv = {kDaemon, "--background"},
+        .search_path = true,
+        .descriptors = {{STDIN_FILENO, launch::kDevNull}, {STDOUT_FILENO, out}, {STDERR_FILENO, out}},
+        .only_standard_descriptors = true,
+        // Our session would let Ctrl-C reach it; our blocked signals would make it deaf to SIGTERM for ever.
+        .group = launch::ChildGroup::kOwnSession,
+        .signals = launch::ChildSignals::kFresh,
+    });
+  } catch (const std::system_error& error) {
+    throw_spawn_error(error.code());
+  }
 }
 
 // Whoever starts a daemon first holds this lock; the others' daemons give up before the first one answers.
@@ -145,10 +133,7 @@ bool another_daemon_starts() {
 // With --background the started process ends when the daemon it left behind accepts commands.
 void start_daemon() {
   const DaemonOutput output;
-  const pid_t pid = spawn_daemon(output);
-  int status = 0;
-  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
+  launch::wait_for(spawn_daemon(output));
   const auto give_up = std::chrono::steady_clock::now() + kLongestStart;
   while (!daemon_answers() && another_daemon_starts() && std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(kBetweenLooks);

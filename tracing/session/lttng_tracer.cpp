@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "launcher/base/monotonic_clock.hpp"
 #include "tracing/account/cost_measurement.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/losses_by_process.hpp"
@@ -65,10 +65,6 @@ std::string recorder_directory(const std::string& name) {
   if (const auto snapshots = snapshot_directory(name)) return *snapshots;
   const std::optional<SessionSummary> session = find_session(name);
   return session ? session->path : "";
-}
-
-std::uint64_t monotonic_now() {
-  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
 }
 
 class LttngTracer : public Tracer {
@@ -186,7 +182,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   StepTimer timer(steps);
   const std::optional<SessionSummary> session = find_session(name);
   // One that was paused has written its last packets before.
-  const std::uint64_t stopped = session && session->active ? monotonic_now() : 0;
+  const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
   LossAccount losses = stop_and_account(name, give_up, timer);
   LossesByProcess by_process(config, losses);
   timer.finished("losses");
