@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -110,6 +111,16 @@ inline constexpr bool is_init_event = Begins<Event>::value || is_message_link<Ev
 
 template <typename Event>
 inline constexpr bool is_transition = std::is_same_v<Event, event::rcl_lifecycle_transition>;
+
+// The table says which events tell of a beginning and which of an end, BEGINS and ENDS of which object.
+#define CHECK_EVENT(given, name, Struct, group, ...)                                                         \
+  static_assert(is_init_event<event::name> == (std::string_view(#group) == "init"),                          \
+                #name " needs a row of BEGINS if it is in group init of event_table.h, and none otherwise"); \
+  static_assert(Ends<event::name>::value == (std::string_view(#group) == "end"),                             \
+                #name " needs a row of ENDS if it is in group end of event_table.h, and none otherwise");
+TRACETOOLS_EVENT_TABLE(CHECK_EVENT, )
+TRACETOOLS_EXT_EVENT_TABLE(CHECK_EVENT, )
+#undef CHECK_EVENT
 
 /// Events that change what is kept.
 template <typename Event>

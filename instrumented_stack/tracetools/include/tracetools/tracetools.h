@@ -57,8 +57,8 @@ bool ros_trace_compile_status(void);
 /// False with TRACETOOLS_RUNTIME_DISABLE=1 in the environment and when libtracetools_provider.so could not be opened.
 bool ros_trace_runtime_status(void);
 
-// Without a detour through the linker's table of procedures: where nobody records, each line of memory that a call touches
-// is a good part of its cost.
+// Without a detour through the linker's table of procedures: where nobody records, each line of memory that a call
+// touches is a good part of its cost.
 #if defined(__has_attribute)
 #if __has_attribute(noplt)
 #define TRACETOOLS_CALLED_DIRECTLY __attribute__((noplt))
@@ -72,20 +72,18 @@ bool ros_trace_runtime_status(void);
 ///
 /// An event is wanted when a session records it. An init event is always wanted where tracing is enabled at run time:
 /// it is kept for sessions that start later (see object_state.hpp).
-#define TRACETOOLS_DECLARE_EVENT(name, parameters, arguments)     \
-  TRACETOOLS_CALLED_DIRECTLY void ros_trace_##name parameters;    \
-  TRACETOOLS_CALLED_DIRECTLY bool ros_trace_enabled_##name(void); \
-  void ros_trace_do_##name parameters;
-#define TRACETOOLS_DECLARE_EXT_EVENT(name, parameters, arguments)     \
-  TRACETOOLS_CALLED_DIRECTLY void ros_trace_ext_##name parameters;    \
-  TRACETOOLS_CALLED_DIRECTLY bool ros_trace_ext_enabled_##name(void); \
-  void ros_trace_ext_do_##name parameters;
+#define TRACETOOLS_DECLARE_FUNCTIONS(prefix, name, parameters)   \
+  TRACETOOLS_CALLED_DIRECTLY void prefix##_##name parameters;    \
+  TRACETOOLS_CALLED_DIRECTLY bool prefix##_enabled_##name(void); \
+  void prefix##_do_##name parameters;
+#define TRACETOOLS_DECLARE_EVENT(prefix, name, Struct, group, ...) \
+  TRACETOOLS_DECLARE_FUNCTIONS(prefix, name, TRACETOOLS_PARAMETERS(__VA_ARGS__))
 
-TRACETOOLS_EVENTS(TRACETOOLS_DECLARE_EVENT)
-TRACETOOLS_EXT_EVENTS(TRACETOOLS_DECLARE_EXT_EVENT)
+TRACETOOLS_EVENT_TABLE(TRACETOOLS_DECLARE_EVENT, ros_trace)
+TRACETOOLS_EXT_EVENT_TABLE(TRACETOOLS_DECLARE_EVENT, ros_trace_ext)
 
-#undef TRACETOOLS_DECLARE_EXT_EVENT
 #undef TRACETOOLS_DECLARE_EVENT
+#undef TRACETOOLS_DECLARE_FUNCTIONS
 
 #ifdef __cplusplus
 }

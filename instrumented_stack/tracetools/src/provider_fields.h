@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef PROVIDER_FIELDS_H_
+#define PROVIDER_FIELDS_H_
+
+/* What LTTng records for a row of tracetools/event_table.h: TRACETOOLS_PROBE is the macro to hand to the table, with
+ * the name of the provider.
+ *
+ * The arguments have names of their own, because LTTng's macros would take an argument for the field of the same name.
+ */
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracetools/events.h"
+
+/* RMW_GID_STORAGE_SIZE, which this package must not include. */
+#define TRACETOOLS_GID_SIZE 16
+
+/* clang-format off */
+
+#define TRACETOOLS_PROBE(provider, name, Struct, group, ...) \
+  LTTNG_UST_TRACEPOINT_EVENT(provider, name, \
+    LTTNG_UST_TP_ARGS(TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_PROBE_ARGUMENT, __VA_ARGS__))), \
+    LTTNG_UST_TP_FIELDS(TRACETOOLS_EACH_FIELD(TRACETOOLS_PROBE_FIELD, __VA_ARGS__)))
+
+#define TRACETOOLS_PROBE_ARGUMENT(type, name) TRACETOOLS_PROBE_ARGUMENT_##type(name)
+#define TRACETOOLS_PROBE_ARGUMENT_pointer(name) , const void *, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_string(name) , const char *, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_keyword_string(name) , const char *, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_size(name) , size_t, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_uint64(name) , uint64_t, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_int64(name) , int64_t, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_boolean(name) , int, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_gid(name) , const uint8_t *, name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_pointers(name) , const void **, name##_arg, size_t, num_##name##_arg
+#define TRACETOOLS_PROBE_ARGUMENT_version(name)
+#define TRACETOOLS_PROBE_ARGUMENT_ignored(name)
+#define TRACETOOLS_PROBE_ARGUMENT_nothing(name) ,
+
+#define TRACETOOLS_PROBE_FIELD(type, name) TRACETOOLS_PROBE_FIELD_##type(name)
+#define TRACETOOLS_PROBE_FIELD_pointer(name) lttng_ust_field_integer_hex(const void *, name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_string(name) lttng_ust_field_string(name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_keyword_string(name) lttng_ust_field_string(name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_size(name) lttng_ust_field_integer(size_t, name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_uint64(name) lttng_ust_field_integer(uint64_t, name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_int64(name) lttng_ust_field_integer(int64_t, name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_boolean(name) lttng_ust_field_integer(int, name, name##_arg)
+#define TRACETOOLS_PROBE_FIELD_gid(name) lttng_ust_field_array(uint8_t, name, name##_arg, TRACETOOLS_GID_SIZE)
+#define TRACETOOLS_PROBE_FIELD_pointers(name) \
+  lttng_ust_field_sequence_hex(const void *, name, name##_arg, size_t, num_##name##_arg)
+#define TRACETOOLS_PROBE_FIELD_version(name) lttng_ust_field_string(name, TRACETOOLS_VERSION)
+#define TRACETOOLS_PROBE_FIELD_ignored(name)
+#define TRACETOOLS_PROBE_FIELD_nothing(name)
+
+/* clang-format on */
+
+#endif /* PROVIDER_FIELDS_H_ */
