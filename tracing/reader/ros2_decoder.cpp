@@ -85,6 +85,11 @@ void decode_as(const Decoder::Plan& plan, const Event& event, AnyEvent& decoded)
   });
 }
 
+std::string problem_of(std::string_view event, std::string_view field, FieldType expected, bool recorded) {
+  return recorded ? fmt::format("{}: field {} is not {}", event, field, type_name(expected))
+                  : fmt::format("{} has no field {}", event, field);
+}
+
 // Matches the fields by name, because versions of ros2_tracing differ in which there are.
 template <class Struct>
 Problems make_plan(const Event& event, Decoder::Plan& plan) {
@@ -97,8 +102,7 @@ Problems make_plan(const Event& event, Decoder::Plan& plan) {
       return;
     }
     plan.index.push_back(kMissing);
-    problems.push_back(found ? fmt::format("{}: field {} is not {}", Struct::kName, name, type_name(type))
-                             : fmt::format("{} has no field {}", Struct::kName, name));
+    problems.push_back(problem_of(Struct::kName, name, type, found.has_value()));
   });
   plan.decode = decode_as<Struct>;
   return problems;
@@ -107,12 +111,9 @@ Problems make_plan(const Event& event, Decoder::Plan& plan) {
 using MakePlan = Problems (*)(const Event&, Decoder::Plan&);
 
 const std::unordered_map<std::string_view, MakePlan>& plan_makers() {
-#define TRACING_NO_FIELD(type_, name_)
-#define TRACING_MAKER(struct_, name_, fields_) {struct_::kName, make_plan<struct_>},
-  static const std::unordered_map<std::string_view, MakePlan> makers{
-      TRACING_ROS2_EVENTS(TRACING_MAKER, TRACING_NO_FIELD)};
+#define TRACING_MAKER(given_, name_, struct_, ...) {struct_::kName, make_plan<struct_>},
+  static const std::unordered_map<std::string_view, MakePlan> makers{TRACETOOLS_EVENT_TABLE(TRACING_MAKER, )};
 #undef TRACING_MAKER
-#undef TRACING_NO_FIELD
   return makers;
 }
 

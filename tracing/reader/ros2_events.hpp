@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The events of ros2_tracing as structs, one per event, generated from ros2_event_table.hpp.
+// The events of ros2_tracing as structs, one per event, from the table that tracetools records by.
 //
 // A field that a trace does not hold (recorded by another version of ros2_tracing) has its zero value, which no
 // recorded object or time has. Strings are views into the reader's memory, valid as long as the Event they came from.
@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "tracing/reader/ros2_event_table.hpp"
+#include "tracetools/event_table.h"
 
 namespace tracing::ros2 {
 
@@ -33,41 +33,49 @@ using FieldMembers = std::tuple<Handle, std::string_view, std::uint64_t, std::in
 template <FieldType type>
 using FieldMember = std::tuple_element_t<static_cast<std::size_t>(type), FieldMembers>;
 
-// The name of a field in the trace, from its name in the table.
-constexpr std::string_view field_name(std::string_view member) {
-  return member.ends_with('_') ? member.substr(0, member.size() - 1) : member;
-}
+// How the types of fields in the table are read: USE(type, member, name of the field in the trace).
+#define TRACING_FIELD_pointer(USE, name_) USE(kPointer, name_, name_)
+#define TRACING_FIELD_string(USE, name_) USE(kString, name_, name_)
+#define TRACING_FIELD_keyword_string(USE, name_) USE(kString, name_##_, name_)
+#define TRACING_FIELD_size(USE, name_) USE(kUint64, name_, name_)
+#define TRACING_FIELD_uint64(USE, name_) USE(kUint64, name_, name_)
+#define TRACING_FIELD_int64(USE, name_) USE(kInt64, name_, name_)
+#define TRACING_FIELD_boolean(USE, name_) USE(kBool, name_, name_)
+#define TRACING_FIELD_gid(USE, name_) USE(kGid, name_, name_)
+#define TRACING_FIELD_pointers(USE, name_) USE(kPointers, name_, name_)
+#define TRACING_FIELD_version(USE, name_) USE(kString, name_, name_)
+#define TRACING_FIELD_ignored(USE, name_)
+#define TRACING_FIELD_nothing(USE, name_)
 
-#define TRACING_DECLARE_MEMBER(type_, name_) FieldMember<FieldType::type_> name_{};
-#define TRACING_VISIT_MEMBER(type_, name_) visit.template operator()<FieldType::type_>(field_name(#name_), event.name_);
+#define TRACING_DECLARE_MEMBER(type_, member_, name_) FieldMember<FieldType::type_> member_{};
+#define TRACING_VISIT_MEMBER(type_, member_, name_) visit.template operator()<FieldType::type_>(#name_, event.member_);
+#define TRACING_DECLARE_FIELD(type_, name_) TRACING_FIELD_##type_(TRACING_DECLARE_MEMBER, name_)
+#define TRACING_VISIT_FIELD(type_, name_) TRACING_FIELD_##type_(TRACING_VISIT_MEMBER, name_)
 
 // Each struct has `kName`, the full event name, and `for_each_field(event, visit)`, which calls
 // visit.operator()<FieldType>(field name, member) for each member in the order of the payload.
-#define TRACING_DECLARE_EVENT(struct_, name_, fields_)                 \
+#define TRACING_DECLARE_EVENT(provider_, name_, struct_, group_, ...)  \
   struct struct_ {                                                     \
-    static constexpr std::string_view kName = "ros2:" #name_;          \
-    fields_ bool operator==(const struct_&) const = default;           \
+    static constexpr std::string_view kName = provider_ ":" #name_;    \
+    TRACETOOLS_EACH_FIELD(TRACING_DECLARE_FIELD, __VA_ARGS__)          \
+    bool operator==(const struct_&) const = default;                   \
     template <class Event, class Visit>                                \
     static constexpr void for_each_field(Event& event, Visit&& visit); \
   };
-TRACING_ROS2_EVENTS(TRACING_DECLARE_EVENT, TRACING_DECLARE_MEMBER)
+TRACETOOLS_EVENT_TABLE(TRACING_DECLARE_EVENT, "ros2")
 #undef TRACING_DECLARE_EVENT
-#undef TRACING_DECLARE_MEMBER
 
-#define TRACING_DEFINE_FOR_EACH_FIELD(struct_, name_, fields_)                                            \
+#define TRACING_DEFINE_FOR_EACH_FIELD(given_, name_, struct_, group_, ...)                                \
   template <class Event, class Visit>                                                                     \
   constexpr void struct_::for_each_field([[maybe_unused]] Event& event, [[maybe_unused]] Visit&& visit) { \
-    fields_                                                                                               \
+    TRACETOOLS_EACH_FIELD(TRACING_VISIT_FIELD, __VA_ARGS__)                                               \
   }
-TRACING_ROS2_EVENTS(TRACING_DEFINE_FOR_EACH_FIELD, TRACING_VISIT_MEMBER)
+TRACETOOLS_EVENT_TABLE(TRACING_DEFINE_FOR_EACH_FIELD, )
 #undef TRACING_DEFINE_FOR_EACH_FIELD
-#undef TRACING_VISIT_MEMBER
 
-#define TRACING_NAME_STRUCT(struct_, name_, fields_) , struct_
-#define TRACING_NO_FIELD(type_, name_)
+#define TRACING_NAME_STRUCT(given_, name_, struct_, ...) , struct_
 // monostate: nothing decoded yet.
-using AnyEvent = std::variant<std::monostate TRACING_ROS2_EVENTS(TRACING_NAME_STRUCT, TRACING_NO_FIELD)>;
-#undef TRACING_NO_FIELD
+using AnyEvent = std::variant<std::monostate TRACETOOLS_EVENT_TABLE(TRACING_NAME_STRUCT, )>;
 #undef TRACING_NAME_STRUCT
 
 inline constexpr std::size_t kEventCount = std::variant_size_v<AnyEvent> - 1;

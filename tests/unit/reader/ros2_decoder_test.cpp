@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <set>
+#include <string>
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
@@ -67,11 +69,9 @@ Struct filled() {
 
 std::vector<ros2::AnyEvent> one_of_each() {
   std::vector<ros2::AnyEvent> events;
-#define TRACING_NO_FIELD(type_, name_)
-#define TRACING_FILL(struct_, name_, fields_) events.emplace_back(filled<ros2::struct_>());
-  TRACING_ROS2_EVENTS(TRACING_FILL, TRACING_NO_FIELD)
+#define TRACING_FILL(given_, name_, struct_, ...) events.emplace_back(filled<ros2::struct_>());
+  TRACETOOLS_EVENT_TABLE(TRACING_FILL, )
 #undef TRACING_FILL
-#undef TRACING_NO_FIELD
   return events;
 }
 
@@ -254,19 +254,53 @@ TEST(Ros2Decoder, ReadsTheLongerGidOfOlderVersions) {
   EXPECT_THAT(sink.problems, IsEmpty());
 }
 
-TEST(Ros2Events, AreNamedAndTypedAsInTracetools) {
-  std::set<std::string_view> names;
-  for (const ros2::AnyEvent& any : one_of_each()) {
-    std::visit(
-        [&]<class Struct>(const Struct&) {
-          if constexpr (!std::is_same_v<Struct, std::monostate>) names.insert(Struct::kName);
-        },
-        any);
+// "rcl_node_init" to "RclNodeInit".
+std::string camel_case(std::string_view name) {
+  std::string result;
+  bool first = true;
+  for (const char c : name) {
+    if (c != '_') result += first ? static_cast<char>(std::toupper(c)) : c;
+    first = c == '_';
   }
+  return result;
+}
+
+TEST(Ros2Events, HaveStructsOfTheirNames) {
+  std::set<std::string_view> names;
+#define TRACING_CHECK_NAME(given_, name_, struct_, ...)           \
+  EXPECT_EQ(ros2::struct_::kName, "ros2:" + std::string(#name_)); \
+  EXPECT_EQ(#struct_, camel_case(#name_));                        \
+  names.insert(ros2::struct_::kName);
+#define TRACING_CHECK_EXT_NAME(given_, name_, struct_, ...) EXPECT_EQ(#struct_, camel_case(#name_));
+  TRACETOOLS_EVENT_TABLE(TRACING_CHECK_NAME, )
+  TRACETOOLS_EXT_EVENT_TABLE(TRACING_CHECK_EXT_NAME, )
+#undef TRACING_CHECK_EXT_NAME
+#undef TRACING_CHECK_NAME
   EXPECT_EQ(names.size(), 42u);
   EXPECT_EQ(ros2::kEventCount, 42u);
-  EXPECT_TRUE(names.contains("ros2:rclcpp_executor_get_next_ready"));
-  EXPECT_EQ(ros2::field_name("namespace_"), "namespace");
+}
+
+TEST(Ros2Events, HaveTheNamesOfTheirFieldsInTheTrace) {
+  std::vector<std::string> fields;
+  const ros2::RclNodeInit event{.namespace_ = "/robot"};
+  ros2::RclNodeInit::for_each_field(
+      event, [&]<ros2::FieldType>(std::string_view name, const auto&) { fields.emplace_back(name); });
+  EXPECT_THAT(fields, ElementsAre("node_handle", "rmw_handle", "node_name", "namespace"));
+}
+
+// Events of provider ros2_ext are decoded by name and first field.
+TEST(ExtEvents, ThatAreDecodedAreInTheTable) {
+  std::set<std::string> known;
+#define TRACING_FIRST_FIELD(type_, name_) #type_,
+#define TRACING_NOTE(provider_, name_, struct_, group_, ...)                                              \
+  if (std::string(*std::begin({TRACETOOLS_EACH_FIELD(TRACING_FIRST_FIELD, __VA_ARGS__)})) == "pointer") { \
+    known.insert(provider_ ":" #name_);                                                                   \
+  }
+  TRACETOOLS_EXT_EVENT_TABLE(TRACING_NOTE, "ros2_ext")
+#undef TRACING_NOTE
+#undef TRACING_FIRST_FIELD
+  for (const auto& [name, kind] : ros2::ObjectEnd::kKinds) EXPECT_TRUE(known.contains(std::string(name))) << name;
+  for (const auto& [name, kind] : ros2::ExecutionEvent::kKinds) EXPECT_TRUE(known.contains(std::string(name))) << name;
 }
 
 }  // namespace
