@@ -4,30 +4,32 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <set>
+#include <string_view>
 
+#include "tracetools/event_table.h"
 #include "tracing/plan/event_rule.hpp"
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/plan/ros_events.hpp"
 
 namespace tracing {
 namespace {
 
-using Patterns = std::vector<std::string>;
+// In the order in which they are dropped. The groups of events that are not among them stay.
+constexpr std::array<std::string_view, 6> kDroppable = {"executor", "buffers",  "layers",
+                                                        "messages", "services", "callbacks"};
+constexpr std::array<std::string_view, 3> kStaying = {"init", "end", "state"};
 
-const std::map<std::string, Patterns>& classes() {
-  static const std::map<std::string, Patterns> patterns = {
-      {"executor", {"ros2:rclcpp_executor_*", "ros2_ext:rclcpp_executor_*"}},
-      {"buffers",
-       {"ros2:rclcpp_ring_buffer_enqueue", "ros2:rclcpp_ring_buffer_dequeue", "ros2:rclcpp_ring_buffer_clear"}},
-      {"layers", {"ros2:rclcpp_publish", "ros2:rcl_publish", "ros2:rclcpp_take", "ros2:rcl_take"}},
-      {"messages", {"ros2:rmw_publish", "ros2:rmw_take", "ros2:rclcpp_intra_publish"}},
-      {"services",
-       {"ros2:rmw_send_request", "ros2:rmw_take_request", "ros2:rmw_send_response", "ros2:rmw_take_response",
-        "ros2_ext:rclcpp_client_callback_*"}},
-      {"callbacks", {"ros2:callback_start", "ros2:callback_end"}}};
-  return patterns;
+constexpr bool is_one_of(const auto& groups, std::string_view group) {
+  return std::find(groups.begin(), groups.end(), group) != groups.end();
 }
+
+#define CHECK_GROUP(given, name, Struct, group, ...)                          \
+  static_assert(is_one_of(kDroppable, #group) || is_one_of(kStaying, #group), \
+                #name ": say here whether events of group " #group " may be dropped");
+TRACETOOLS_EVENT_TABLE(CHECK_GROUP, )
+TRACETOOLS_EXT_EVENT_TABLE(CHECK_GROUP, )
+#undef CHECK_GROUP
 
 bool is_initialisation(const std::string& event) {
   const std::vector<std::string>& names = initialisation_ros_events();
@@ -38,10 +40,21 @@ bool matches(const std::string& pattern, const std::string& event) {
   return fnmatch(pattern.c_str(), event.c_str(), 0) == 0;
 }
 
+// Whether `pattern` records events of this group and no other event of ROS 2.
+bool records_only(const std::string& pattern, std::string_view group) {
+  bool any = false;
+  for (const RosEvent& event : all_ros_events()) {
+    if (!matches(pattern, event.name)) continue;
+    if (event.group != group) return false;
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 const std::vector<std::string>& droppable_classes() {
-  static const std::vector<std::string> order = {"executor", "buffers", "layers", "messages", "services", "callbacks"};
+  static const std::vector<std::string> order(kDroppable.begin(), kDroppable.end());
   return order;
 }
 
@@ -50,14 +63,12 @@ std::vector<DroppableClass> plan_drops(const std::vector<std::string>& order,
   std::vector<DroppableClass> drops;
   std::set<std::string> taken;
   for (const std::string& name : order) {
-    const auto known = classes().find(name);
-    const Patterns patterns = known != classes().end() ? known->second : Patterns{name};
+    const bool is_class = is_one_of(kDroppable, name);
     DroppableClass drop{.name = name, .rules = {}};
     for (const ChannelPlan& channel : channels) {
       if (channel.domain != LTTNG_DOMAIN_UST) continue;
       for (const EventRule& rule : channel.events) {
-        const bool meant = std::any_of(patterns.begin(), patterns.end(),
-                                       [&](const std::string& pattern) { return matches(pattern, rule.pattern); });
+        const bool meant = is_class ? records_only(rule.pattern, name) : matches(name, rule.pattern);
         if (!meant || is_initialisation(rule.pattern)) continue;
         if (taken.insert(channel.channel + "/" + rule.pattern).second) {
           drop.rules.push_back({.channel = channel.channel, .event = rule.pattern});

@@ -10,59 +10,6 @@
 namespace tracing {
 namespace {
 
-enum class EventKind { kInitialisation, kRuntime };
-
-struct RosEvent {
-  const char* name;
-  EventKind kind;
-};
-
-// In the order of the layers, from creation to use. Source: the tracepoint provider of ros2_tracing's tracetools.
-constexpr std::array kRosEvents = {
-    RosEvent{"ros2:rcl_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rcl_node_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rmw_publisher_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rcl_publisher_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_publish", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_intra_publish", EventKind::kRuntime},
-    RosEvent{"ros2:rcl_publish", EventKind::kRuntime},
-    RosEvent{"ros2:rmw_publish", EventKind::kRuntime},
-    RosEvent{"ros2:rmw_subscription_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rcl_subscription_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_subscription_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_subscription_callback_added", EventKind::kInitialisation},
-    RosEvent{"ros2:rmw_take", EventKind::kRuntime},
-    RosEvent{"ros2:rcl_take", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_take", EventKind::kRuntime},
-    RosEvent{"ros2:rcl_service_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_service_callback_added", EventKind::kInitialisation},
-    RosEvent{"ros2:rmw_take_request", EventKind::kRuntime},
-    RosEvent{"ros2:rmw_send_response", EventKind::kRuntime},
-    RosEvent{"ros2:rmw_client_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rcl_client_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rmw_send_request", EventKind::kRuntime},
-    RosEvent{"ros2:rmw_take_response", EventKind::kRuntime},
-    RosEvent{"ros2:rcl_timer_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_timer_callback_added", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_timer_link_node", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_callback_register", EventKind::kInitialisation},
-    RosEvent{"ros2:callback_start", EventKind::kRuntime},
-    RosEvent{"ros2:callback_end", EventKind::kRuntime},
-    RosEvent{"ros2:rcl_lifecycle_state_machine_init", EventKind::kInitialisation},
-    RosEvent{"ros2:rcl_lifecycle_transition", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_executor_get_next_ready", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_executor_wait_for_work", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_executor_execute", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_ipb_to_subscription", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_buffer_to_ipb", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_construct_ring_buffer", EventKind::kInitialisation},
-    RosEvent{"ros2:rclcpp_ring_buffer_enqueue", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_ring_buffer_dequeue", EventKind::kRuntime},
-    RosEvent{"ros2:rclcpp_ring_buffer_clear", EventKind::kRuntime},
-    RosEvent{"ros2:message_link_periodic_async", EventKind::kInitialisation},
-    RosEvent{"ros2:message_link_partial_sync", EventKind::kInitialisation},
-};
-
 std::string value_or_empty(const std::map<std::string, std::string>& environment, const std::string& name) {
   const auto found = environment.find(name);
   return found == environment.end() ? std::string() : found->second;
@@ -76,26 +23,6 @@ std::string absolute_normalised(const std::string& path, const std::map<std::str
 }
 
 }  // namespace
-
-const std::vector<std::string>& default_ros_events() {
-  static const std::vector<std::string> events = [] {
-    std::vector<std::string> all;
-    for (const RosEvent& event : kRosEvents) all.emplace_back(event.name);
-    return all;
-  }();
-  return events;
-}
-
-const std::vector<std::string>& initialisation_ros_events() {
-  static const std::vector<std::string> events = [] {
-    std::vector<std::string> initialisation;
-    for (const RosEvent& event : kRosEvents) {
-      if (event.kind == EventKind::kInitialisation) initialisation.emplace_back(event.name);
-    }
-    return initialisation;
-  }();
-  return events;
-}
 
 const std::vector<std::string>& default_context_fields() {
   static const std::vector<std::string> fields = {"procname", "vpid", "vtid"};

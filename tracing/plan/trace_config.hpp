@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "tracing/plan/ros_events.hpp"
+
 namespace tracing {
 
-// The 42 events of provider `ros2`, and those that describe objects once (initialisation events).
-const std::vector<std::string>& default_ros_events();  // "ros2:rcl_init", …
-const std::vector<std::string>& initialisation_ros_events();
 // procname vpid vtid
 const std::vector<std::string>& default_context_fields();
 

@@ -66,6 +66,17 @@ TEST(EventClasses, PatternsOfOtherProvidersAreDroppedAsAWhole) {
   EXPECT_EQ(drops[0].rules.at(0).event, "my_app:*");
 }
 
+TEST(EventClasses, APatternOfRos2ExtBelongsToAClassIfAllItsEventsDo) {
+  const auto drops = plan_drops(
+      {"executor", "services"},
+      channels({"ros2_ext:*", "ros2_ext:rclcpp_executor_*", "ros2_ext:rclcpp_client_callback_*", "ros2_ext:rmw_*"}));
+  ASSERT_THAT(names(drops), ElementsAre("executor", "services"));
+  ASSERT_EQ(drops[0].rules.size(), 1u);
+  EXPECT_EQ(drops[0].rules[0].event, "ros2_ext:rclcpp_executor_*");
+  ASSERT_EQ(drops[1].rules.size(), 1u);
+  EXPECT_EQ(drops[1].rules[0].event, "ros2_ext:rclcpp_client_callback_*");
+}
+
 TEST(EventClasses, PatternsOfRos2AreNamedOnceSoThatTheyCanBeSwitchedOff) {
   std::set<std::string> seen;
   const auto planned = channels({"ros2:*", "ros2:rcl_*", "ros2:callback_start"});
