@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only Python launch files can do.
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "tests/unit/python/python_plan.hpp"
+#include "tracing/plan/ros_events.hpp"
 
 namespace {
 
@@ -194,6 +196,24 @@ TEST(PythonLaunchFile, MessagesOfItsLoggersAreTheLaunchers) {
         OpaqueFunction(function=lambda context: launch.logging.get_logger('mine').warning('look')),)py");
   EXPECT_EQ(planned.error, "");
   EXPECT_THAT(planned.messages, ElementsAre("[mine] look"));
+}
+
+TEST(PythonLaunchFile, NamesOfEventsAreThoseThatASessionRecords) {
+  const PythonPlan planned = plan_python(R"py(
+from launch import LaunchDescription
+from launch.actions import LogInfo
+from tracetools_trace.tools import names, tracepoints
+
+
+def generate_launch_description():
+    constants = [value for name, value in vars(tracepoints).items() if value == 'ros2:' + name]
+    return LaunchDescription([LogInfo(msg=' '.join(events)) for events in (
+        names.DEFAULT_EVENTS_ROS, names.DEFAULT_EVENTS_UST, constants, names.DEFAULT_INIT_EVENTS_ROS)])
+)py");
+  EXPECT_EQ(planned.error, "");
+  const std::string all = fmt::format("{}", fmt::join(tracing::default_ros_events(), " "));
+  const std::string initialisation = fmt::format("{}", fmt::join(tracing::initialisation_ros_events(), " "));
+  EXPECT_THAT(planned.plan.logs, ElementsAre(all, all, all, initialisation));
 }
 
 TEST(PythonLaunchFile, PlacesOfItsActionsAreInIt) {
