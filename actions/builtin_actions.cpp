@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "actions/builtin_actions.hpp"
 
+#include "launcher/python/python_launch_file.hpp"
+
 namespace launch {
 
 // The list. Each name stands for a function NAME_action() that returns the declaration, in the file of its tag or
@@ -60,6 +62,7 @@ Registry builtin_actions() {
   Registry registry;
 #define LAUNCH_ADD_ACTION(name) registry.add(name##_action());
   LAUNCH_BUILTIN_ACTIONS(LAUNCH_ADD_ACTION)
+  registry.add_loader(".py", load_python_launch_file);
   return registry;
 }
 

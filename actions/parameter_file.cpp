@@ -9,6 +9,7 @@
 #include <span>
 
 #include "actions/parameter_value.hpp"
+#include "launcher/base/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 
 namespace launch {
@@ -119,7 +120,7 @@ void append_parameter_file(const std::string& path, const std::string& full_name
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where, help_for_missing_file(path));
   }
-  const auto file = SourceFile::read(path, where);
+  const auto file = read_source_file(path, where);
   append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),
                         full_name, parameters);
 }

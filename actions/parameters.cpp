@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "actions/parameter_file.hpp"
+#include "launcher/base/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
@@ -102,7 +103,7 @@ LocatedText Parameters::performed_file(const std::string& path, Scope& scope) co
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(),
                       help_for_missing_file(path));
   }
-  const auto file = SourceFile::read(path, file_->where());
+  const auto file = read_source_file(path, file_->where());
   const SourceRange whole{file, 0, static_cast<std::uint32_t>(file->text().size())};
   LocatedText performed(parse_template(LocatedText(file->text(), whole)).perform(scope));
   std::vector<Diagnostic> duplicate_keys;  // a node takes the last one

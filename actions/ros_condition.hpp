@@ -9,6 +9,7 @@
 
 #include "launcher/language/fields.hpp"
 #include "launcher/language/readiness_condition.hpp"
+#include "launcher/ros/ros_client.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {

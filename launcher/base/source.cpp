@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/base/source.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <limits>
+#include <stdexcept>
 #include <utility>
-
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/unique_fd.hpp"
 
 namespace launch {
 
@@ -26,41 +21,12 @@ bool is_continuation_byte(char byte) {
 SourceFile::SourceFile(std::string path, std::string text, SourceRange included_from)
     : path_(std::move(path)), text_(std::move(text)), included_from_(std::move(included_from)) {
   if (text_.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw LaunchError(fmt::format("'{}' is larger than 4 GiB", path_), included_from_);
+    throw std::length_error(fmt::format("'{}' is larger than 4 GiB", path_));
   }
   line_starts_.push_back(0);
   for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', end + 1)) {
     line_starts_.push_back(static_cast<std::uint32_t>(end + 1));
   }
-}
-
-std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path, SourceRange included_from) {
-  const auto fail = [&](int error) {
-    throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from,
-                      included_from && !path.starts_with('/')
-                          ? "a relative path is relative to the launcher's working directory; use $(dirname)/…"
-                          : "");
-  };
-  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!fd) {
-    fail(errno);
-  }
-  std::string text;
-  constexpr std::size_t kChunk = 64 * 1024;
-  while (true) {
-    const std::size_t size = text.size();
-    text.resize(size + kChunk);
-    const ssize_t count = ::read(fd.get(), text.data() + size, kChunk);
-    const int error = errno;
-    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    if (count == 0) {
-      break;
-    }
-    if (count < 0 && error != EINTR) {
-      fail(error);
-    }
-  }
-  return std::make_shared<const SourceFile>(path, std::move(text), std::move(included_from));
 }
 
 SourceFile::Position SourceFile::position(std::size_t offset) const {

@@ -35,11 +35,9 @@ class SourceFile {
     std::uint32_t column = 1;
   };
 
-  // `included_from` is the place of the include that loaded this file, empty for a file given by the user.
+  // `included_from` is the place of the include that loaded this file, empty for a file given by the user. Throws
+  // std::length_error when the text is larger than 4 GiB.
   SourceFile(std::string path, std::string text, SourceRange included_from = {});
-
-  // Reads a file. Throws LaunchError (diagnostic.hpp) when it can't be read.
-  static std::shared_ptr<const SourceFile> read(const std::string& path, SourceRange included_from = {});
 
   const std::string& path() const { return path_; }
   const std::string& text() const { return text_; }

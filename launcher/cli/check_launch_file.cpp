@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "launcher/base/own_prefix.hpp"
+#include "launcher/base/read_source_file.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/strict_ros2.hpp"
@@ -52,7 +53,7 @@ class Checker {
       return;
     }
     try {
-      for (Diagnostic& diagnostic : beyond_ros2(SourceFile::read(path), registry_)) {
+      for (Diagnostic& diagnostic : beyond_ros2(read_source_file(path), registry_)) {
         add(std::move(diagnostic));
       }
     } catch (const LaunchError&) {

@@ -11,6 +11,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/substitution/package_index.hpp"
+#include "launcher/visit/joined_description.hpp"
 
 namespace launch {
 

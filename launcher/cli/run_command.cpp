@@ -18,7 +18,7 @@
 #include "launcher/language/introspection.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
-#include "launcher/python/python_launch_file.hpp"
+#include "launcher/python/python_places.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
 #include "launcher/visit/launch_plan.hpp"

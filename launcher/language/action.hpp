@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One thing that a launch file asks for.
 //
-// An action is made once, while its file is loaded, and never changes: what it does it does to the LaunchContext, each
-// time it is visited. Deriving classes implement execute() and, when they hold other actions, introspect().
+// An action is made once, while its file is loaded, and never changes. It is visited by LaunchContext::visit()
+// (launcher/visit/launch_context.hpp), which asks the condition and then lets the action change the context. Deriving
+// classes implement execute() and, when they hold other actions, introspect().
 #pragma once
 
 #include <memory>
@@ -54,16 +55,13 @@ class Action {
   Action(const Action&) = delete;
   Action& operator=(const Action&) = delete;
 
-  // Evaluates the condition and, when it holds, executes. Throws LaunchError.
-  void visit(LaunchContext& context) const;
+  // Does what the action is for, whatever its condition says. Called by the context. Throws LaunchError.
+  virtual void execute(LaunchContext& context) const = 0;
 
   virtual Introspection introspect() const { return {}; }
 
   const SourceRange& where() const { return where_; }
-  bool is_conditional() const { return condition_.is_given(); }
-
- protected:
-  virtual void execute(LaunchContext& context) const = 0;
+  const Condition& condition() const { return condition_; }
 
  private:
   SourceRange where_;

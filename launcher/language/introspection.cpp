@@ -40,7 +40,7 @@ class Walk {
                int depth) {
     for (const ActionPtr& action : actions_to_walk) {
       const Introspection known = action->introspect();
-      const bool maybe = conditional || action->is_conditional();
+      const bool maybe = conditional || action->condition().is_given();
       if (known.argument != nullptr) {
         seen_(*known.argument, maybe, given);
       }

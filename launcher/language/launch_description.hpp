@@ -22,18 +22,14 @@ struct LaunchDescription {
   std::map<std::string, std::optional<std::string>> environment_changes;
 };
 
-// Reads and parses a launch file; runs it if it is Python. `scope` is where it will be visited: a Python file sees its
-// environment and packages. `included_from` is the place of the include that asks for it. Throws LaunchError with every
-// error of the file.
+// Reads and parses a launch file, or has it loaded by the registry's loader for its ending. `scope` is where it will be
+// visited: a Python file sees its environment and packages. `included_from` is the place of the include that asks for
+// it. Throws LaunchError with every error of the file.
 std::shared_ptr<const LaunchDescription> load_launch_description(const std::string& path, const Registry& registry,
                                                                  const Scope& scope, SourceRange included_from = {});
 
 // The same for text that is already read.
 std::shared_ptr<const LaunchDescription> parse_launch_description(std::shared_ptr<const SourceFile> file,
                                                                   const Registry& registry, const Scope& scope = {});
-
-// One description that visits several, one after another in one scope.
-std::shared_ptr<const LaunchDescription> join_launch_descriptions(
-    std::vector<std::shared_ptr<const LaunchDescription>> descriptions);
 
 }  // namespace launch

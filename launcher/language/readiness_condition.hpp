@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Something outside that a process may have to wait for before it starts, such as a service that is offered.
 //
-// `depends_on` (start_order.hpp) watches it from the moment at which the waiting process was asked for. What other
-// processes of the launch do is no such condition: the launch itself knows it (dependency.hpp).
+// `depends_on` (launcher/run/start_order.hpp) watches it from the moment at which the waiting process was asked for.
+// What other processes of the launch do is no such condition: the launch itself knows it
+// (launcher/visit/dependency.hpp).
 #pragma once
 
 #include <functional>

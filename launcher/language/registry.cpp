@@ -17,4 +17,17 @@ const ActionType* Registry::find(std::string_view tag) const {
   return found == types_.end() ? nullptr : &found->second;
 }
 
+void Registry::add_loader(std::string ending, LaunchFileLoader loader) {
+  loaders_.insert_or_assign(std::move(ending), std::move(loader));
+}
+
+const LaunchFileLoader* Registry::find_loader(std::string_view path) const {
+  for (const auto& [ending, loader] : loaders_) {
+    if (path.ends_with(ending)) {
+      return &loader;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace launch

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One declaration per action: its tag, its attributes and items with their types, a line of help, and how to make it.
+// What the launcher knows of launch files: a declaration for each action, and who loads the files that are programs.
 //
-// Parsing, the errors for unknown or missing attributes, and the reference page all come from the declaration.
+// The declaration of an action is its tag, its attributes and items with their types, a line of help, and how to make
+// it. Parsing, the errors for unknown or missing attributes, and the reference page all come from the declaration.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +17,9 @@
 namespace launch {
 
 class Fields;
+class Registry;
+struct LaunchDescription;
+struct Scope;
 
 enum class AttributeType {
   kText,         // text with substitutions, performed when the action is visited
@@ -58,6 +63,10 @@ struct ActionType {
   std::function<ActionPtr(const Fields&)> make;
 };
 
+// Makes the actions of a launch file that is a program. `scope` is where it will be visited. Throws LaunchError.
+using LaunchFileLoader = std::function<std::shared_ptr<const LaunchDescription>(
+    std::shared_ptr<const SourceFile> file, const Registry& registry, const Scope& scope)>;
+
 class Registry {
  public:
   // Throws std::logic_error when the tag is taken.
@@ -65,8 +74,13 @@ class Registry {
   const ActionType* find(std::string_view tag) const;
   const std::map<std::string, ActionType, std::less<>>& types() const { return types_; }
 
+  // Launch files whose path ends so are loaded by `loader` instead of being read as XML or YAML.
+  void add_loader(std::string ending, LaunchFileLoader loader);
+  const LaunchFileLoader* find_loader(std::string_view path) const;
+
  private:
   std::map<std::string, ActionType, std::less<>> types_;
+  std::map<std::string, LaunchFileLoader> loaders_;  // by the ending of a path
 };
 
 }  // namespace launch

@@ -16,19 +16,19 @@ bool asks_to_end(int signal) {
 
 }  // namespace
 
-void ProcessSupervisor::Impl::interrupt(Supervised& process) {
+void Supervision::interrupt(Supervised& process) {
   process.state = ProcessState::kInterrupting;
   start_timer(process, process.spec.sigterm_timeout);
   send(process, SIGINT, 0, Duration{0});
 }
 
-void ProcessSupervisor::Impl::terminate(Supervised& process) {
+void Supervision::terminate(Supervised& process) {
   process.state = ProcessState::kTerminating;
   start_timer(process, process.spec.sigkill_timeout);
   send(process, SIGTERM, SIGINT, process.spec.sigterm_timeout);
 }
 
-void ProcessSupervisor::Impl::kill_at_last(Supervised& process) {
+void Supervision::kill_at_last(Supervised& process) {
   process.state = ProcessState::kKilling;
   process.timer.reset();
   send(process, SIGKILL, SIGTERM, process.spec.sigkill_timeout);
@@ -38,7 +38,7 @@ void ProcessSupervisor::Impl::kill_at_last(Supervised& process) {
   }
 }
 
-void ProcessSupervisor::Impl::kill_now(Supervised& process) {
+void Supervision::kill_now(Supervised& process) {
   process.state = ProcessState::kKilling;
   process.timer.reset();
   send(process, SIGKILL, 0, Duration{0});
@@ -48,11 +48,11 @@ void ProcessSupervisor::Impl::kill_now(Supervised& process) {
   }
 }
 
-void ProcessSupervisor::Impl::send_requested(Supervised& process) {
+void Supervision::send_requested(Supervised& process) {
   send(process, process.requested_signal, 0, Duration{0});
 }
 
-void ProcessSupervisor::Impl::end_unasked(Supervised& process) {
+void Supervision::end_unasked(Supervised& process) {
   if (process.signalled) {
     end_signalled(process);
     return;
@@ -75,7 +75,7 @@ void ProcessSupervisor::Impl::end_unasked(Supervised& process) {
   conclude(process);
 }
 
-void ProcessSupervisor::Impl::end_signalled(Supervised& process) {
+void Supervision::end_signalled(Supervised& process) {
   process.exit_source.reset();
   process.output.drain();
   process.exited = true;
@@ -99,14 +99,14 @@ void ProcessSupervisor::Impl::end_signalled(Supervised& process) {
   conclude(process);
 }
 
-void ProcessSupervisor::Impl::remains_ended(Supervised& process) {
+void Supervision::remains_ended(Supervised& process) {
   if (process.exited) {
     reap_after_kill(process);
     conclude(process);
   }
 }
 
-void ProcessSupervisor::Impl::release_remains(Supervised& process) {
+void Supervision::release_remains(Supervised& process) {
   if (process.unreaped) {
     process.unreaped = false;
     runner.reap(process.process);
@@ -114,31 +114,31 @@ void ProcessSupervisor::Impl::release_remains(Supervised& process) {
   }
 }
 
-void ProcessSupervisor::Impl::interrupt_remains(Supervised& process) {
+void Supervision::interrupt_remains(Supervised& process) {
   if (process.unreaped) {
     runner.signal_group(process.process, SIGINT);
   }
 }
 
-void ProcessSupervisor::Impl::kill_remains(Supervised& process) {
+void Supervision::kill_remains(Supervised& process) {
   if (process.unreaped) {
     reap_after_kill(process);
   }
 }
 
-void ProcessSupervisor::Impl::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
+void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
   exit.ran_for = process.ran_for = loop.now() - process.started;
   const bool expected = process.signalled || shutting_down;
   notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});
 }
 
-void ProcessSupervisor::Impl::send(Supervised& process, int signal, int escalated_from, Duration waited) {
+void Supervision::send(Supervised& process, int signal, int escalated_from, Duration waited) {
   process.signalled = process.signalled || asks_to_end(signal);
   runner.signal_group(process.process, signal);
   notify(process, SignalSent{signal, escalated_from, waited});
 }
 
-void ProcessSupervisor::Impl::reap_after_kill(Supervised& process) {
+void Supervision::reap_after_kill(Supervised& process) {
   runner.signal_group(process.process, SIGKILL);
   process.unreaped = false;
   runner.reap(process.process);

@@ -24,20 +24,19 @@ using Event = SupervisionEvent;
 }  // namespace
 
 // clang-format off
-const std::array<std::array<ProcessSupervisor::Impl::Handler, ProcessSupervisor::Impl::kEvents>,
-                 ProcessSupervisor::Impl::kStates> ProcessSupervisor::Impl::kTable{{
-  //                   kStart         kExit                 kOutputClosed           kTimeout             kSignal                kShutdown                 kKill                kStop                kRestart
-  /* kStarting     */ {&Impl::spawn,  &Impl::ignore,        &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::ignore,       &Impl::ignore,       &Impl::ignore},
-  /* kRunning      */ {&Impl::ignore, &Impl::end_unasked,   &Impl::ignore,          &Impl::ignore,       &Impl::send_requested, &Impl::interrupt,         &Impl::kill_now,     &Impl::stop,         &Impl::restart},
-  /* kInterrupting */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::terminate,    &Impl::send_requested, &Impl::ignore,            &Impl::kill_now,     &Impl::stay_stopped, &Impl::start_again},
-  /* kTerminating  */ {&Impl::ignore, &Impl::end_signalled, &Impl::remains_ended,   &Impl::kill_at_last, &Impl::send_requested, &Impl::ignore,            &Impl::kill_now,     &Impl::stay_stopped, &Impl::start_again},
-  /* kKilling      */ {&Impl::ignore, &Impl::end_signalled, &Impl::ignore,          &Impl::ignore,       &Impl::ignore,         &Impl::ignore,            &Impl::kill_now,     &Impl::stay_stopped, &Impl::start_again},
-  /* kRespawnDelay */ {&Impl::ignore, &Impl::ignore,        &Impl::ignore,          &Impl::spawn,        &Impl::ignore,         &Impl::finish,            &Impl::ignore,       &Impl::finish,       &Impl::restart_now},
-  /* kDone         */ {&Impl::ignore, &Impl::ignore,        &Impl::release_remains, &Impl::ignore,       &Impl::ignore,         &Impl::interrupt_remains, &Impl::kill_remains, &Impl::ignore,       &Impl::revive},
+const std::array<std::array<Supervision::Handler, Supervision::kEvents>, Supervision::kStates> Supervision::kTable{{
+  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kKill                       kStop                       kRestart
+  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore},
+  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart},
+  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now},
+  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive},
 }};
 // clang-format on
 
-void ProcessSupervisor::Impl::handle(Supervised& first, Event event, int signal) {
+void Supervision::handle(Supervised& first, Event event, int signal) {
   pending.push_back({&first, event, signal});
   if (handling) {
     return;
@@ -56,7 +55,7 @@ void ProcessSupervisor::Impl::handle(Supervised& first, Event event, int signal)
   }
 }
 
-void ProcessSupervisor::Impl::notify(Supervised& process, decltype(ProcessEvent::what) what) {
+void Supervision::notify(Supervised& process, decltype(ProcessEvent::what) what) {
   const ProcessEvent event{process.id, process.label, process.spec, std::move(what)};
   // By index: an observer may register another one.
   for (std::size_t i = 0; i < observers.size(); ++i) {
@@ -64,7 +63,7 @@ void ProcessSupervisor::Impl::notify(Supervised& process, decltype(ProcessEvent:
   }
 }
 
-void ProcessSupervisor::Impl::spawn(Supervised& process) {
+void Supervision::spawn(Supervised& process) {
   process.timer.reset();
   process.exited = false;
   process.signalled = false;
@@ -78,8 +77,8 @@ void ProcessSupervisor::Impl::spawn(Supervised& process) {
     const bool again = respawns(process);
     notify(process, ProcessStartFailed{error.what(), again});
     if (again) {
-      wait_for_respawn(process,
-                       std::max(process.respawn_delay.next(process.spec.respawn, Duration{0}), kFailedStartDelay));
+      wait_for_respawn(process, std::max(process.respawn_delay.next(process.spec.respawn, Duration{0}),
+                                         ProcessSupervisor::kFailedStartDelay));
     } else {
       finish(process);
     }
@@ -93,42 +92,42 @@ void ProcessSupervisor::Impl::spawn(Supervised& process) {
   notify(process, ProcessStarted{process.process.pid});
 }
 
-void ProcessSupervisor::Impl::finish(Supervised& process) {
+void Supervision::finish(Supervised& process) {
   process.state = ProcessState::kDone;
   process.timer.reset();
   --active;
   notify(process, ProcessDone{});
 }
 
-void ProcessSupervisor::Impl::stop(Supervised& process) {
+void Supervision::stop(Supervised& process) {
   process.request = Request::kStop;
   interrupt(process);
 }
 
-void ProcessSupervisor::Impl::stay_stopped(Supervised& process) {
+void Supervision::stay_stopped(Supervised& process) {
   process.request = Request::kStop;
 }
 
-void ProcessSupervisor::Impl::restart(Supervised& process) {
+void Supervision::restart(Supervised& process) {
   start_again(process);
   if (process.request == Request::kRestart) {
     interrupt(process);
   }
 }
 
-void ProcessSupervisor::Impl::start_again(Supervised& process) {
+void Supervision::start_again(Supervised& process) {
   if (!shutting_down) {
     process.request = Request::kRestart;
   }
 }
 
-void ProcessSupervisor::Impl::restart_now(Supervised& process) {
+void Supervision::restart_now(Supervised& process) {
   process.retries = 0;
   process.respawn_delay.reset();
   spawn(process);
 }
 
-void ProcessSupervisor::Impl::revive(Supervised& process) {
+void Supervision::revive(Supervised& process) {
   if (shutting_down) {
     return;
   }
@@ -142,7 +141,7 @@ void ProcessSupervisor::Impl::revive(Supervised& process) {
   spawn(process);
 }
 
-bool ProcessSupervisor::Impl::respawns(const Supervised& process) const {
+bool Supervision::respawns(const Supervised& process) const {
   if (shutting_down || process.request != Request::kNone) {
     return !shutting_down && process.request == Request::kRestart;
   }
@@ -151,7 +150,7 @@ bool ProcessSupervisor::Impl::respawns(const Supervised& process) const {
 }
 
 // The run is over; what comes next?
-void ProcessSupervisor::Impl::conclude(Supervised& process) {
+void Supervision::conclude(Supervised& process) {
   if (!process.unreaped) {
     process.process = Process{};
   }
@@ -166,18 +165,18 @@ void ProcessSupervisor::Impl::conclude(Supervised& process) {
   }
 }
 
-void ProcessSupervisor::Impl::wait_for_respawn(Supervised& process, Duration delay) {
+void Supervision::wait_for_respawn(Supervised& process, Duration delay) {
   process.state = ProcessState::kRespawnDelay;
   ++process.retries;
   start_timer(process, delay);
 }
 
-void ProcessSupervisor::Impl::start_timer(Supervised& process, Duration delay) {
+void Supervision::start_timer(Supervised& process, Duration delay) {
   process.timer = loop.after(delay, [this, &process] { handle(process, Event::kTimeout); });
 }
 
 ProcessSupervisor::ProcessSupervisor(EventLoop& loop, ProcessRunner& runner, OutputRouter& output)
-    : impl_(std::make_unique<Impl>(loop, runner, output)) {}
+    : impl_(std::make_unique<Supervision>(loop, runner, output)) {}
 
 ProcessSupervisor::~ProcessSupervisor() {
   try {

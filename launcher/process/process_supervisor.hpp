@@ -8,57 +8,26 @@
 // - Signals go to the group. When a process that was signalled exits before its descendants have closed its output,
 //   they get SIGTERM, and SIGKILL after sigkill_timeout; ProcessDone waits for them, ProcessExited does not.
 // - When a process exits on its own, ProcessDone follows at once. Descendants that hold its output open go on, and
-// their
-//   output is shown; they get SIGINT at shutdown and SIGKILL when the supervisor is destroyed. A respawn kills them
-//   first.
+//   their output is shown; they get SIGINT at shutdown and SIGKILL when the supervisor is destroyed. A respawn kills
+//   them first.
 // - Descendants that have closed the output are killed with a signalled process, and are no concern of ours else.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <variant>
-#include <vector>
 
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/output_router.hpp"
+#include "launcher/process/process_event.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/process_spec.hpp"
 
 namespace launch {
 
-enum class ProcessState { kStarting, kRunning, kInterrupting, kTerminating, kKilling, kRespawnDelay, kDone };
-
-// What observers are told. `spec` and `label` stay valid as long as the supervisor.
-struct ProcessStarted {
-  pid_t pid;
-};
-struct ProcessStartFailed {
-  std::string reason;  // "no program 'talkr' in the PATH of the process: No such file or directory"
-  bool will_respawn = false;
-};
-struct ProcessExited {
-  pid_t pid;
-  ProcessExit exit;
-  bool expected;  // a signal of ours, or shutdown, had been sent
-  bool will_respawn;
-};
-struct SignalSent {
-  int signal;
-  // Set when this signal follows one that did not work: the earlier signal and how long we waited.
-  int escalated_from = 0;
-  Duration waited{0};
-};
-struct ProcessDone {};  // will not run again
-
-struct ProcessEvent {
-  ProcessId id;
-  const std::string& label;
-  const ProcessSpec& spec;
-  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessDone> what;
-};
+struct Supervision;
 
 class ProcessSupervisor {
  public:
@@ -113,8 +82,7 @@ class ProcessSupervisor {
   ProcessState state(ProcessId id) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Supervision> impl_;  // supervised_process.hpp
 };
 
 }  // namespace launch

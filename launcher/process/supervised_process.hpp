@@ -5,6 +5,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,7 +13,7 @@
 
 #include "launcher/process/child_output.hpp"
 #include "launcher/process/generated_files.hpp"
-#include "launcher/process/process_supervisor.hpp"
+#include "launcher/process/process_event.hpp"
 #include "launcher/process/respawn_delay.hpp"
 
 namespace launch {
@@ -51,19 +52,20 @@ struct Supervised {
   EventLoop::SourcePtr timer;
 };
 
-struct ProcessSupervisor::Impl {
+// What a ProcessSupervisor consists of.
+struct Supervision {
   using Event = SupervisionEvent;
   using Request = SupervisionRequest;
   static constexpr std::size_t kEvents = 9;
   static constexpr std::size_t kStates = 7;
-  using Handler = void (Impl::*)(Supervised&);
+  using Handler = void (Supervision::*)(Supervised&);
   struct Pending {
     Supervised* process;
     Event event;
     int signal;  // of kSignal
   };
 
-  Impl(EventLoop& event_loop, ProcessRunner& process_runner, OutputRouter& router)
+  Supervision(EventLoop& event_loop, ProcessRunner& process_runner, OutputRouter& router)
       : loop(event_loop), runner(process_runner), output(router) {}
 
   // Runs the handler of the table. An event raised meanwhile, by a handler or by an observer, waits until it is done:
@@ -106,7 +108,7 @@ struct ProcessSupervisor::Impl {
   EventLoop& loop;
   ProcessRunner& runner;
   OutputRouter& output;
-  std::vector<Observer> observers;
+  std::vector<std::function<void(const ProcessEvent&)>> observers;
   std::vector<std::unique_ptr<Supervised>> processes;  // of id N at N - 1
   std::size_t active = 0;
   bool shutting_down = false;

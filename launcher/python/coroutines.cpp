@@ -4,8 +4,7 @@
 #include <chrono>
 
 #include "launcher/python/interpreter/python_module.hpp"
-#include "launcher/python/python_entities.hpp"
-#include "launcher/python/python_host.hpp"
+#include "launcher/python/python_file.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
@@ -17,7 +16,7 @@ void Coroutines::start(const CoroutineRequest& request) {
     request.object->start(host);
   } catch (const python::Error& error) {
     try {
-      file_->fail(error);
+      file_->places().fail(error);
     } catch (const LaunchError& failure) {
       fail_(failure);
     }
@@ -45,7 +44,7 @@ void Coroutines::step() {
     pause = python_runtime().step_coroutines(host);
   } catch (const python::Error& error) {
     try {
-      file_->fail(error);
+      file_->places().fail(error);
     } catch (const LaunchError& told) {
       failure = told;
     }

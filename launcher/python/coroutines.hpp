@@ -5,23 +5,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
-#include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/visit/coroutine_request.hpp"
 
 namespace launch {
 
 class LaunchContext;
 class PythonFile;
-
-// An OpaqueCoroutine that has been visited.
-struct CoroutineRequest {
-  python::ObjectPtr object;
-  std::shared_ptr<PythonFile> file;
-  SourceRange where;
-};
 
 // They run in steps, each up to where all of them wait; a descriptor and a time tell when the next step is due.
 class Coroutines {

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "launcher/python/interpreter/python_module.hpp"
-#include "launcher/python/python_entities.hpp"
-#include "launcher/python/python_host.hpp"
+#include "launcher/python/python_file.hpp"
 
 namespace launch {
 
@@ -49,7 +48,7 @@ std::shared_ptr<const LaunchDescription> run(std::shared_ptr<const SourceFile> f
     PythonHost host(*python_file, scope);
     description->actions = python_file->make_actions(runtime->load(file->path(), file->text(), host));
   } catch (const python::Error& error) {
-    python_file->fail(error);
+    python_file->places().fail(error);
   }
   for (const auto& [name, value] : scope.environment) {
     const auto before = outer.environment.find(name);

@@ -16,7 +16,4 @@ namespace launch {
 std::shared_ptr<const LaunchDescription> load_python_launch_file(std::shared_ptr<const SourceFile> file,
                                                                  const Registry& registry, const Scope& scope);
 
-// From now on errors of Python carry its traceback.
-void show_python_tracebacks();
-
 }  // namespace launch

@@ -7,24 +7,12 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "launcher/visit/event_handler.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {
-
-using EventValues = std::vector<std::pair<std::string, std::string>>;
-
-// A handler and the event that it shall handle. The values are for its scope: what $(var event.NAME) reads.
-struct Invocation {
-  std::shared_ptr<const EventHandler> handler;
-  EventValues values;
-
-  // The handler's scope with the values in it.
-  Scope scope() const;
-};
 
 // Each event is matched with the handlers of its own process only, so that its cost doesn't grow with their number.
 // What is returned is in the order of registration; a handler with `once` is returned once.

@@ -8,12 +8,28 @@
 #include <algorithm>
 
 #include "launcher/base/monotonic_clock.hpp"
+#include "launcher/visit/dependency_resolution.hpp"
 
 namespace launch {
 
 namespace {
 
 constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
+
+// To a process that is not done.
+void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor) {
+  switch (command.kind) {
+    case ProcessCommand::Kind::kStop:
+      supervisor.stop(id);
+      break;
+    case ProcessCommand::Kind::kRestart:
+      supervisor.restart(id);
+      break;
+    case ProcessCommand::Kind::kSignal:
+      supervisor.signal(id, command.signal);
+      break;
+  }
+}
 
 }  // namespace
 

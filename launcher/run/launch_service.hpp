@@ -22,6 +22,7 @@
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
+#include "launcher/python/coroutines.hpp"
 #include "launcher/ros/ros_tasks.hpp"
 #include "launcher/run/event_handlers.hpp"
 #include "launcher/run/start_order.hpp"

@@ -49,36 +49,6 @@ Verdict judge(const ProcessCondition& condition, const TrackedProcess& process) 
 
 }  // namespace
 
-std::string describe(const Dependency& dependency) {
-  if (const auto* const readiness = std::get_if<std::shared_ptr<ReadinessCondition>>(&dependency.condition)) {
-    return (*readiness)->describe();
-  }
-  const auto& condition = std::get<ProcessCondition>(dependency.condition);
-  return std::visit(Overloaded{
-                        [&](const UntilStarted&) { return fmt::format("'{}' has started", condition.process); },
-                        [&](const UntilExited& until) {
-                          return fmt::format("'{}' has exited with exit code {}", condition.process,
-                                             until.exit_code.text());
-                        },
-                        [&](const UntilOutput& until) {
-                          return fmt::format("'{}' has written {}", condition.process, until.pattern.describe());
-                        },
-                    },
-                    condition.state);
-}
-
-std::string_view to_string(OnFailure on_failure) {
-  switch (on_failure) {
-    case OnFailure::kShutdown:
-      return "shutdown";
-    case OnFailure::kStart:
-      return "start";
-    case OnFailure::kSkip:
-      return "skip";
-  }
-  return "";
-}
-
 void StartOrder::add(ProcessSpec spec, TrackedProcess& process, std::vector<Dependency> dependencies) {
   const auto waiting = std::make_shared<Waiting>(std::move(spec), process);
   waiting->place = waiting_.insert(waiting_.end(), waiting);

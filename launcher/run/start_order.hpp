@@ -18,12 +18,6 @@
 
 namespace launch {
 
-// Finds the processes that the conditions speak of and sets Dependency::target. `asked_for` are the processes that the
-// dependencies belong to, already in the table. A name means one of them, else the latest that was asked for before.
-// Throws LaunchError with every name that is unknown or ambiguous, and for a cycle.
-void resolve_dependencies(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
-                          const ProcessTable& table);
-
 class StartOrder {
  public:
   // Called from a turn of the loop of their own.

@@ -42,7 +42,7 @@ struct Dependency {
   OnFailure on_failure = OnFailure::kShutdown;
   SourceRange where;
 
-  TrackedProcess* target = nullptr;  // of a ProcessCondition, by resolve_dependencies() (start_order.hpp)
+  TrackedProcess* target = nullptr;  // of a ProcessCondition, by resolve_dependencies() (dependency_resolution.hpp)
 };
 
 // "'talker' has started", "'calibrate' has exited with code 0", "service /map/load is offered".

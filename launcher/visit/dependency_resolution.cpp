@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which process each `depends_on` of a traversal speaks of.
+#include "launcher/visit/dependency_resolution.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <unordered_map>
 
-#include "launcher/run/start_order.hpp"
+#include "launcher/base/diagnostic.hpp"
 
 namespace launch {
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -51,5 +52,16 @@ struct EventHandler {
 
 // "on_process_exit of 'talker' with exit code 0", for --dry-run and messages.
 std::string describe(const EventHandler& handler);
+
+using EventValues = std::vector<std::pair<std::string, std::string>>;
+
+// A handler and the event that it shall handle. The values are for its scope: what $(var event.NAME) reads.
+struct Invocation {
+  std::shared_ptr<const EventHandler> handler;
+  EventValues values;
+
+  // The handler's scope with the values in it.
+  Scope scope() const;
+};
 
 }  // namespace launch

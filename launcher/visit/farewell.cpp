@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/visit/farewell.hpp"
 
+#include "launcher/base/diagnostic.hpp"
+
 namespace launch {
 
 void check_farewell(const Requests& requests) {

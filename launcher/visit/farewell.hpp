@@ -2,7 +2,7 @@
 // What on_shutdown handlers may ask for: no more than can still be carried out.
 #pragma once
 
-#include "launcher/visit/launch_context.hpp"
+#include "launcher/visit/requests.hpp"
 
 namespace launch {
 

@@ -37,20 +37,22 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
   };
 }
 
-void LaunchContext::cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const {
-  if (!plan_only_) {
-    throw LaunchError(message, where, help);
+void LaunchContext::visit(const Action& action) {
+  if (action.condition().holds(scope_)) {
+    action.execute(*this);
+  } else {
+    visit_left_out(action);
   }
 }
 
 void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
   for (const ActionPtr& action : actions) {
     if (!report_) {
-      action->visit(*this);
+      visit(*action);
       continue;
     }
     try {
-      action->visit(*this);
+      visit(*action);
     } catch (const LaunchError& error) {
       report_(error, in_left_out_);
     }
@@ -83,7 +85,7 @@ void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions)
   visit(actions);
 }
 
-void LaunchContext::visit_left_out(const std::function<void()>& visit) {
+void LaunchContext::visit_left_out(const Action& action) {
   if (!report_ || in_left_out_) {
     return;
   }
@@ -99,15 +101,10 @@ void LaunchContext::visit_left_out(const std::function<void()>& visit) {
   messages_ = [](LogLevel, std::string_view, std::string_view) {};
   in_left_out_ = true;
   try {
-    visit();
+    action.execute(*this);
   } catch (const LaunchError& error) {
     report_(error, true);
   }
-}
-
-bool Requests::empty() const {
-  return scopes.empty() && processes.empty() && handlers.empty() && unregistered.empty() && commands.empty() &&
-         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && !shutdown;
 }
 
 Requests LaunchContext::take_requests() {

@@ -18,67 +18,12 @@
 #include "launcher/language/launch_description.hpp"
 #include "launcher/language/registry.hpp"
 #include "launcher/process/output_router.hpp"
-#include "launcher/process/process_spec.hpp"
-#include "launcher/python/coroutines.hpp"
-#include "launcher/ros/ros_client.hpp"
 #include "launcher/substitution/scope.hpp"
-#include "launcher/visit/composable_node.hpp"
-#include "launcher/visit/dependency.hpp"
-#include "launcher/visit/event_handler.hpp"
-#include "launcher/visit/launch_record.hpp"
-#include "launcher/visit/process_command.hpp"
-#include "launcher/visit/run_scope.hpp"
+#include "launcher/visit/requests.hpp"
 
 namespace launch {
 
-struct TimerRequest {
-  Duration period{0};
-  bool cancel_on_shutdown = true;
-  std::vector<ActionPtr> actions;
-  Scope scope;  // as it was where the timer stands
-};
-
-struct ShutdownRequest {
-  std::string reason;
-};
-
-// The ROS node that a process is asked to be; empty where the launch file leaves it to the program.
-struct NodeDescription {
-  std::size_t process = 0;  // which of the processes
-  std::optional<std::string> package;
-  std::string executable;
-  std::optional<std::string> name;
-  std::optional<std::string> name_space;
-};
-
-// Event handlers that shall hear of nothing more.
-struct UnregisterRequest {
-  std::string name;  // that they were given
-  SourceRange where;
-};
-
-// What one traversal asked for. Scopes begin before its processes start.
-struct Requests {
-  std::vector<std::unique_ptr<RunScope>> scopes;
-  std::vector<ProcessSpec> processes;
-  std::vector<NodeDescription> nodes;
-  std::vector<Dependency> dependencies;         // of the processes
-  std::vector<EventHandler> handlers;           // registered before the processes start
-  std::vector<UnregisterRequest> unregistered;  // before that
-  std::vector<ProcessCommand> commands;         // for what ran before
-  std::vector<CoroutineRequest> coroutines;
-  std::vector<LoadRequest> loads;
-  std::vector<TransitionRequest> transitions;
-  std::vector<TimerRequest> timers;
-  std::optional<ShutdownRequest> shutdown;
-  std::vector<std::string> logs;             // messages of `log` actions
-  std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
-  int includes = 0;                          // other launch files that were included
-  std::vector<LaunchRecord> records;         // what the visit did
-
-  // Nothing is to be carried out.
-  bool empty() const;
-};
+class RosClient;
 
 class LaunchContext {
  public:
@@ -94,17 +39,17 @@ class LaunchContext {
   const Environment& initial_environment() const { return initial_environment_; }
   const std::string& own_prefix() const { return own_prefix_; }
 
-  // From now on nothing of what is visited will be carried out: what cannot_run() is only noted.
+  // From now on nothing of what is visited will be carried out.
   void plan_only() { plan_only_ = true; }
   bool is_plan_only() const { return plan_only_; }
-  // For what a launch file may ask for and this launcher can't carry out: throws LaunchError, before anything has been
-  // started, unless the visit is only to know what would run.
-  void cannot_run(const std::string& message, const SourceRange& where, const std::string& help) const;
 
-  // Who answers what actions ask of the ROS graph; it must outlive the context. Null while nothing is carried out.
+  // The client that answers what actions ask of the ROS graph. It must outlive the context. Null while nothing is
+  // carried out.
   void use_ros_client(RosClient& client) { ros_client_ = &client; }
   RosClient* ros_client() const { return ros_client_; }
 
+  // Executes the action if its condition holds. Throws LaunchError.
+  void visit(const Action& action);
   // Visits actions in order, in the current scope. Throws LaunchError.
   void visit(const std::vector<ActionPtr>& actions);
   // Visits a whole file: $(dirname) and $(filename) mean it until it ends. `before` runs once they do.
@@ -121,8 +66,6 @@ class LaunchContext {
   // out: in a copy of the scope, without messages, and what it asks for is dropped. Nothing is left out inside what is
   // itself visited on the side, so that a file that includes itself comes to an end. `report` hears of the errors.
   void explore(std::function<void(const LaunchError&, bool left_out)> report) { report_ = std::move(report); }
-  // For Action: calls `visit`, which visits what a condition leaves out, when exploring.
-  void visit_left_out(const std::function<void()>& visit);
 
   // What PushEnvironment or PushLaunchConfigurations of a Python launch file have put by, the last one at the end.
   std::vector<Scope>& kept_scopes(bool environment) {
@@ -133,6 +76,9 @@ class LaunchContext {
   void note_node(const std::string& fully_qualified_name);
 
  private:
+  // Executes an action that its condition leaves out, if the visit explores.
+  void visit_left_out(const Action& action);
+
   const Registry& registry_;
   Environment initial_environment_;
   std::string own_prefix_;

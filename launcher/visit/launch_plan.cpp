@@ -4,8 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "launcher/run/event_handlers.hpp"
-#include "launcher/run/start_order.hpp"
+#include "launcher/visit/dependency_resolution.hpp"
 #include "launcher/visit/farewell.hpp"
 #include "launcher/visit/process_table.hpp"
 

@@ -32,18 +32,4 @@ void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTa
   }
 }
 
-void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor) {
-  switch (command.kind) {
-    case ProcessCommand::Kind::kStop:
-      supervisor.stop(id);
-      break;
-    case ProcessCommand::Kind::kRestart:
-      supervisor.restart(id);
-      break;
-    case ProcessCommand::Kind::kSignal:
-      supervisor.signal(id, command.signal);
-      break;
-  }
-}
-
 }  // namespace launch

@@ -26,7 +26,4 @@ std::string_view name_of(ProcessCommand::Kind kind);
 // Throws LaunchError with every name that no process has.
 void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTable& table);
 
-// Carries it out on a process that is not done.
-void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor);
-
 }  // namespace launch

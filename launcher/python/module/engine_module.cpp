@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/python/module/engine_module.hpp"
-
+// The module `_launch_engine`: the launch that called Python, for the Python package `launch`.
 #include <pybind11/embed.h>
 #include <pybind11/stl.h>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "launcher/python/module/current_host.hpp"
 #include "launcher/python/module/entity_reader.hpp"
 
 namespace py = pybind11;
@@ -16,39 +15,6 @@ namespace py = pybind11;
 namespace launch::python {
 
 namespace {
-
-Host*& current() {
-  static Host* host = nullptr;
-  return host;
-}
-
-Host& host() {
-  if (current() == nullptr) {
-    throw std::runtime_error("no launch is running here");
-  }
-  return *current();
-}
-
-std::vector<std::exception_ptr>& failures() {
-  static auto* const list = new std::vector<std::exception_ptr>;
-  return *list;
-}
-
-// Runs a call of the host. What it throws becomes a Python exception that carries it.
-template <typename Call>
-auto guarded(Call call) {
-  try {
-    return call();
-  } catch (const py::error_already_set&) {
-    throw;
-  } catch (const std::exception& error) {
-    failures().push_back(std::current_exception());
-    const py::object failure = py::module_::import("launch.substitutions").attr("SubstitutionFailure")(error.what());
-    failure.attr("_number") = failures().size() - 1;
-    PyErr_SetObject(py::type::of(failure).ptr(), failure.ptr());
-    throw py::error_already_set();
-  }
-}
 
 std::string perform(const py::object& value, const std::optional<py::dict>& configurations) {
   const Text text = read_text(value);
@@ -73,21 +39,6 @@ Host::Variables& variables(bool environment) {
 
 }  // namespace
 
-CurrentHost::CurrentHost(Host& host) : outer_(current()) {
-  current() = &host;
-}
-
-CurrentHost::~CurrentHost() {
-  current() = outer_;
-  if (outer_ == nullptr) {
-    failures().clear();
-  }
-}
-
-std::exception_ptr host_failure(std::size_t number) {
-  return number < failures().size() ? failures()[number] : nullptr;
-}
-
 }  // namespace launch::python
 
 // NOLINTNEXTLINE: the macro of pybind11
@@ -95,7 +46,7 @@ PYBIND11_EMBEDDED_MODULE(_launch_engine, module) {
   using launch::python::host;
   using launch::python::variables;
 
-  module.def("is_running", [] { return launch::python::current() != nullptr; });
+  module.def("is_running", [] { return launch::python::host_is_there(); });
   module.def("perform", launch::python::perform, py::arg("value"), py::arg("configurations") = py::none());
   module.def("get", [](bool environment, const std::string& name) -> std::optional<std::string> {
     const auto found = variables(environment).find(name);

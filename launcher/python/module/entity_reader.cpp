@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/python/module/entity_reader.hpp"
 
-#include "launcher/python/module/engine_module.hpp"
 #include "launcher/python/module/python_failure.hpp"
+#include "launcher/python/module/read_place.hpp"
 
 namespace py = pybind11;
 
@@ -135,15 +135,6 @@ Text read_text(const py::handle& value) {
     text.where = text.parts.front().where;
   }
   return text;
-}
-
-Place read_place(const py::handle& place) {
-  if (place.is_none()) {
-    return {};
-  }
-  const auto parts = place.cast<py::tuple>();
-  return {parts[0].cast<std::string>(), parts[1].cast<std::uint32_t>(), parts[2].cast<std::uint32_t>(),
-          parts[3].cast<std::uint32_t>()};
 }
 
 }  // namespace launch::python

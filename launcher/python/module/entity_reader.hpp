@@ -19,7 +19,4 @@ ObjectPtr make_object(pybind11::object object);
 // Text: a str, a substitution, or a tuple of them, which is pasted together.
 Text read_text(const pybind11::handle& value);
 
-// (file, line, begin, end), or None.
-Place read_place(const pybind11::handle& place);
-
 }  // namespace launch::python

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "launcher/python/module/entity_reader.hpp"
+#include "launcher/python/module/read_place.hpp"
 
 namespace py = pybind11;
 

@@ -5,7 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include "launcher/python/interpreter/python_runtime.hpp"
-#include "launcher/python/module/engine_module.hpp"
+#include "launcher/python/module/current_host.hpp"
 
 namespace launch::python {
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/base/read_source_file.hpp"
 
 namespace launch {
 namespace {
@@ -47,14 +48,14 @@ TEST(SourceFile, ReadsAWholeFile) {
   ASSERT_GE(::close(::mkstemp(path.data())), 0);
   const std::string text(200'000, 'x');
   std::ofstream(path) << text;
-  EXPECT_EQ(SourceFile::read(path)->text(), text);
+  EXPECT_EQ(read_source_file(path)->text(), text);
   ::unlink(path.c_str());
 }
 
 TEST(SourceFile, SaysWhyItCannotBeReadAndWhoIncludedIt) {
   const auto includer = std::make_shared<const SourceFile>("main.launch.xml", "<launch>\n  <include/>\n</launch>\n");
   try {
-    SourceFile::read("/nowhere/x.launch.xml", {includer, 12, 19});
+    read_source_file("/nowhere/x.launch.xml", {includer, 12, 19});
     FAIL() << "read a file that does not exist";
   } catch (const LaunchError& error) {
     EXPECT_STREQ(
@@ -63,7 +64,7 @@ TEST(SourceFile, SaysWhyItCannotBeReadAndWhoIncludedIt) {
         "    2 |   <include/>\n"
         "      |    ^~~~~~~");
   }
-  EXPECT_THROW(SourceFile::read("/tmp"), LaunchError) << "a directory is no launch file";
+  EXPECT_THROW(read_source_file("/tmp"), LaunchError) << "a directory is no launch file";
 }
 
 TEST(SourceRange, IsWrittenAsFileLineColumn) {

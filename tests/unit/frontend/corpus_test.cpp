@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "launcher/base/read_source_file.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "tests/unit/frontend/entity_test_support.hpp"
 
@@ -46,7 +47,7 @@ TEST(Corpus, IsAccepted) {
     GTEST_SKIP() << "skipped, because " SHARED_CORPUS " is absent";
   }
   for (const CorpusFile& corpus_file : files) {
-    const auto file = SourceFile::read(SHARED_CORPUS "/launch_files/" + corpus_file.name);
+    const auto file = read_source_file(SHARED_CORPUS "/launch_files/" + corpus_file.name);
     EXPECT_EQ(load_error(file), "") << corpus_file.name;
     if (corpus_file.loads_upstream) {
       expect_templates_parse(load_entity_tree(file));

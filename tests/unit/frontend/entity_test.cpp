@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "launcher/base/read_source_file.hpp"
 #include "tests/unit/frontend/entity_test_support.hpp"
 
 namespace launch {
@@ -12,7 +13,7 @@ namespace {
 class Twins : public testing::TestWithParam<const char*> {
  protected:
   static Entity load(const std::string& suffix) {
-    return load_entity_tree(SourceFile::read(GOLDEN_FILES "/twins/" + std::string(GetParam()) + suffix));
+    return load_entity_tree(read_source_file(GOLDEN_FILES "/twins/" + std::string(GetParam()) + suffix));
   }
 };
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "launcher/base/read_source_file.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/input_text.hpp"
 #include "tests/support/yaml_tree/yaml_tree.hpp"
@@ -126,7 +127,7 @@ TEST(SimpleYaml, AgreesOverWholeFiles) {
       if (!entry.is_regular_file() || (extension != ".yaml" && extension != ".yml")) {
         continue;
       }
-      const auto file = SourceFile::read(entry.path());
+      const auto file = read_source_file(entry.path());
       const LocatedText source(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())});
       if (find_bad_character(source)) {
         continue;

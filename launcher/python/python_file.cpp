@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/python/python_entities.hpp"
+#include "launcher/python/python_file.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
 
 #include "launcher/language/action_parser.hpp"
-#include "launcher/python/python_host.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 
 namespace {
-
-bool& tracebacks() {
-  static bool shown = false;
-  return shown;
-}
 
 // A substitution that only Python can perform.
 class PythonSubstitution : public Substitution {
@@ -30,7 +26,7 @@ class PythonSubstitution : public Substitution {
       PythonHost host(*file_, scope);
       return object_->perform(host);
     } catch (const python::Error& error) {
-      file_->fail(error);
+      file_->places().fail(error);
     }
   }
 
@@ -54,7 +50,7 @@ class PythonAction : public Action {
       PythonHost host(*file_, context);
       entities = object_->execute(host);
     } catch (const python::Error& error) {
-      file_->fail(error);
+      file_->places().fail(error);
     }
     context.visit(file_->make_actions(entities));
   }
@@ -75,7 +71,7 @@ class NamedAction : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     const std::size_t before = context.requests().processes.size();
-    action_->visit(context);
+    context.visit(*action_);
     std::vector<ProcessSpec>& processes = context.requests().processes;
     for (std::size_t i = before; i < processes.size(); ++i) {
       processes[i].other_names.push_back(name_);
@@ -89,10 +85,6 @@ class NamedAction : public Action {
 
 }  // namespace
 
-void show_python_tracebacks() {
-  tracebacks() = true;
-}
-
 std::vector<ActionPtr> PythonFile::make_actions(const std::vector<python::Entity>& entities) {
   std::vector<Entity> made;
   for (const python::Entity& entity : entities) {
@@ -104,7 +96,7 @@ std::vector<ActionPtr> PythonFile::make_actions(const std::vector<python::Entity
 Entity PythonFile::make_entity(const python::Entity& entity) {
   Entity made;
   made.type_name = entity.tag;
-  made.where = range(entity.where);
+  made.where = places_.range(entity.where);
   for (const auto& [name, value] : entity.attributes) {
     Attribute attribute{name, {}, make_value(value, made.where)};
     attribute.name_where = attribute.value.where;
@@ -129,7 +121,7 @@ Entity PythonFile::make_entity(const python::Entity& entity) {
 
 Value PythonFile::make_value(const python::Value& value, const SourceRange& fallback) {
   Value made;
-  made.where = value.where.line != 0 ? range(value.where) : fallback;
+  made.where = value.where.line != 0 ? places_.range(value.where) : fallback;
   if (const auto* const list = std::get_if<std::vector<python::Value>>(&value.data)) {
     std::vector<Value> items;
     for (const python::Value& item : *list) {
@@ -163,7 +155,7 @@ Value PythonFile::make_value(const python::Value& value, const SourceRange& fall
 }
 
 Template PythonFile::make_template(const python::Text& text, const SourceRange& fallback) {
-  SourceRange where = text.where.line != 0 ? range(text.where) : fallback;
+  SourceRange where = text.where.line != 0 ? places_.range(text.where) : fallback;
   std::vector<SubstitutionPtr> parts;
   for (const python::Part& part : text.parts) {
     parts.push_back(make_part(part, where));
@@ -172,7 +164,7 @@ Template PythonFile::make_template(const python::Text& text, const SourceRange& 
 }
 
 SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRange& fallback) {
-  SourceRange where = part.where.line != 0 ? range(part.where) : fallback;
+  SourceRange where = part.where.line != 0 ? places_.range(part.where) : fallback;
   if (part.kind == python::Part::Kind::kText) {
     return std::make_shared<Text>(part.text, std::move(where));
   }
@@ -191,45 +183,71 @@ SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRang
   throw LaunchError(fmt::format("this launcher has no substitution '{}'", part.text), std::move(where));
 }
 
-SourceRange PythonFile::range(const python::Place& place) {
-  std::shared_ptr<const SourceFile> file = file_;
-  if (place.line != 0 && place.file != file_->path()) {
-    const auto [known, added] = modules_.try_emplace(place.file);
-    if (added) {
-      try {
-        known->second = SourceFile::read(place.file, file_->included_from());
-      } catch (const LaunchError&) {
-        // Code that comes from no file.
-      }
-    }
-    file = known->second;
-  }
-  if (place.line == 0 || file == nullptr) {
-    return {file_, 0, 0};
-  }
-  const std::string_view line = file->line(place.line);
-  if (line.data() == nullptr) {
-    return {file, 0, 0};
-  }
-  const std::size_t start = static_cast<std::size_t>(line.data() - file->text().data());
-  std::size_t begin = std::min<std::size_t>(place.begin, line.size());
-  std::size_t end = std::min<std::size_t>(place.end, line.size());
-  if (end <= begin) {
-    begin = std::min(line.find_first_not_of(" \t"), line.size());
-    end = line.size();
-  }
-  return {std::move(file), static_cast<std::uint32_t>(start + begin), static_cast<std::uint32_t>(start + end)};
+PythonHost::PythonHost(PythonFile& file, LaunchContext& context)
+    : file_(file), scope_(context.scope()), context_(&context) {}
+
+std::string PythonHost::perform(const python::Text& text) {
+  return file_.make_template(text, file_.places().range({})).perform(scope_);
 }
 
-void PythonFile::fail(const python::Error& error) {
-  if (error.cause != nullptr) {
-    std::rethrow_exception(error.cause);
+std::string PythonHost::perform(const python::Text& text, Variables& configurations) {
+  std::swap(scope_.configurations, configurations);
+  try {
+    std::string performed = perform(text);
+    std::swap(scope_.configurations, configurations);
+    return performed;
+  } catch (...) {
+    std::swap(scope_.configurations, configurations);
+    throw;
   }
-  std::string help = error.help;
-  if (tracebacks() && !error.traceback.empty()) {
-    help += (help.empty() ? "" : "\n") + error.traceback;
+}
+
+void PythonHost::message(const std::string& level, const std::string& logger, const std::string& text) {
+  static const std::map<std::string, LogLevel> levels = {{"debug", LogLevel::kDebug},
+                                                         {"info", LogLevel::kInfo},
+                                                         {"warning", LogLevel::kWarning},
+                                                         {"error", LogLevel::kError},
+                                                         {"critical", LogLevel::kCritical}};
+  if (context_ != nullptr) {
+    context_->message(levels.at(level), logger, text);
+  } else {
+    fmt::print(stderr, "[{}]: {}\n", logger, text);
   }
-  throw LaunchError(error.what(), range(error.where), std::move(help));
+}
+
+LaunchContext& PythonHost::context() {
+  if (context_ == nullptr) {
+    throw std::runtime_error("this can only be done while the launch file is visited");
+  }
+  return *context_;
+}
+
+void PythonHost::visit(const std::vector<python::Entity>& entities) {
+  context().visit(file_.make_actions(entities));
+}
+
+void PythonHost::run_coroutine(python::ObjectPtr object) {
+  context().requests().coroutines.push_back({std::move(object), file_.shared_from_this(), file_.places().range({})});
+}
+
+void PythonHost::push(bool environment) {
+  context().kept_scopes(environment).push_back(scope_);
+}
+
+void PythonHost::pop(bool environment) {
+  std::vector<Scope>& kept = context().kept_scopes(environment);
+  if (kept.empty()) {
+    throw std::runtime_error("nothing was pushed that could be popped");
+  }
+  Scope outer = std::move(kept.back());
+  kept.pop_back();
+  if (environment) {
+    scope_.environment = std::move(outer.environment);
+  } else {
+    scope_.configurations = std::move(outer.configurations);
+    scope_.global_parameters = std::move(outer.global_parameters);
+    scope_.global_remaps = std::move(outer.global_remaps);
+  }
 }
 
 }  // namespace launch

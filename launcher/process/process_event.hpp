@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happens to a supervised process, as its observers are told.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <variant>
+
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_runner.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+enum class ProcessState { kStarting, kRunning, kInterrupting, kTerminating, kKilling, kRespawnDelay, kDone };
+
+struct ProcessStarted {
+  pid_t pid;
+};
+struct ProcessStartFailed {
+  std::string reason;  // "no program 'talkr' in the PATH of the process: No such file or directory"
+  bool will_respawn = false;
+};
+struct ProcessExited {
+  pid_t pid;
+  ProcessExit exit;
+  bool expected;  // a signal of ours, or shutdown, had been sent
+  bool will_respawn;
+};
+struct SignalSent {
+  int signal;
+  // Set when this signal follows one that did not work: the earlier signal and how long we waited.
+  int escalated_from = 0;
+  Duration waited{0};
+};
+struct ProcessDone {};  // will not run again
+
+// `spec` and `label` stay valid as long as the supervisor.
+struct ProcessEvent {
+  ProcessId id;
+  const std::string& label;
+  const ProcessSpec& spec;
+  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessDone> what;
+};
+
+}  // namespace launch

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Python launch file: what it builds becomes actions, and what it asks for while it runs is done to the launch.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "launcher/frontend/entity.hpp"
+#include "launcher/language/action.hpp"
+#include "launcher/language/registry.hpp"
+#include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/python/python_places.hpp"
+#include "launcher/substitution/scope.hpp"
+#include "launcher/substitution/substitution.hpp"
+
+namespace launch {
+
+class LaunchContext;
+
+// Makes actions and templates of what Python tells. Everything that asks Python later keeps the file.
+class PythonFile : public std::enable_shared_from_this<PythonFile> {
+ public:
+  // The registry must outlive everything that is made.
+  PythonFile(std::shared_ptr<const SourceFile> file, const Registry& registry)
+      : places_(std::move(file)), registry_(registry) {}
+
+  // Checks the entities and makes their actions. Throws LaunchError.
+  std::vector<ActionPtr> make_actions(const std::vector<python::Entity>& entities);
+  // `fallback` is the place of a text that has none.
+  Template make_template(const python::Text& text, const SourceRange& fallback);
+
+  PythonPlaces& places() { return places_; }
+
+ private:
+  Entity make_entity(const python::Entity& entity);
+  Value make_value(const python::Value& value, const SourceRange& fallback);
+  SubstitutionPtr make_part(const python::Part& part, const SourceRange& fallback);
+
+  PythonPlaces places_;
+  const Registry& registry_;
+};
+
+// The launch as Python sees it while it runs.
+class PythonHost : public python::Host {
+ public:
+  // While a file is loaded or a substitution performed: what needs a visit throws.
+  PythonHost(PythonFile& file, Scope& scope) : file_(file), scope_(scope) {}
+  PythonHost(PythonFile& file, LaunchContext& context);
+
+  Variables& configurations() override { return scope_.configurations; }
+  Variables& environment() override { return scope_.environment.own(); }
+  std::string log_directory() override { return scope_.log_directory; }
+  std::string perform(const python::Text& text) override;
+  std::string perform(const python::Text& text, Variables& configurations) override;
+  void message(const std::string& level, const std::string& logger, const std::string& text) override;
+  void push(bool environment) override;
+  void pop(bool environment) override;
+  void visit(const std::vector<python::Entity>& entities) override;
+  void run_coroutine(python::ObjectPtr object) override;
+
+ private:
+  LaunchContext& context();
+
+  PythonFile& file_;
+  Scope& scope_;
+  LaunchContext* context_ = nullptr;
+};
+
+}  // namespace launch

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which process each `depends_on` of a traversal speaks of.
+#pragma once
+
+#include <vector>
+
+#include "launcher/visit/dependency.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+// Finds the processes that the conditions speak of and sets Dependency::target. `asked_for` are the processes that the
+// dependencies belong to, already in the table. A name means one of them, else the latest that was asked for before.
+// Throws LaunchError with every name that is unknown or ambiguous, and for a cycle.
+void resolve_dependencies(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
+                          const ProcessTable& table);
+
+}  // namespace launch

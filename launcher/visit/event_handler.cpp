@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/visit/event_handler.hpp"
+
+#include <fmt/format.h>
+
+namespace launch {
+
+namespace {
+
+struct Description {
+  std::string operator()(const OnProcessStart&) const { return "on_process_start" + of_process(); }
+  std::string operator()(const OnProcessExit& exit) const {
+    return fmt::format("on_process_exit{} with exit code {}", of_process(), exit.exit_code.text());
+  }
+  std::string operator()(const OnProcessIo& io) const {
+    return fmt::format("on_process_io{} with {}", of_process(), io.pattern.describe());
+  }
+  std::string operator()(const OnShutdown&) const { return "on_shutdown"; }
+  std::string operator()(const OnStateTransition& transition) const {
+    std::string text = fmt::format("on_state_transition of '{}'", transition.node);
+    text += transition.start_state.empty() ? "" : " from " + transition.start_state;
+    return text + (transition.goal_state.empty() ? "" : " to " + transition.goal_state);
+  }
+  std::string operator()(const OnceReady& ready) const { return "once " + ready.condition->describe(); }
+
+  std::string of_process() const { return process.empty() ? " of any process" : fmt::format(" of '{}'", process); }
+  const std::string& process;
+};
+
+}  // namespace
+
+std::string describe(const EventHandler& handler) {
+  return std::visit(Description{handler.process}, handler.event);
+}
+
+Scope Invocation::scope() const {
+  Scope scope = handler->scope;
+  for (const auto& [name, value] : values) {
+    scope.configurations.insert_or_assign("event." + name, value);
+  }
+  return scope;
+}
+
+}  // namespace launch

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What visited actions ask for. Plain data: nothing has happened yet.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/language/action.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_spec.hpp"
+#include "launcher/substitution/scope.hpp"
+#include "launcher/visit/composable_node.hpp"
+#include "launcher/visit/coroutine_request.hpp"
+#include "launcher/visit/dependency.hpp"
+#include "launcher/visit/event_handler.hpp"
+#include "launcher/visit/launch_record.hpp"
+#include "launcher/visit/process_command.hpp"
+#include "launcher/visit/run_scope.hpp"
+
+namespace launch {
+
+struct TimerRequest {
+  Duration period{0};
+  bool cancel_on_shutdown = true;
+  std::vector<ActionPtr> actions;
+  Scope scope;  // as it was where the timer stands
+};
+
+struct ShutdownRequest {
+  std::string reason;
+};
+
+// The ROS node that a process is asked to be; empty where the launch file leaves it to the program.
+struct NodeDescription {
+  std::size_t process = 0;  // which of the processes
+  std::optional<std::string> package;
+  std::string executable;
+  std::optional<std::string> name;
+  std::optional<std::string> name_space;
+};
+
+// Event handlers that are to be forgotten.
+struct UnregisterRequest {
+  std::string name;  // of the handlers
+  SourceRange where;
+};
+
+// What one traversal asked for. Scopes begin before its processes start.
+struct Requests {
+  std::vector<std::unique_ptr<RunScope>> scopes;
+  std::vector<ProcessSpec> processes;
+  std::vector<NodeDescription> nodes;
+  std::vector<Dependency> dependencies;         // of the processes
+  std::vector<EventHandler> handlers;           // registered before the processes start
+  std::vector<UnregisterRequest> unregistered;  // before that
+  std::vector<ProcessCommand> commands;         // for what ran before
+  std::vector<CoroutineRequest> coroutines;
+  std::vector<LoadRequest> loads;
+  std::vector<TransitionRequest> transitions;
+  std::vector<TimerRequest> timers;
+  std::optional<ShutdownRequest> shutdown;
+  std::vector<std::string> logs;             // messages of `log` actions
+  std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
+  int includes = 0;                          // other launch files that were included
+  std::vector<LaunchRecord> records;         // what the visit did
+
+  // Nothing is to be carried out.
+  bool empty() const;
+};
+
+}  // namespace launch
