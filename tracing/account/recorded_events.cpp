@@ -6,19 +6,13 @@
 #include <lttng/lttng.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <memory>
 #include <set>
 
 #include "tracing/lttng/channels.hpp"
-#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/lttng_list.hpp"
 
 namespace tracing {
 namespace {
-
-struct Free {
-  void operator()(void* memory) const { std::free(memory); }
-};
 
 std::vector<std::string> exclusions_of(lttng_event& rule) {
   std::vector<std::string> names;
@@ -63,19 +57,12 @@ RecordedEvents read_recorded_events(const std::string& lttng_session_name) {
   RecordedEvents recorded;
   const DomainHandle handle = domain_handle(lttng_session_name, LTTNG_DOMAIN_UST);
   const std::string doing = fmt::format("list the events of session '{}'", lttng_session_name);
-  lttng_channel* listed = nullptr;
-  const int count = check_lttng(lttng_list_channels(handle.get(), &listed), doing);
-  const std::unique_ptr<lttng_channel, Free> channels(listed);
-  for (int i = 0; i < count; ++i) {
-    lttng_event* rules = nullptr;
-    const int rule_count = check_lttng(lttng_list_events(handle.get(), listed[i].name, &rules), doing);
-    const std::unique_ptr<lttng_event, Free> owned(rules);
-    for (int rule = 0; rule < rule_count; ++rule) {
-      recorded.rules.push_back(
-          {.channel = listed[i].name,
-           .pattern = rules[rule].name,
-           .exclusions = exclusions_of(rules[rule]),
-           .conditional = rules[rule].filter != 0 || rules[rule].loglevel_type != LTTNG_EVENT_LOGLEVEL_ALL});
+  for (const lttng_channel& channel : LttngList<lttng_channel>(doing, lttng_list_channels, handle.get())) {
+    for (lttng_event& rule : LttngList<lttng_event>(doing, lttng_list_events, handle.get(), channel.name)) {
+      recorded.rules.push_back({.channel = channel.name,
+                                .pattern = rule.name,
+                                .exclusions = exclusions_of(rule),
+                                .conditional = rule.filter != 0 || rule.loglevel_type != LTTNG_EVENT_LOGLEVEL_ALL});
     }
   }
   return recorded;

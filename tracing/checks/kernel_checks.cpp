@@ -9,25 +9,19 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 
 #include "launcher/base/nearest_name.hpp"
 #include "tracing/lttng/channels.hpp"
-#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/lttng_list.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
 namespace {
 
-struct Free {
-  void operator()(void* memory) const { std::free(memory); }
-};
-using Events = std::unique_ptr<lttng_event, Free>;
-
-std::vector<std::string> names_of(const Events& events, int count) {
+std::vector<std::string> names_of(const LttngList<lttng_event>& events) {
   std::vector<std::string> names;
-  for (int i = 0; i < count; ++i) names.emplace_back(events.get()[i].name);
+  for (const lttng_event& event : events) names.emplace_back(event.name);
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -75,15 +69,11 @@ std::string kernel_modules_version() {
 
 std::vector<std::string> kernel_event_names() {
   const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_KERNEL);
-  lttng_event* listed = nullptr;
-  const int count = check_lttng(lttng_list_tracepoints(handle.get(), &listed), "list the kernel events");
-  return names_of(Events(listed), count);
+  return names_of(LttngList<lttng_event>("list the kernel events", lttng_list_tracepoints, handle.get()));
 }
 
 std::vector<std::string> syscall_names() {
-  lttng_event* listed = nullptr;
-  const int count = check_lttng(lttng_list_syscalls(&listed), "list the system calls");
-  return names_of(Events(listed), count);
+  return names_of(LttngList<lttng_event>("list the system calls", lttng_list_syscalls));
 }
 
 std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const std::vector<std::string>& events,

@@ -7,10 +7,8 @@
 
 #include <charconv>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -18,7 +16,7 @@
 #include <utility>
 
 #include "tracing/lttng/channels.hpp"
-#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/lttng_list.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 
 namespace tracing {
@@ -26,17 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Free {
-  void operator()(void* memory) const { std::free(memory); }
-};
-
 std::set<int> registered_processes() {
   const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_UST);
-  lttng_event* listed = nullptr;
-  const int count = check_lttng(lttng_list_tracepoints(handle.get(), &listed), "list the userspace events");
-  const std::unique_ptr<lttng_event, Free> events(listed);
+  const LttngList<lttng_event> events("list the userspace events", lttng_list_tracepoints, handle.get());
   std::set<int> pids;
-  for (int i = 0; i < count; ++i) pids.insert(listed[i].pid);
+  for (const lttng_event& event : events) pids.insert(event.pid);
   return pids;
 }
 

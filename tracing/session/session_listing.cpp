@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <set>
@@ -15,7 +14,7 @@
 #include "tracing/account/loss_counters.hpp"
 #include "tracing/checks/kernel_checks.hpp"
 #include "tracing/lttng/channels.hpp"
-#include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/lttng_list.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/channel_plan.hpp"
 #include "tracing/plan/context_fields.hpp"
@@ -24,18 +23,12 @@
 namespace tracing {
 namespace {
 
-struct Free {
-  void operator()(void* memory) const { std::free(memory); }
-};
-
 // The events of a channel that are enabled.
 std::vector<std::string> enabled_events(lttng_handle* handle, const char* channel) {
-  lttng_event* listed = nullptr;
-  const int count = check_lttng(lttng_list_events(handle, channel, &listed), "list the events of a channel");
-  const std::unique_ptr<lttng_event, Free> events(listed);
   std::vector<std::string> names;
-  for (int i = 0; i < count; ++i) {
-    if (listed[i].enabled != 0) names.emplace_back(listed[i].name);
+  for (const lttng_event& event :
+       LttngList<lttng_event>("list the events of a channel", lttng_list_events, handle, channel)) {
+    if (event.enabled != 0) names.emplace_back(event.name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -43,19 +36,17 @@ std::vector<std::string> enabled_events(lttng_handle* handle, const char* channe
 
 std::vector<ChannelDetails> channels_of(const std::string& session, const lttng_domain& domain) {
   const DomainHandle handle = domain_handle(session, domain);
-  lttng_channel* listed = nullptr;
-  const int count = check_lttng(lttng_list_channels(handle.get(), &listed),
-                                fmt::format("list the channels of session '{}'", session));
-  const std::unique_ptr<lttng_channel, Free> channels(listed);
+  const LttngList<lttng_channel> channels(fmt::format("list the channels of session '{}'", session),
+                                          lttng_list_channels, handle.get());
   std::vector<ChannelDetails> details;
-  for (int i = 0; i < count; ++i) {
-    const lttng_channel_attr& attributes = listed[i].attr;
+  for (const lttng_channel& channel : channels) {
+    const lttng_channel_attr& attributes = channel.attr;
     details.push_back({.domain = domain_name(domain.type),
-                       .name = listed[i].name,
+                       .name = channel.name,
                        .subbuffer_size = attributes.subbuf_size,
                        .subbuffer_count = attributes.num_subbuf,
                        .overwrite = attributes.overwrite == 1,
-                       .events = enabled_events(handle.get(), listed[i].name)});
+                       .events = enabled_events(handle.get(), channel.name)});
   }
   return details;
 }
@@ -74,11 +65,9 @@ std::string process_name(int pid) {
 
 std::vector<TraceableEvent> userspace_events() {
   const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_UST);
-  lttng_event* listed = nullptr;
-  const int count = check_lttng(lttng_list_tracepoints(handle.get(), &listed), "list the userspace events");
-  const std::unique_ptr<lttng_event, Free> events(listed);
+  const LttngList<lttng_event> events("list the userspace events", lttng_list_tracepoints, handle.get());
   std::map<std::string, std::set<int>> processes;
-  for (int i = 0; i < count; ++i) processes[listed[i].name].insert(listed[i].pid);
+  for (const lttng_event& event : events) processes[event.name].insert(event.pid);
   std::vector<TraceableEvent> traceable;
   for (const auto& [name, pids] : processes) {
     TraceableEvent event{.name = name, .processes = {}};
@@ -92,17 +81,14 @@ std::vector<TraceableEvent> userspace_events() {
 
 std::vector<SessionSummary> list_sessions() {
   if (lttng_session_daemon_alive() != 1) return {};
-  lttng_session* listed = nullptr;
-  const int count = check_lttng(lttng_list_sessions(&listed), "list the trace sessions");
-  const std::unique_ptr<lttng_session, Free> sessions(listed);
   std::vector<SessionSummary> summaries;
-  for (int i = 0; i < count; ++i) {
+  for (lttng_session& session : LttngList<lttng_session>("list the trace sessions", lttng_list_sessions)) {
     std::uint64_t created = 0;
-    lttng_session_get_creation_time(&listed[i], &created);
-    summaries.push_back({.name = listed[i].name,
-                         .path = listed[i].path,
-                         .active = listed[i].enabled != 0,
-                         .snapshot = listed[i].snapshot_mode != 0,
+    lttng_session_get_creation_time(&session, &created);
+    summaries.push_back({.name = session.name,
+                         .path = session.path,
+                         .active = session.enabled != 0,
+                         .snapshot = session.snapshot_mode != 0,
                          .created = static_cast<std::int64_t>(created)});
   }
   return summaries;
@@ -122,12 +108,10 @@ SessionDetails describe_session(const std::string& name) {
                      "`launch trace list` shows the sessions that exist");
   }
   SessionDetails details{.summary = *found, .channels = {}, .losses = read_losses(name)};
-  lttng_domain* listed = nullptr;
-  const int count =
-      check_lttng(lttng_list_domains(name.c_str(), &listed), fmt::format("list the domains of session '{}'", name));
-  const std::unique_ptr<lttng_domain, Free> domains(listed);
-  for (int i = 0; i < count; ++i) {
-    for (ChannelDetails& channel : channels_of(name, listed[i])) details.channels.push_back(std::move(channel));
+  const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", name), lttng_list_domains,
+                                        name.c_str());
+  for (const lttng_domain& domain : domains) {
+    for (ChannelDetails& channel : channels_of(name, domain)) details.channels.push_back(std::move(channel));
   }
   return details;
 }
