@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -147,6 +148,14 @@ std::vector<Stream> read_packet_index(const fs::path& directory) {
     return std::tie(a.domain, a.channel, a.cpu) < std::tie(b.domain, b.channel, b.cpu);
   });
   return streams;
+}
+
+std::uint64_t first_time(const std::vector<Stream>& streams) {
+  std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
+  for (const Stream& stream : streams) {
+    if (!stream.packets.empty()) first = std::min(first, stream.packets.front().begin);
+  }
+  return first;
 }
 
 }  // namespace tracing

@@ -33,4 +33,7 @@ struct Stream {
 // gives none. Format of an index: struct ctf_packet_index of lttng-tools, big-endian.
 std::vector<Stream> read_packet_index(const std::filesystem::path& directory);
 
+// When the first packet of all streams begins; the greatest number when there is none.
+std::uint64_t first_time(const std::vector<Stream>& streams);
+
 }  // namespace tracing

@@ -22,14 +22,6 @@ constexpr std::size_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a
 constexpr const char* kRemedy = "make room there, or choose another base-path";
 constexpr double kNanosecondsPerSecond = 1e9;
 
-std::uint64_t first_time(const std::vector<Stream>& streams) {
-  std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
-  for (const Stream& stream : streams) {
-    if (!stream.packets.empty()) first = std::min(first, stream.packets.front().begin);
-  }
-  return first;
-}
-
 // The daemon counts more lost events than the last packets know of.
 bool ends_with_losses(const ChannelLoss& channel, const std::vector<Stream>& streams) {
   std::uint64_t known = 0;

@@ -20,14 +20,6 @@
 namespace tracing {
 namespace {
 
-std::uint64_t first_time(const std::vector<Stream>& streams) {
-  std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
-  for (const Stream& stream : streams) {
-    if (!stream.packets.empty()) first = std::min(first, stream.packets.front().begin);
-  }
-  return first;
-}
-
 // The unbroken runs of packets before which events were lost. Returns the events of the longest.
 std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector<LossRange>& ranges) {
   std::uint64_t longest = 0;
