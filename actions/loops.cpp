@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "actions/parameter_value.hpp"
+#include "launcher/base/ascii.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -14,12 +15,6 @@ namespace launch {
 namespace {
 
 constexpr char kSeparator = ';';
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
 
 using LoopVariables = std::map<std::string, std::string>;
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <iterator>
 
+#include "launcher/base/ascii.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -30,12 +31,6 @@ constexpr NamedType kTypes[] = {
     {"list_of_str", ParameterType::kStr, true}, {"list_of_bool", ParameterType::kBool, true},
     {"list_of_int", ParameterType::kInt, true}, {"list_of_float", ParameterType::kFloat, true},
 };
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\n\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\n\r") - first + 1);
-}
 
 // Digits as Python's int() and float() read them: single underscores between digits are allowed.
 std::optional<std::string> python_digits(std::string_view text) {

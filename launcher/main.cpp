@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/own_environment.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
@@ -19,21 +20,7 @@
 #include "tracing/command/trace_command.hpp"
 #include "tracing/command/trace_completion.hpp"
 
-extern char** environ;  // NOLINT: POSIX names it so
-
 namespace {
-
-launch::Environment environment_of_process() {
-  launch::Environment environment;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string_view text(*variable);
-    const std::size_t separator = text.find('=');
-    if (separator != std::string_view::npos) {
-      environment.emplace(std::string(text.substr(0, separator)), std::string(text.substr(separator + 1)));
-    }
-  }
-  return environment;
-}
 
 // A program of its own: the launcher does without the libraries that reading traces needs.
 int report(char** argv) {
@@ -55,14 +42,14 @@ int main(int argc, char** argv) {
     return tracing::run_trace_command({argv + 2, argv + argc});
   }
   if (command == "check") {
-    return launch::check_command({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process());
+    return launch::check_command({argv + 2, argv + argc}, launch::builtin_actions(), launch::own_environment());
   }
   if (command == "graph") {
-    return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), environment_of_process());
+    return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), launch::own_environment());
   }
   if (command == "complete") {
     for (const std::string& word : launch::completions({argv + 2, argv + argc}, launch::builtin_actions(),
-                                                       environment_of_process(), tracing::trace_completions)) {
+                                                       launch::own_environment(), tracing::trace_completions)) {
       fmt::print("{}\n", word);
     }
     return 0;
@@ -78,5 +65,5 @@ int main(int argc, char** argv) {
   if (const auto* const exit_now = std::get_if<launch::ExitNow>(&parsed)) {
     return exit_now->code;
   }
-  return launch::run_command(std::get<launch::CommandLine>(parsed), environment_of_process());
+  return launch::run_command(std::get<launch::CommandLine>(parsed), launch::own_environment());
 }

@@ -2,19 +2,13 @@
 #include "launcher/base/nearest_name.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
+
+#include "launcher/base/ascii.hpp"
 
 namespace launch {
 
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 // Number of insertions, deletions, replacements and swaps of neighbours that lead from `from` to `to` (restricted
 // Damerau-Levenshtein distance).

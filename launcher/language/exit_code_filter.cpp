@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "launcher/base/ascii.hpp"
 #include "launcher/base/diagnostic.hpp"
 
 namespace launch {
@@ -17,11 +18,7 @@ namespace launch {
 namespace {
 
 constexpr int kHighestExitCode = 255;
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\n");
-  return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
-}
+constexpr std::string_view kBlanks = " \t\n";
 
 std::optional<int> whole_number(const std::string& text) {
   int value = 0;
@@ -41,7 +38,7 @@ std::optional<int> exit_code(const std::string& word) {
 
 }  // namespace
 
-ExitCodeFilter::ExitCodeFilter(const std::string& text, const SourceRange& where) : text_(trimmed(text)) {
+ExitCodeFilter::ExitCodeFilter(const std::string& text, const SourceRange& where) : text_(trim(text, kBlanks)) {
   if (text_ == "any") {
     return;
   }
@@ -52,7 +49,7 @@ ExitCodeFilter::ExitCodeFilter(const std::string& text, const SourceRange& where
   kind_ = Kind::kListed;
   for (std::size_t begin = 0; begin <= text_.size();) {
     const std::size_t end = std::min(text_.find(',', begin), text_.size());
-    const std::string word = trimmed(text_.substr(begin, end - begin));
+    const std::string word(trim(std::string_view(text_).substr(begin, end - begin), kBlanks));
     const std::optional<int> code = exit_code(word);
     if (!code) {
       std::vector<std::string> known = signal_names();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "launcher/base/ascii.hpp"
 #include "launcher/substitution/boolean.hpp"
 
 namespace launch {
@@ -18,14 +19,6 @@ bool to_boolean(const std::string& text, const SourceRange& where) {
     throw LaunchError(fmt::format("expected a boolean, got '{}'", text), where, "write true or false");
   }
   return *value;
-}
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\n\r");
-  if (first == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(first, text.find_last_not_of(" \t\n\r") - first + 1);
 }
 
 }  // namespace

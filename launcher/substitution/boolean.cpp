@@ -9,25 +9,13 @@
 #include <cstdlib>
 #include <string>
 
+#include "launcher/base/ascii.hpp"
+
 namespace launch {
 
 namespace {
 
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\n\r\f\v";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
+constexpr std::string_view kPythonBlanks = " \t\n\r\f\v";  // of str.strip()
 
 // true/1 and false/0 in any case.
 std::optional<bool> any_case_boolean(std::string_view text) {
@@ -43,7 +31,7 @@ std::optional<bool> any_case_boolean(std::string_view text) {
 
 // A number as Python's float() reads it: blanks around it, `_` between digits, inf and nan; no hexadecimal.
 std::optional<double> python_float(std::string_view text) {
-  text = trim(text);
+  text = trim(text, kPythonBlanks);
   std::string digits;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto is_digit = [&](std::size_t at) {
@@ -87,7 +75,7 @@ bool is_close(double left, double right) {
 }  // namespace
 
 std::optional<bool> condition_boolean(std::string_view text) {
-  return any_case_boolean(trim(text));
+  return any_case_boolean(trim(text, kPythonBlanks));
 }
 
 std::optional<bool> yaml_boolean(std::string_view text) {

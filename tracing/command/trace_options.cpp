@@ -2,11 +2,12 @@
 #include "tracing/command/trace_options.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+
+#include "launcher/base/own_environment.hpp"
 
 namespace tracing {
 namespace {
@@ -20,16 +21,6 @@ struct SessionArguments {
   std::vector<std::string> context_fields = default_context_fields();
   bool dual_session = false;
 };
-
-std::map<std::string, std::string> environment() {
-  std::map<std::string, std::string> variables;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string text = *entry;
-    const std::size_t equals = text.find('=');
-    if (equals != std::string::npos) variables.emplace(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return variables;
-}
 
 // An option that takes any number of names; without names it means "none". It appears as `{name}` to the parser then.
 void add_names(CLI::App& command, const std::string& option, std::vector<std::string>& names, const std::string& kind,
@@ -143,7 +134,7 @@ void complete(TraceOptions& options, const SessionArguments& arguments) {
   const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
   config.session_name =
       arguments.session_name.empty() && !all_sessions ? "session" + session_timestamp() : arguments.session_name;
-  config.base_path = trace_base_path(arguments.path, environment());
+  config.base_path = trace_base_path(arguments.path, launch::own_environment());
   config.context_fields_ust = arguments.context_fields;
   config.context_fields_kernel = arguments.context_fields;
   options.dual_session = arguments.dual_session;

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "tracing/kernel/load.hpp"
+
 namespace tracing::kernel {
 namespace {
 
@@ -17,13 +19,6 @@ constexpr std::uint32_t kTimeExtend = 30;
 constexpr std::uint32_t kTimeStamp = 31;
 constexpr unsigned kTimeBits = 27;
 constexpr std::uint64_t kTopTimeBits = ~((std::uint64_t{1} << 59) - 1);  // an absolute time stamp has 59 bits
-
-template <typename T>
-T load(std::span<const std::uint8_t> bytes, std::size_t offset) {
-  T value{};
-  if (offset + sizeof value <= bytes.size()) std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
 
 }  // namespace
 

@@ -9,18 +9,13 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tracing/kernel/load.hpp"
+
 namespace tracing::kernel {
 namespace {
 
 constexpr std::size_t kPidOffset = 4;            // of common_pid in a record
 constexpr std::uint64_t kCloneThread = 0x10000;  // CLONE_THREAD: of the same process
-
-template <typename T>
-T load(std::span<const std::uint8_t> bytes, std::size_t offset) {
-  T value{};
-  if (offset + sizeof value <= bytes.size()) std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
 
 std::string text(std::span<const std::uint8_t> bytes, std::size_t offset, std::size_t size) {
   if (offset + size > bytes.size()) return {};

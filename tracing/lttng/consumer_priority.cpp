@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tracing/lttng/process_stat.hpp"
+
 namespace tracing {
 namespace {
 
@@ -26,15 +28,9 @@ pid_t number_of(const fs::path& path) {
   return number;
 }
 
-// Whether the process is a consumer of the daemon, from /proc/PID/stat, proc(5): "pid (name) state parent …".
 bool is_consumer_of(const fs::path& process, pid_t daemon) {
-  std::ifstream file(process / "stat");
-  std::string line;
-  std::getline(file, line);
-  const std::size_t open = line.find('(');
-  const std::size_t close = line.rfind(')');
-  if (open == std::string::npos || close == std::string::npos || close + 4 >= line.size()) return false;
-  return line.substr(open + 1, close - open - 1) == kConsumer && std::atoi(line.c_str() + close + 4) == daemon;
+  const ProcessStat stat = read_process_stat(number_of(process));
+  return stat.name == kConsumer && stat.parent == daemon;
 }
 
 // The children of a process. All processes are looked at where the kernel doesn't list them (CONFIG_PROC_CHILDREN),

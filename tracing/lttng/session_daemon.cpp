@@ -20,6 +20,7 @@
 
 #include "launcher/base/home_directory.hpp"
 #include "launcher/base/spawn.hpp"
+#include "tracing/lttng/process_stat.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -42,22 +43,6 @@ std::string pid_file_of_daemon() {
   const char* const given = std::getenv("LTTNG_HOME");
   const std::string home = given != nullptr && *given != '\0' ? given : launch::home_directory();
   return home + "/.lttng/lttng-sessiond.pid";
-}
-
-struct ProcessStat {
-  std::string name;
-  char state = '?';
-};
-
-// From /proc/PID/stat, proc(5): "pid (name) state …". An empty name when the process can't be seen.
-ProcessStat read_process_stat(pid_t pid) {
-  std::ifstream file(fmt::format("/proc/{}/stat", pid));
-  std::string line;
-  std::getline(file, line);
-  const std::size_t open = line.find('(');
-  const std::size_t close = line.rfind(')');
-  if (open == std::string::npos || close == std::string::npos || close + 2 >= line.size()) return {};
-  return {line.substr(open + 1, close - open - 1), line[close + 2]};
 }
 
 // What the started daemon says goes to a memory file: a pipe of ours would be held open for the daemon's whole life,
