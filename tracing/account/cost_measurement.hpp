@@ -11,13 +11,13 @@
 namespace tracing {
 
 // Measures with a session of its own that writes nothing: the program launch-trace-probe fires some ten thousand events
-// with two pointers, in batches, into buffers that overwrite, and takes the median of the batches. About 30 ms when a
-// session daemon and its consumer run; starts them when they don't. Throws TraceError.
+// with two pointers, in batches, into buffers that overwrite. The result is the median of the batches. Takes about 30
+// ms when a session daemon and its consumer run, and starts them otherwise. Throws TraceError.
 EventCost calibrate(const std::vector<std::string>& context_fields);
 
-// What is known, or is measured now and remembered. Throws TraceError when it can't be measured.
+// The cost that is known, or else is measured now and remembered. Throws TraceError if it cannot be measured.
 EventCost event_cost(const std::vector<std::string>& context_fields);
-// The same, nothing for an error.
+// As event_cost(); nothing if it cannot be measured.
 std::optional<EventCost> try_event_cost(const std::vector<std::string>& context_fields);
 
 }  // namespace tracing

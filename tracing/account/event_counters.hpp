@@ -21,7 +21,7 @@ struct EventCounts {
   std::uint64_t begin = 0;                      // CLOCK_MONOTONIC, ns
   std::uint64_t end = 0;                        // 0: it runs, or was killed
   std::uint64_t cpu = 0;                        // ns of processor time until `end`
-  std::map<std::string, std::uint64_t> events;  // fired while a session recorded them; those of zero are left out
+  std::map<std::string, std::uint64_t> events;  // fired while a session recorded them; none that is zero
 
   std::uint64_t total() const;
 };
@@ -29,7 +29,8 @@ struct EventCounts {
 // A directory in shared memory for the files of all processes of a launch, removed with its last owner.
 class EventCounterDirectory {
  public:
-  // That of this process, which all sessions of a launch share; made when nobody has it. Null where there is no room.
+  // The directory of this process, which all sessions of a launch share. It is made when no session has it yet. Null
+  // when there is no room.
   static std::shared_ptr<EventCounterDirectory> shared();
 
   explicit EventCounterDirectory(std::filesystem::path path) : path_(std::move(path)) {}
@@ -51,8 +52,8 @@ class EventCounters {
   EventCounters(const EventCounters&) = delete;
   EventCounters& operator=(const EventCounters&) = delete;
 
-  // Of all processes, ended or not, by the time of their beginning. Files stay mapped: to look again costs some
-  // microseconds for each process. Not from several threads at once.
+  // The counts of all processes, ended or not, in the order of their start. Files stay mapped, so that another call
+  // costs some microseconds for each process. Not for several threads at once.
   std::vector<EventCounts> read();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was dropped on purpose, for recording it cost too much.
+// Classes of events that were dropped because recording them cost too much.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ struct EventCut {
   std::string event_class = {};
   std::vector<std::string> events = {};
   std::int64_t time = 0;   // CLOCK_MONOTONIC, ns
-  std::uint64_t rate = 0;  // events a second of all processes before it
+  std::uint64_t rate = 0;  // events a second of all processes before the cut
   double share = 0;        // of a processor that they cost, estimated
 };
 
-// The cuts of a session stand in a file beside the counters, so that whoever ends the session knows of them.
+// The cuts of a session are kept in a file beside the counters, so that the program that ends the session knows them.
 void note_cut(const TraceConfig& config, const EventCut& cut);
 std::vector<EventCut> read_cuts(const TraceConfig& config);
 

@@ -22,7 +22,7 @@ struct LossRange {
   std::uint64_t events = 0;
 };
 
-// What a processor recorded from then on could not be written. Times as of a LossRange.
+// From begin_ns on the events of a processor could not be written. Times count as in LossRange.
 struct UnwrittenRange {
   std::string cpu;
   std::uint64_t begin_ns = 0;
@@ -41,14 +41,14 @@ struct ChannelLoss {
   std::uint64_t bytes = 0;             // recorded
   std::vector<LossRange> ranges = {};  // where the discarded events are missing
   std::vector<UnwrittenRange> unwritten = {};
-  std::uint64_t advised_subbuffer_size =
-      0;  // with kAdvisedSubbuffers (verdict.hpp) of them nothing would have been lost
+  // Bytes. With kAdvisedSubbuffers (verdict.hpp) of this size nothing would have been lost.
+  std::uint64_t advised_subbuffer_size = 0;
 };
 
 // How far it is known which process the lost events are of.
 enum class LossAttribution {
-  kExact,     // the processes' sum is what the daemon counts; what it counts more is of programs that don't count
-  kEstimate,  // the sum is more: another session recorded at other times
+  kExact,     // the processes lost no more than the daemon counts; other programs, which do not count, lost the rest
+  kEstimate,  // the processes lost more than the daemon counts: another session recorded at other times
   kUnknown
 };
 
@@ -60,11 +60,11 @@ struct LossAccount {
   std::vector<ChannelLoss> channels;
   std::vector<ProcessAccount> processes = {};  // by the time of their beginning
   LossAttribution attribution = LossAttribution::kUnknown;
-  std::uint64_t unattributed = 0;       // lost userspace events that are of none of them
+  std::uint64_t unattributed = 0;       // lost userspace events of no process in the list
   std::optional<EventCost> cost = {};   // of an event, on this machine
   std::vector<EventCut> cuts = {};      // dropped on purpose: no losses
   bool cut_short = false;               // the wait for the last data was given up
-  std::string damage = {};              // what keeps the trace from being complete and nobody has counted, a sentence
+  std::string damage = {};              // a sentence on data that is missing and was not counted, or ""
   std::string unwritten_verdict = {};   // why verdict.json could not be written
   std::vector<SessionStep> steps = {};  // of the end: "stop", "last data", "destroy", …
 };

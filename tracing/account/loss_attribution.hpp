@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which process how many of a session's lost events are of, and what each process fired.
+// Finds out which process lost how many of a session's events, and how many each process fired.
 //
-// Buffers for each process: the packets say it. Buffers that processes share: a process counts what it hands to LTTng
-// (event_counters.hpp), the trace says what arrived, and the rest is lost. What LTTng counts for the channels is the
-// check: where the sums agree the account is exact.
+// Where each process has buffers of its own, their packets tell the losses. Where processes share buffers, lost =
+// events fired (event_counters.hpp) − events in the trace. LTTng's own counts for the channels are the check: where the
+// sums agree, the account is exact.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ using RecordedProcesses = std::map<std::int64_t, RecordedProcess>;  // by proces
 // As `launch-report --recorded DIRECTORY` prints it. Throws TraceError for anything else.
 RecordedProcesses parse_recorded_processes(const std::string& json);
 
-// The processes of `counts`, none of which has lost anything, with the events that the session records. `now`
-// (CLOCK_MONOTONIC, ns) is the end of those that have not told theirs.
+// An account for each process of `counts`, with the events that the session records and no losses yet. `now`
+// (CLOCK_MONOTONIC, ns) is taken for the end of processes that have not told theirs.
 std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, const RecordedEvents& events,
                                               std::uint64_t now);
 

@@ -11,8 +11,8 @@ namespace tracing {
 // One line per channel with losses ("12 events lost in ust channel ros2"), or "no events lost".
 std::string describe_losses(const LossAccount& losses);
 
-// What tracing has cost the processes, estimated, as one line: all of them and the one that it has cost most. "" where
-// the cost of an event isn't known, or no event was counted.
+// As one line: the estimated cost of tracing for all processes together, and for the process that it has cost most. ""
+// if the cost of an event is unknown or no event was counted.
 std::string describe_cost(const LossAccount& losses);
 
 }  // namespace tracing

@@ -12,9 +12,9 @@
 
 namespace tracing {
 
-// Make one when the session has been stopped and still exists: it fills in the account's processes, and asks the daemon
-// what was recorded where something was lost. What cannot be found out leaves the attribution unknown: the session ends
-// and its verdict is written all the same. Throws nothing.
+// Make one when the session has been stopped and still exists. It fills in the processes of the account, and asks the
+// daemon what was recorded if something was lost. Throws nothing: if something cannot be found out, the attribution is
+// unknown, and the session ends and its verdict is written all the same.
 class LossesByProcess {
  public:
   LossesByProcess(const TraceConfig& config, LossAccount& losses);

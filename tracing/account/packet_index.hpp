@@ -25,7 +25,7 @@ struct Stream {
   std::string domain;                    // "ust" or "kernel"
   std::string channel;                   // "ros2"
   std::string cpu;                       // "0"
-  std::optional<std::int64_t> pid = {};  // of the process whose buffers they were, where each has its own
+  std::optional<std::int64_t> pid = {};  // of the process that owns the buffers, where each process has its own
   std::vector<Packet> packets;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one process had to do with a session.
+// What one process contributed to a session, and what tracing has cost it.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ struct ProcessAccount {
   std::int64_t pid = 0;
   double seconds = 0;                      // it ran
   double cpu_seconds = 0;                  // processor time of all its threads; 0: unknown, for it was killed
-  std::uint64_t events = 0;                // of it that the session recorded or lost, one for each channel
-  std::uint64_t callbacks = 0;             // of its nodes that ended
+  std::uint64_t events = 0;                // that it fired and the session recorded or lost, once for each channel
+  std::uint64_t callbacks = 0;             // that ended, of its nodes
   std::optional<std::uint64_t> lost = {};  // of its events; nothing: unknown
   std::vector<std::string> nodes = {};     // its nodes; looked up when events were lost
 
@@ -24,7 +24,7 @@ struct ProcessAccount {
   double tracing_seconds(double ns_per_event) const { return static_cast<double>(events) * ns_per_event / 1e9; }
   double processor_share(double ns_per_event) const;  // of one processor, while it ran
   double own_share(double ns_per_event) const;        // of its own processor time; 0: unknown
-  double ns_per_callback(double ns_per_event) const;  // that a callback, with what leads to it, takes longer; 0: none
+  double ns_per_callback(double ns_per_event) const;  // that tracing adds to a callback and what leads to it; 0: none
 };
 
 }  // namespace tracing

@@ -22,7 +22,8 @@ struct RecordedEvents {
 
   // In how many channels the event is recorded, each time that it is fired.
   std::size_t times(const std::string& event) const;
-  // A process counts an event whether a filter takes it or not: nothing is known of losses among those that have one.
+  // False for an event with a condition: a process counts the event whether a filter takes it or not, so that nothing
+  // is known of its losses.
   bool countable(const std::string& event) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LTTng's kernel modules can record, and what they would get wrong. All throw TraceError.
+// What LTTng's kernel modules can record, and what would go wrong with them. Each function throws TraceError.
 #pragma once
 
 #include <string>
@@ -12,20 +12,20 @@ namespace tracing {
 // Events of the kernel can be recorded: its modules are there and this user may use them. Needs a session daemon.
 void check_kernel_tracer();
 
-// Of the modules that are loaded, "2.13.9"; empty when none are.
+// The version of the loaded modules, "2.13.9"; "" when none are loaded.
 std::string kernel_modules_version();
 
 // Names of tracepoints and of system calls. Need check_kernel_tracer() to have succeeded.
 std::vector<std::string> kernel_event_names();
 std::vector<std::string> syscall_names();
 
-// Takes the names that mean nothing out of the kernel channels, and channels that have none left out of `channels`:
-// LTTng takes any name, and records nothing for one that isn't. Returns a warning that names them, "" when there are
-// none. Throws when nothing is left.
+// Removes the names that the kernel does not have from the kernel channels of `channels`, and the channels that have no
+// name left. LTTng accepts any name, and records nothing for one that does not exist. Returns a warning with these
+// names, "" when there are none. Throws when no name is left.
 std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const std::vector<std::string>& events,
                                       const std::vector<std::string>& syscalls);
 
-// No context field of a kernel channel is one with which this version of the modules crashes the kernel.
+// Throws if a kernel channel has a context field with which this version of the modules crashes the kernel.
 void check_kernel_context_fields(const std::vector<ChannelPlan>& channels, const std::string& modules_version);
 
 }  // namespace tracing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be known to fail before a session is created. All throw TraceError.
+// Checks before a session is created. Each throws TraceError.
 #pragma once
 
 #include <cstdint>

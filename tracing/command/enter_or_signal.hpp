@@ -6,8 +6,8 @@
 
 namespace tracing {
 
-// While one exists SIGINT and SIGTERM of this thread don't end the process: they are kept until asked for. Make it
-// before the program starts threads.
+// While an object exists, SIGINT and SIGTERM of this thread do not end the process: they are kept until wait() or
+// take_signal() asks for them. Make it before the program starts threads.
 class EnterOrSignal {
  public:
   enum class Answer { kEnter, kInputEnded, kSignal };

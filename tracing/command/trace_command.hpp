@@ -9,13 +9,13 @@
 
 namespace tracing {
 
-// `arguments` are those after `launch trace`. Without a verb the interactive form runs: it asks for Enter on stdin,
-// once to start and once to stop. Blocks. Returns the exit code: 0; 1 when a session could not be controlled (the
-// reason is on stderr); 2 for wrong usage or when LTTng is not installed. Call it before the program has threads: it
-// takes SIGINT and SIGTERM for itself.
+// `arguments` follow `launch trace` on the command line. Without a verb the interactive form runs: it asks for Enter on
+// stdin, once to start and once to stop. Blocks. Returns the exit code: 0; 1 when a session could not be controlled
+// (the reason is on stderr); 2 for wrong usage or when LTTng is not installed. Call it before the program has threads:
+// it takes SIGINT and SIGTERM for itself.
 int run_trace_command(const std::vector<std::string>& arguments);
 
-// The same with a tracer of the caller's.
+// With a tracer of the caller.
 int run_trace_command(const std::vector<std::string>& arguments, Tracer& tracer);
 
 }  // namespace tracing

@@ -20,8 +20,8 @@ enum class KernelRecording {
   kSnapshots,   // the newest events are kept for take_kernel_snapshot()
 };
 
-// Starts it for the kernel channels of `plans`. Returns when it records: a warning that names the events that the
-// kernel hasn't, "" when there are none. Throws TraceError, also when there is nothing to record.
+// Starts it for the kernel channels of `plans`. Returns when it records, with a warning that names the events that the
+// kernel does not have, or "". Throws TraceError, also when there is nothing to record.
 std::string start_kernel_recorder(const std::filesystem::path& program, const std::string& lttng_session_name,
                                   const std::filesystem::path& recording, const std::vector<ChannelPlan>& plans,
                                   KernelRecording what);
@@ -30,12 +30,11 @@ std::string start_kernel_recorder(const std::filesystem::path& program, const st
 // snapshot begins after this one. Nothing happens when none runs there. Throws TraceError.
 void take_kernel_snapshot(const std::filesystem::path& recording, const std::filesystem::path& snapshot, bool clear);
 
-// What keeps these kernel channels from being recorded this way: a context field that tracefs does not tell. Throws
-// TraceError.
+// Throws TraceError if a kernel channel has a context field that tracefs does not give.
 void check_kernel_recorder_fields(const std::vector<ChannelPlan>& plans);
 
-// Let the recorder of `recording` rest, with everything written, and go on. Nothing happens when none runs there. Throw
-// TraceError when it does not answer within seconds.
+// Pauses the recorder of `recording`, with everything written, and lets it go on. Nothing happens when none runs there.
+// Throws TraceError when the recorder does not answer within seconds.
 void pause_kernel_recorder(const std::filesystem::path& recording);
 void resume_kernel_recorder(const std::filesystem::path& recording);
 

@@ -20,7 +20,7 @@ using DomainHandle = std::unique_ptr<lttng_handle, HandleDeleter>;
 
 // Names a session and one of its domains to liblttng-ctl.
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain domain);
-// The same where it makes no difference whose the userspace buffers are.
+// For calls that work alike for buffers of users and buffers of processes.
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_type domain);
 
 // The steps of setting a channel up, in this order. Each throws TraceError.

@@ -8,14 +8,14 @@
 
 namespace tracing {
 
-// Makes sure that a session daemon answers and that it lives in the same container as we do. Starts one when there is
-// none; that one survives this process and holds none of its files open. Returns whether it was started. Blocks until
-// the daemon is ready, about 20 ms. Throws TraceError.
+// Makes sure that a session daemon answers and that it lives in the same container as this process. Starts one when
+// there is none; the started daemon survives this process and holds none of its files open. Returns whether it was
+// started. Blocks until the daemon is ready, about 20 ms. Throws TraceError.
 bool ensure_session_daemon();
 
 // Throws unless the process of the pid file `pid_file` is a running session daemon. A socket on a shared HOME can be
-// reached from another container, whose daemon would then record nothing of ours, silently (LTTng bug 1371). No such
-// file is no objection.
+// reached from another container; its daemon would then record nothing of ours, without an error (LTTng bug 1371). A
+// missing file is accepted.
 void check_daemon_is_here(const std::string& pid_file);
 
 // Where programs find the daemon that serves this user.
@@ -24,7 +24,7 @@ std::string session_daemon_directory();
 // The process of the daemon that serves this user; 0 when its pid file can't be read.
 pid_t session_daemon_pid();
 
-// False when it is known to be stopped. A program that starts would wait for it.
+// False when the daemon is known to be stopped (SIGSTOP). A traced program would wait for it at its start.
 bool session_daemon_can_answer();
 
 // Throws when the daemon is stopped: it would block every call for ever.

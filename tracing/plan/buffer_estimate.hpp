@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether buffers will hold, before anything has run: from the number of nodes, at the rate of busy ones.
+// Estimates before a launch whether the buffers will hold its events: from the number of nodes, each as busy as a busy
+// node.
 #pragma once
 
 #include <cstdint>

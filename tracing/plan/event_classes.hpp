@@ -11,7 +11,7 @@
 
 namespace tracing {
 
-// What can be dropped, in the order in which it is unless another is asked for:
+// The classes, in the order in which they are dropped unless the configuration gives another order:
 //   executor   what executors look for and take up
 //   buffers    what goes through the ring buffers of intra-process communication
 //   layers     publishing and taking as rclcpp and rcl see it: rmw's events of the same messages stay
@@ -31,11 +31,13 @@ struct DroppableClass {
   std::vector<DroppableRule> rules;
 };
 
-// What `order` names and `channels` record, without what is empty. An entry is a class, or a pattern of events, with
-// the provider. Initialisation events are in none: without them nothing of a trace can be understood.
+// The classes that `order` names, each with the rules of `channels` that belong to it. A class without rules is left
+// out. An entry of `order` is the name of a class, or a pattern of events with its provider. Initialisation events are
+// in no class: without them a trace cannot be understood.
 std::vector<DroppableClass> plan_drops(const std::vector<std::string>& order, const std::vector<ChannelPlan>& channels);
 
-// Puts the names of the events in the place of patterns of provider ros2: LTTng can only switch off what it was given.
+// Replaces each pattern of provider ros2 by the names of the events that it matches. LTTng can switch an event off only
+// by the rule that it was given.
 void name_ros_events(std::vector<ChannelPlan>& channels);
 
 }  // namespace tracing

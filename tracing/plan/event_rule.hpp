@@ -3,9 +3,9 @@
 //
 //   PATTERN [except PATTERN[,PATTERN]…] [level [=]LEVEL] [if FILTER]
 //
-// PATTERN is an event's name, in which * matches any text. `except` takes events out again. `level WARNING` takes those
-// at least as severe as WARNING, `level =WARNING` those of exactly this severity. FILTER is LTTng's filter expression,
-// up to the end: the event is recorded where it is true (lttng-enable-event(1)).
+// PATTERN is an event's name, in which * matches any text. `except` takes events out again. `level WARNING` takes
+// events that are at least as severe as WARNING, `level =WARNING` events of exactly this severity. FILTER is LTTng's
+// filter expression and goes up to the end: the event is recorded where it is true (lttng-enable-event(1)).
 #pragma once
 
 #include <cstdint>
@@ -26,12 +26,13 @@ struct EventRule {
   bool plain() const { return exclusions.empty() && !log_level && filter.empty(); }
 };
 
-// Throws TraceError for what is no rule.
+// Throws TraceError if the text is no rule.
 EventRule parse_event_rule(const std::string& text);
 
-// The same with the exclusions applied: one rule for each event of provider ros2 that is left. Throws TraceError for
-// exclusions from other providers, whose events are not known before they run: LTTng could exclude them, but the
-// session daemon of LTTng 2.13 crashes, and all sessions with it, as soon as somebody lists a session with exclusions.
+// The rule with its exclusions applied: one rule for each event of provider ros2 that is left. Throws TraceError for
+// exclusions from other providers, because their events are not known before a program with them runs. LTTng itself
+// could exclude them, but the session daemon of LTTng 2.13 crashes, and all sessions with it, as soon as somebody lists
+// a session with exclusions.
 std::vector<EventRule> expand_exclusions(const EventRule& rule);
 
 // The pattern alone, also of a text that is no rule.

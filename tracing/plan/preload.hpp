@@ -17,7 +17,7 @@ struct PreloadPlan {
 PreloadPlan plan_preload(const std::vector<std::string>& events_ust);
 PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string (*find_library)(const std::string&));
 
-// LD_PRELOAD with the libraries appended, separated by colons; those already in it are not repeated.
+// LD_PRELOAD with the libraries appended, separated by colons. A library that is already in it is not repeated.
 std::string append_preload(const std::string& current, const std::vector<std::string>& libraries);
 
 }  // namespace tracing

@@ -10,8 +10,8 @@
 
 namespace tracing {
 
-// Makes the userspace sub-buffers of `plans` smaller, with a warning, until those of one user fit into `free` bytes of
-// shared memory. Throws TraceError when the smallest don't.
+// Makes the userspace sub-buffers of `plans` smaller, with a warning, until the buffers of one user fit into `free`
+// bytes of shared memory. Throws TraceError if even the smallest sub-buffers do not fit.
 void fit_into_shared_memory(std::vector<ChannelPlan>& plans, std::uint64_t free, std::uint64_t processors,
                             std::vector<std::string>& warnings);
 

@@ -15,16 +15,16 @@ namespace tracing {
 // procname vpid vtid
 const std::vector<std::string>& default_context_fields();
 
-// What a live session is delivered to where no url is given.
+// The relay daemon of a live session without a url.
 inline constexpr const char* kLocalRelayDaemon = "net://127.0.0.1";
 
-// A channel beside those that each domain has by itself, for events that need buffers of their own.
+// A channel beside the default channel of each domain, for events that need buffers of their own.
 struct ChannelConfig {
   std::string name;
   std::vector<std::string> events_ust;  // of one domain only
   std::vector<std::string> events_kernel;
   std::vector<std::string> syscalls;
-  std::optional<std::vector<std::string>> context_fields = {};  // those of its domain unless given
+  std::optional<std::vector<std::string>> context_fields = {};  // the fields of its domain unless given
   std::optional<std::uint64_t> subbuffer_size = {};             // this and the next four: as the domain's own channel
   std::optional<std::uint64_t> subbuffer_count = {};
   std::optional<std::uint32_t> read_timer = {};    // µs
@@ -33,7 +33,7 @@ struct ChannelConfig {
   std::int64_t blocking_timeout = 0;  // as TraceConfig::blocking_timeout_ust
 };
 
-// Whose the userspace buffers are.
+// Who has userspace buffers: a user, for all processes together, or each process.
 enum class BufferOwner { kUser, kProcess };
 
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.

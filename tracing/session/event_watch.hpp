@@ -20,8 +20,8 @@ namespace tracing {
 class EventWatch {
  public:
   // Calls `seen` with the text of the rule (event_rule.hpp, userspace) from a thread of its own, a few milliseconds
-  // after the event at most; events that come faster may be told of once. `name` begins the names of the triggers at
-  // the session daemon, which must run. Throws TraceError.
+  // after the event at most. Several events in quick succession may be reported once. `name` begins the names of the
+  // triggers at the session daemon, which must run. Throws TraceError.
   EventWatch(const std::string& name, const std::vector<std::string>& rules,
              std::function<void(const std::string& rule)> seen);
   ~EventWatch();

@@ -25,14 +25,14 @@ class FlightRecorder {
  public:
   // The session that `config` describes must exist. `told` is called from a thread of the recorder's own.
   FlightRecorder(const TraceConfig& config, std::function<void(const TakenSnapshot&)> told);
-  // Takes what has been requested before.
+  // Takes the snapshots that were requested before.
   ~FlightRecorder();
   FlightRecorder(const FlightRecorder&) = delete;
   FlightRecorder& operator=(const FlightRecorder&) = delete;
 
-  // From any thread; does not block. The same reason for a snapshot that is yet to come is taken once. The snapshot
-  // holds every event that was fired before, as far as the buffers reach back. Of more than TraceConfig::snapshot_limit
-  // the oldest is removed.
+  // From any thread; does not block. A reason that is requested again before its snapshot begins is kept once. The
+  // snapshot holds every event that was fired before, as far as the buffers reach back. When there are more than
+  // TraceConfig::snapshot_limit, the oldest snapshot is removed.
   void request(const std::string& reason);
 
  private:

@@ -17,14 +17,14 @@ inline constexpr const char* kSnapshotName = "snapshot";
 // Where the snapshots of `config`'s session go. Each makes a directory of its own below the trace directory.
 void add_snapshot_output(const TraceConfig& config);
 
-// Where those of a session go; nothing when it takes none, or they go over the network.
+// The directory of the snapshots of a session; nothing if the session takes none or sends them over the network.
 std::optional<std::filesystem::path> snapshot_directory(const std::string& lttng_session_name);
 // The snapshots in it, from the oldest to the newest.
 std::vector<std::filesystem::path> snapshots_in(const std::filesystem::path& directory);
 
 // Writes what the buffers of the session hold, and those of its kernel recorder. Throws TraceError.
 void record_snapshot(const std::string& lttng_session_name);
-// The same, then empties them, so that the next snapshot starts after this one.
+// Records a snapshot, then empties the buffers, so that the next snapshot starts after this one.
 void record_and_clear(const std::string& lttng_session_name);
 
 }  // namespace tracing
