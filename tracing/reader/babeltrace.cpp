@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/reader/trace_read_error.hpp"
 
 namespace tracing::babeltrace {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/reader/trace_sink.hpp"
 
 namespace tracing {
 

@@ -14,6 +14,7 @@
 #include "tracing/ctf/packet.hpp"
 #include "tracing/ctf/stream_cursor.hpp"
 #include "tracing/ctf/trace_class.hpp"
+#include "tracing/reader/trace_read_error.hpp"
 
 namespace tracing {
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "tracing/reader/trace_read_error.hpp"
+
 namespace tracing {
 
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "tracing/reader/babeltrace.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/reader/trace_sink.hpp"
 
 namespace tracing {
 

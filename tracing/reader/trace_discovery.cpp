@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/reader/trace_read_error.hpp"
 
 namespace tracing {
 

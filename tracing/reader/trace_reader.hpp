@@ -7,34 +7,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
-#include <string>
 
-#include "tracing/reader/event.hpp"
+#include "tracing/reader/trace_read_error.hpp"
+#include "tracing/reader/trace_sink.hpp"
 
 namespace tracing {
-
-// A trace could not be read. what() is one line that names the directory; remedy() says what to do, may be empty;
-// details() are the library's own messages, innermost last, for bug reports.
-class TraceReadError : public std::runtime_error {
- public:
-  TraceReadError(const std::string& what, std::string remedy, std::string details = {})
-      : std::runtime_error(what), remedy_(std::move(remedy)), details_(std::move(details)) {}
-  const std::string& remedy() const { return remedy_; }
-  const std::string& details() const { return details_; }
-
- private:
-  std::string remedy_;
-  std::string details_;
-};
-
-// Receives what a trace holds. An exception thrown here ends the reading and comes out of TraceReader::read.
-class TraceSink {
- public:
-  virtual ~TraceSink() = default;
-  virtual void on_event(const Event& event) = 0;
-  virtual void on_loss(const Loss& loss) = 0;
-};
 
 class TraceReader {
  public:
