@@ -22,11 +22,12 @@
 
 namespace {
 
-// A program of its own: the launcher does without the libraries that reading traces needs.
-int report(char** argv) {
-  const std::string program = launch::own_library_file("launch-report");
-  argv[1] = const_cast<char*>("launch report");
-  ::execv(program.c_str(), argv + 1);
+// Becomes a program of its own, called `name`, with the arguments behind `last`: the launcher does without the
+// libraries that reading traces needs.
+int become(const char* program_name, const char* name, char** last) {
+  const std::string program = launch::own_library_file(program_name);
+  *last = const_cast<char*>(name);
+  ::execv(program.c_str(), last);
   fmt::print(stderr, "launch: error: can't run {}: {}\n", program, std::strerror(errno));
   return 1;
 }
@@ -36,7 +37,10 @@ int report(char** argv) {
 int main(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == "report") {
-    return report(argv);
+    return become("launch-report", "launch report", argv + 1);
+  }
+  if (command == "trace" && argc > 2 && std::string_view(argv[2]) == "read") {
+    return become("launch-trace-read", "launch trace read", argv + 2);
   }
   if (command == "trace") {
     return tracing::run_trace_command({argv + 2, argv + argc});

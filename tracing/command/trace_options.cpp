@@ -186,6 +186,9 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       {add_calibrate(command, session), TraceVerb::kCalibrate},
   };
 
+  // A program of its own, which main() executes; named here for the help.
+  command.add_subcommand("read", "print the events of recorded traces, or count them (launch trace read --help)");
+
   try {
     command.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {

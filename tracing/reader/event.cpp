@@ -53,6 +53,14 @@ std::optional<std::string_view> FieldValue::string() const {
   return std::string_view(bt_field_string_get_value(foreign_), bt_field_string_get_length(foreign_));
 }
 
+bool FieldValue::is_hexadecimal() const {
+  if (foreign_ == nullptr) return direct_.type->is_number() && direct_.type->base == 16;
+  const bt_field_class* const type = bt_field_borrow_class_const(foreign_);
+  return bt_field_class_type_is(bt_field_class_get_type(type), BT_FIELD_CLASS_TYPE_INTEGER) &&
+         bt_field_class_integer_get_preferred_display_base(type) ==
+             BT_FIELD_CLASS_INTEGER_PREFERRED_DISPLAY_BASE_HEXADECIMAL;
+}
+
 bool FieldValue::is_array() const {
   if (foreign_ != nullptr) return bt_field_class_type_is(bt_field_get_class_type(foreign_), BT_FIELD_CLASS_TYPE_ARRAY);
   const ctf::FieldKind kind = direct_.type->kind;

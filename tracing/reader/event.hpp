@@ -51,6 +51,7 @@ class FieldValue {
   std::optional<double> real() const;
   std::optional<std::string_view> string() const;
 
+  bool is_hexadecimal() const;  // an integer that the trace asks to show so, such as a pointer
   bool is_array() const;
   bool is_structure() const;
   bool is_variant() const;

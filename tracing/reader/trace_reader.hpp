@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "tracing/reader/trace_read_error.hpp"
 #include "tracing/reader/trace_sink.hpp"
@@ -23,6 +25,8 @@ class TraceReader {
 
   // Finds the traces. Throws TraceReadError when there is none.
   explicit TraceReader(const std::filesystem::path& directory, Decoder decoder = Decoder::kAny);
+  // Several directories, merged as one.
+  explicit TraceReader(const std::vector<std::filesystem::path>& directories, Decoder decoder = Decoder::kAny);
   ~TraceReader();
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;

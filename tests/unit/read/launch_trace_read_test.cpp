@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the program `launch-trace-read` on traces.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/command.hpp"
+#include "tests/support/trace_writer/ping_pong_sequence.hpp"
+#include "tests/support/trace_writer/temporary_directory.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
+
+namespace tracing {
+namespace {
+
+using test_support::CommandResult;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class LaunchTraceRead : public ::testing::Test {
+ protected:
+  LaunchTraceRead() {
+    testing::TraceWriter writer(path() / "trace");
+    for (const auto& [time, thread, event] : testing::ping_pong_sequence()) {
+      writer.write(thread.vpid == testing::kPing.vpid ? 0 : 1, time, thread, event);
+    }
+    writer.finish();
+  }
+
+  std::filesystem::path path() const { return directory_.path(); }
+  CommandResult read(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), LAUNCH_TRACE_READ);
+    return test_support::run_command(arguments);
+  }
+  static std::size_t lines(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+
+  testing::TemporaryDirectory directory_;
+};
+
+TEST_F(LaunchTraceRead, PrintsEveryEvent) {
+  const CommandResult result = read({path()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(lines(result.out), testing::ping_pong_sequence().size());
+  EXPECT_THAT(result.out, StartsWith("2026-01-01 00:00:00"));
+}
+
+TEST_F(LaunchTraceRead, CountsByName) {
+  const CommandResult result = read({path(), "--count", "--event", "*callback_st*", "--event=ros2:rcl_init"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "    3 ros2:callback_start\n    2 ros2:rcl_init\n    5 in all\n");
+}
+
+TEST_F(LaunchTraceRead, ChoosesAndLimits) {
+  const CommandResult result = read({path(), "--process", "pong", "--where", "topic_name == '/ping'", "--limit", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(lines(result.out), 1u);
+  EXPECT_THAT(result.out, HasSubstr(" ros2:rcl_subscription_init cpu 1 pong [72/72] "));
+}
+
+TEST_F(LaunchTraceRead, CsvHasTheColumnsOfItsEvents) {
+  const CommandResult result = read({path(), "--format", "csv", "--event", "ros2:callback_*"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("time_ns,event,cpu_id,vpid,vtid,procname,callback,is_intra_process\n"));
+  EXPECT_EQ(lines(result.out), 7u);
+}
+
+TEST_F(LaunchTraceRead, MergesSeveralDirectories) {
+  testing::TraceWriter other(path() / "other", {.identity = 2});
+  other.write(0, 5, testing::kPing, ros2::RclTake{1});
+  other.finish();
+  const CommandResult result = read({path() / "trace", path() / "other", "--limit", "1"});
+  EXPECT_THAT(result.out, StartsWith("1970-01-01 00:00:00.000000005 +0.000000000 ros2:rcl_take"));
+}
+
+TEST_F(LaunchTraceRead, RefusesWrongArguments) {
+  const CommandResult expression = read({path(), "--where", "topic_name = 'x'"});
+  EXPECT_EQ(expression.exit_code, 2);
+  EXPECT_THAT(expression.err, StartsWith("--where: expected '==' to compare\n"
+                                         "    topic_name = 'x'\n"
+                                         "               ^\n"));
+  const CommandResult time = read({path(), "--from", "noon"});
+  EXPECT_EQ(time.exit_code, 2);
+  EXPECT_THAT(time.err, StartsWith("--from: 'noon' is no time; write seconds since the epoch, 2026-01-31T12:00:00.5 or "
+                                   "+SECONDS after the first event\n"));
+  EXPECT_EQ(read({path(), "--format", "xml"}).exit_code, 2);
+  EXPECT_EQ(read({}).exit_code, 2);
+}
+
+TEST_F(LaunchTraceRead, SaysWhatIsNoTrace) {
+  const CommandResult result = read({"/nonexistent"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err,
+            "launch trace read: error: cannot read the trace '/nonexistent': no such directory\n"
+            "    = help: give the directory that the launcher printed when it ended the session\n");
+}
+
+TEST_F(LaunchTraceRead, GivesWhatCanBeReadOfADamagedTrace) {
+  const std::filesystem::path stream = path() / "trace" / "ros2_1";
+  std::filesystem::resize_file(stream, std::filesystem::file_size(stream) - 5);
+  const CommandResult result = read({path(), "--count"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("in all\n"));
+  EXPECT_THAT(result.err, HasSubstr("ends behind the end of the file"));
+}
+
+}  // namespace
+}  // namespace tracing

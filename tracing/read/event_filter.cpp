@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/read/event_filter.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+
+namespace tracing {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+// "12.5" exactly, in nanoseconds.
+std::optional<std::int64_t> parse_seconds(std::string_view text) {
+  std::int64_t seconds = 0;
+  const char* const end = text.data() + text.size();
+  const auto [whole_end, error] = std::from_chars(text.data(), end, seconds);
+  if (error != std::errc() || seconds < 0 || seconds > INT64_MAX / kSecond - 1) return std::nullopt;
+  std::int64_t ns = seconds * kSecond;
+  if (whole_end == end) return ns;
+  if (*whole_end != '.') return std::nullopt;
+  std::int64_t unit = kSecond;
+  for (const char* digit = whole_end + 1; digit != end; ++digit) {
+    if (*digit < '0' || *digit > '9') return std::nullopt;
+    unit /= 10;
+    ns += (*digit - '0') * unit;
+  }
+  return ns;
+}
+
+}  // namespace
+
+std::optional<TimeBound> TimeBound::parse(std::string_view text) {
+  if (text.starts_with('+')) {
+    const auto ns = parse_seconds(text.substr(1));
+    return ns ? std::optional(TimeBound{*ns, true}) : std::nullopt;
+  }
+  if (const auto ns = parse_seconds(text)) return TimeBound{*ns, false};
+  std::tm date{};
+  const std::string date_text(text);
+  const char* const rest = strptime(date_text.c_str(), "%Y-%m-%dT%H:%M:%S", &date);
+  if (rest == nullptr) return std::nullopt;
+  const std::string fraction = "0" + std::string(rest);
+  const auto ns = parse_seconds(fraction);
+  if (!ns || *ns >= kSecond) return std::nullopt;
+  return TimeBound{static_cast<std::int64_t>(timegm(&date)) * kSecond + *ns, false};
+}
+
+bool matches_pattern(std::string_view pattern, std::string_view text) {
+  // Where to go on when what follows the last star does not match: one character later.
+  std::size_t star = std::string_view::npos;
+  std::size_t behind_star = 0;
+  std::size_t at = 0;
+  std::size_t next = 0;
+  while (next < text.size()) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      behind_star = next;
+    } else if (at < pattern.size() && (pattern[at] == '?' || pattern[at] == text[next])) {
+      ++at;
+      ++next;
+    } else if (star != std::string_view::npos) {
+      at = star + 1;
+      next = ++behind_star;
+    } else {
+      return false;
+    }
+  }
+  while (at < pattern.size() && pattern[at] == '*') ++at;
+  return at == pattern.size();
+}
+
+bool EventFilter::accepts_name(const EventClass& event_class) {
+  if (events.empty()) return true;
+  if (event_class.id >= names_.size()) names_.resize(event_class.id + 1, -1);
+  std::int8_t& known = names_[event_class.id];
+  if (known < 0) {
+    known = std::any_of(events.begin(), events.end(),
+                        [&](const std::string& pattern) { return matches_pattern(pattern, event_class.name); })
+                ? 1
+                : 0;
+  }
+  return known == 1;
+}
+
+bool EventFilter::accepts_process(const Event& event) const {
+  return std::any_of(processes.begin(), processes.end(), [&](const std::string& process) {
+    return (event.vpid && std::to_string(*event.vpid) == process) ||
+           (event.procname && matches_pattern(process, *event.procname));
+  });
+}
+
+bool EventFilter::accepts(const Event& event) {
+  if (!first_ns_) first_ns_ = event.timestamp_ns;
+  const auto absolute = [&](const TimeBound& bound) { return bound.since_first ? *first_ns_ + bound.ns : bound.ns; };
+  if (begin && event.timestamp_ns < absolute(*begin)) return false;
+  if (end && event.timestamp_ns >= absolute(*end)) return false;
+  if (!accepts_name(*event.event_class)) return false;
+  if (!processes.empty() && !accepts_process(event)) return false;
+  return std::all_of(expressions.begin(), expressions.end(),
+                     [&](const FieldExpression& expression) { return expression.holds(event); });
+}
+
+}  // namespace tracing

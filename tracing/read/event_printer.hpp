@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes events and losses as text, as lines of JSON or as CSV.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracing/reader/event.hpp"
+
+namespace tracing {
+
+// Thrown when the output can't be written: the reader of a pipe has gone, the disk is full.
+struct OutputClosed {};
+
+class EventPrinter {
+ public:
+  explicit EventPrinter(std::FILE* out) : out_(out) {}
+  virtual ~EventPrinter() = default;
+  virtual void print(const Event& event) = 0;
+  virtual void print(const Loss& loss) = 0;
+  // Writes what is still in memory.
+  void flush();
+
+ protected:
+  void end_line();
+  fmt::memory_buffer line_;  // lines that are not yet written
+
+ private:
+  std::FILE* out_;
+};
+
+// `2026-01-01 00:00:00.000000000 +0.000000250 ros2:callback_start cpu 0 ping [71/71] callback=0x7f is_intra_process=0`
+// with the time since the event before.
+std::unique_ptr<EventPrinter> make_text_printer(std::FILE* out);
+
+// {"time_ns":…,"event":"ros2:callback_start","cpu_id":0,"vpid":71,"vtid":71,"procname":"ping","fields":{…}}
+std::unique_ptr<EventPrinter> make_json_printer(std::FILE* out);
+
+// A header line, then one line an event: time_ns, event, cpu_id, vpid, vtid, procname, then `fields`, the names of all
+// fields that any of the events has. Losses go to the standard error output.
+std::unique_ptr<EventPrinter> make_csv_printer(std::FILE* out, std::vector<std::string> fields);
+
+}  // namespace tracing

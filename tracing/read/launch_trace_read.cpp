@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// `launch trace read DIRECTORY...`: prints the events of traces, or counts them. An executable of its own, which
+// `launch` executes, so that the launcher does without the reading libraries.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <map>
+#include <set>
+
+#include "tracing/read/event_filter.hpp"
+#include "tracing/read/event_printer.hpp"
+#include "tracing/reader/trace_reader.hpp"
+
+namespace {
+
+enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
+
+struct Arguments {
+  std::vector<std::filesystem::path> directories;
+  tracing::EventFilter filter;
+  std::string format = "text";
+  bool count = false;
+  std::optional<std::uint64_t> limit;
+};
+
+// The wanted number of events has been printed.
+struct Enough {};
+
+class PrintingSink : public tracing::TraceSink {
+ public:
+  PrintingSink(Arguments& arguments, tracing::EventPrinter& printer)
+      : filter_(arguments.filter), printer_(printer), left_(arguments.limit) {}
+
+  void on_event(const tracing::Event& event) override {
+    if (!filter_.accepts(event)) return;
+    if (left_ && (*left_)-- == 0) throw Enough();
+    printer_.print(event);
+  }
+  // A loss is never left out: it may hold the event that is looked for.
+  void on_loss(const tracing::Loss& loss) override { printer_.print(loss); }
+
+ private:
+  tracing::EventFilter& filter_;
+  tracing::EventPrinter& printer_;
+  std::optional<std::uint64_t> left_;
+};
+
+class CountingSink : public tracing::TraceSink {
+ public:
+  explicit CountingSink(tracing::EventFilter& filter) : filter_(filter) {}
+  std::map<std::string, std::uint64_t> counts() const {
+    std::map<std::string, std::uint64_t> result;
+    for (std::size_t id = 0; id < counts_.size(); ++id) {
+      if (counts_[id] > 0) result[names_[id]] += counts_[id];
+    }
+    return result;
+  }
+  std::uint64_t lost_events = 0;
+  std::uint64_t lost_packets = 0;
+  bool lost_unknown = false;
+  std::set<std::string> fields;
+
+  void on_event(const tracing::Event& event) override {
+    if (!filter_.accepts(event)) return;
+    const std::size_t id = event.event_class->id;
+    if (id >= counts_.size()) {
+      counts_.resize(id + 1);
+      names_.resize(id + 1);
+    }
+    if (counts_[id]++ > 0) return;
+    names_[id] = event.name();
+    fields.insert(event.event_class->fields.begin(), event.event_class->fields.end());
+  }
+  void on_loss(const tracing::Loss& loss) override {
+    (loss.kind == tracing::Loss::Kind::kEvents ? lost_events : lost_packets) += loss.count.value_or(0);
+    if (!loss.count) lost_unknown = true;
+  }
+
+ private:
+  tracing::EventFilter& filter_;
+  std::vector<std::uint64_t> counts_;  // by EventClass::id
+  std::vector<std::string> names_;
+};
+
+int print_error(const tracing::TraceReadError& error) {
+  fmt::print(stderr, "launch trace read: error: {}\n", error.what());
+  if (!error.remedy().empty()) fmt::print(stderr, "    = help: {}\n", error.remedy());
+  return kFailure;
+}
+
+// Gives as much as can be read; the exit code.
+int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
+  try {
+    tracing::TraceReader(arguments.directories).read(sink);
+  } catch (const tracing::TraceReadError& error) {
+    return print_error(error);
+  } catch (const Enough&) {
+    return kSuccess;
+  }
+  return kSuccess;
+}
+
+int print_count(Arguments& arguments) {
+  CountingSink counter(arguments.filter);
+  const int exit_code = read_into(arguments, counter);
+  std::uint64_t total = 0;
+  for (const auto& [name, count] : counter.counts()) total += count;
+  const int width = std::max(5, static_cast<int>(std::to_string(total).size()));
+  for (const auto& [name, count] : counter.counts()) fmt::print("{:>{}} {}\n", count, width, name);
+  fmt::print("{:>{}} in all\n", total, width);
+  if (counter.lost_events > 0) fmt::print("{:>{}} events lost\n", counter.lost_events, width);
+  if (counter.lost_packets > 0) fmt::print("{:>{}} packets lost\n", counter.lost_packets, width);
+  if (counter.lost_unknown) fmt::print("{:>{}} events were lost before the trace begins\n", "some", width);
+  return exit_code;
+}
+
+int print_events(Arguments& arguments) {
+  std::unique_ptr<tracing::EventPrinter> printer;
+  if (arguments.format == "csv") {
+    // The columns are known only when all events have been seen.
+    CountingSink fields(arguments.filter);
+    try {
+      tracing::TraceReader(arguments.directories).read(fields);
+    } catch (const tracing::TraceReadError&) {
+      // The reading that prints says it.
+    }
+    arguments.filter.restart();
+    printer = tracing::make_csv_printer(stdout, {fields.fields.begin(), fields.fields.end()});
+  } else {
+    printer = arguments.format == "json" ? tracing::make_json_printer(stdout) : tracing::make_text_printer(stdout);
+  }
+  PrintingSink sink(arguments, *printer);
+  const int exit_code = read_into(arguments, sink);
+  printer->flush();
+  return exit_code;
+}
+
+std::optional<tracing::TimeBound> time_bound(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (const auto bound = tracing::TimeBound::parse(text)) return bound;
+  throw CLI::ValidationError(option, fmt::format("'{}' is no time; write seconds since the epoch, "
+                                                 "2026-01-31T12:00:00.5 or +SECONDS after the first event",
+                                                 text));
+}
+
+void add_expression(tracing::EventFilter& filter, const std::string& text) {
+  try {
+    filter.expressions.emplace_back(text);
+  } catch (const tracing::ExpressionError& error) {
+    throw CLI::ValidationError("--where",
+                               fmt::format("{}\n    {}\n    {:>{}}", error.what(), text, '^', error.column() + 1));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing
+  Arguments arguments;
+  std::vector<std::string> expressions;
+  std::string from;
+  std::string to;
+  CLI::App app("Prints the events of traces in the order of time, with the losses among them.", "launch trace read");
+  app.add_option("directory", arguments.directories, "Directories of traces, or of several traces each")->required();
+  app.add_option("--event", arguments.filter.events, "Only events of these names; * and ? stand for other characters")
+      ->allow_extra_args(false);
+  app.add_option("--process", arguments.filter.processes, "Only of these processes: ids, or names with * and ?")
+      ->allow_extra_args(false);
+  app.add_option("--where", expressions,
+                 "Only events for which this holds, such as 'queue_depth > 3 && topic_name =~ \"scan\"'")
+      ->allow_extra_args(false);
+  app.add_option("--from", from,
+                 "Only from this time on: seconds since the epoch, 2026-01-31T12:00:00.5 (UTC), or +SECONDS");
+  app.add_option("--to", to, "Only before this time");
+  app.add_option("--format", arguments.format, "text, json (one object a line) or csv")
+      ->check(CLI::IsMember({"text", "json", "csv"}))
+      ->capture_default_str();
+  app.add_option("--limit", arguments.limit, "Print at most so many events");
+  app.add_flag("--count", arguments.count, "Print how many events there are of each name instead")
+      ->excludes("--format")
+      ->excludes("--limit");
+  app.footer(
+      "Exit code: 0, 1 when a trace can't be read (to its end) or the output can't be written, 2 for wrong arguments.");
+  try {
+    app.parse(argc, argv);
+    arguments.filter.begin = time_bound("--from", from);
+    arguments.filter.end = time_bound("--to", to);
+    for (const std::string& expression : expressions) add_expression(arguments.filter, expression);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  }
+  try {
+    return arguments.count ? print_count(arguments) : print_events(arguments);
+  } catch (const tracing::OutputClosed&) {
+    return kFailure;
+  } catch (const tracing::TraceReadError& error) {
+    return print_error(error);
+  }
+}
