@@ -17,7 +17,7 @@ constexpr int kBatch = 64;
 constexpr std::uint32_t kReadable = EPOLLIN;
 constexpr std::uint32_t kExit = EPOLLIN | EPOLLONESHOT;
 
-[[noreturn]] void fail(const char* what) {
+[[noreturn]] void fail_to_watch(const char* what) {
   throw std::system_error(errno, std::system_category(), what);
 }
 
@@ -46,7 +46,7 @@ class DescriptorWatch::Registration : public std::enable_shared_from_this<Regist
     event.events = events_;
     event.data.ptr = this;
     if (::epoll_ctl(epoll_->get(), operation, fd_, &event) != 0) {
-      fail("cannot watch a descriptor");
+      fail_to_watch("cannot watch a descriptor");
     }
   }
 
@@ -68,7 +68,7 @@ class DescriptorWatch::Handle final : public EventLoop::Source {
 
 DescriptorWatch::DescriptorWatch() : epoll_(std::make_shared<UniqueFd>(::epoll_create1(EPOLL_CLOEXEC))) {
   if (!*epoll_) {
-    fail("cannot create an epoll instance");
+    fail_to_watch("cannot create an epoll instance");
   }
 }
 
@@ -92,7 +92,7 @@ void DescriptorWatch::run_batch(const std::function<void(const EventLoop::Callba
     if (errno == EINTR) {
       return;
     }
-    fail("cannot wait for descriptors");
+    fail_to_watch("cannot wait for descriptors");
   }
   // Owned before the first callback, which may cancel any of them.
   std::vector<std::shared_ptr<Registration>> ready;

@@ -62,39 +62,9 @@ std::string without_line_end(std::string text) {
 
 }  // namespace
 
-RosTasks::RosTasks(LaunchContext& context, EventLoop& loop, std::function<void()> idle,
+RosTasks::RosTasks(LaunchContext& context, EventLoop& loop, RosClient& client, std::function<void()> idle,
                    std::function<void(const LaunchError&)> failed)
-    : context_(context), loop_(loop), idle_(std::move(idle)), failed_(std::move(failed)) {}
-
-void RosTasks::start(std::vector<LoadRequest> loads, std::vector<TransitionRequest> transitions) {
-  if (context_.ros_client() == nullptr && !(loads.empty() && transitions.empty())) {
-    failed_(LaunchError("there is no ROS client to load components and change states",
-                        loads.empty() ? transitions.front().origin : loads.front().origin));
-    return;
-  }
-  for (LoadRequest& request : loads) {
-    add(std::move(request));
-  }
-  for (TransitionRequest& request : transitions) {
-    add(std::move(request));
-  }
-}
-
-void RosTasks::name_process(ProcessId process, const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (name.starts_with('/')) {
-      nodes_[process] = name;
-    }
-  }
-}
-
-void RosTasks::on_skipped(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (name.starts_with('/')) {
-      drop(name, false);
-    }
-  }
-}
+    : context_(context), loop_(loop), client_(client), idle_(std::move(idle)), failed_(std::move(failed)) {}
 
 void RosTasks::add(Request request) {
   std::string node = std::visit([](const auto& given) { return node_of(given); }, request);
@@ -128,8 +98,8 @@ void RosTasks::next(TaskPlace task) {
               },
               task->request);
         });
-        task->answer = context_.ros_client()->ask(step, request.environment, Duration(0),
-                                                  [this, task](const RosAnswer& answer) { on_answer(task, answer); });
+        task->answer = client_.ask(step, request.environment, Duration(0),
+                                   [this, task](const RosAnswer& answer) { on_answer(task, answer); });
       },
       task->request);
 }
@@ -239,9 +209,7 @@ void RosTasks::shutdown() {
   }
   tasks_.clear();
   repeated_.clear();
-  if (RosClient* const client = context_.ros_client()) {
-    client->close();
-  }
+  client_.close();
 }
 
 }  // namespace launch

@@ -12,6 +12,7 @@
 #include <random>
 #include <system_error>
 
+#include "tracing/kernel/load.hpp"
 #include "tracing/kernel/ring_page.hpp"
 
 namespace tracing::kernel {
@@ -20,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMagic = 0xC1FC1FC1;
-constexpr std::size_t kPidOffset = 4;        // of common_pid in a record
 constexpr std::size_t kMetadataHeader = 37;  // bytes of a packet of metadata before its text (CTF 1.8, 7.1)
 constexpr std::uint32_t kMetadataMagic = 0x75D11D57;
 

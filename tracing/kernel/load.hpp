@@ -9,6 +9,8 @@
 
 namespace tracing::kernel {
 
+constexpr std::size_t kPidOffset = 4;  // of common_pid in a record
+
 // The number at `offset`, in the byte order of this machine; 0 when it does not lie wholly in `bytes`.
 template <typename T>
 T load(std::span<const std::uint8_t> bytes, std::size_t offset) {

@@ -14,7 +14,6 @@
 namespace tracing::kernel {
 namespace {
 
-constexpr std::size_t kPidOffset = 4;            // of common_pid in a record
 constexpr std::uint64_t kCloneThread = 0x10000;  // CLONE_THREAD: of the same process
 
 std::string text(std::span<const std::uint8_t> bytes, std::size_t offset, std::size_t size) {

@@ -9,6 +9,7 @@
 
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
+#include "require_ok.hpp"
 
 namespace rclcpp_action {
 
@@ -21,16 +22,10 @@ using std::chrono::steady_clock;
 constexpr nanoseconds kGraphPatience = std::chrono::milliseconds(100);
 
 // By EntityType.
-constexpr rcl_ret_t (*kSetCallback[])(const rcl_action_client_t*, rcl_event_callback_t, const void*) = {
+constexpr rcl_ret_t (*kSetClientCallback[])(const rcl_action_client_t*, rcl_event_callback_t, const void*) = {
     rcl_action_client_set_goal_client_callback, rcl_action_client_set_result_client_callback,
     rcl_action_client_set_cancel_client_callback, rcl_action_client_set_feedback_subscription_callback,
     rcl_action_client_set_status_subscription_callback};
-
-void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    rclcpp::exceptions::throw_from_rcl_error(ret, what);
-  }
-}
 
 void wait_for_graph_change(const rcl_node_t& node, nanoseconds timeout) {
   rcl_wait_set_t wait_set = rcl_get_zero_initialized_wait_set();
@@ -171,7 +166,7 @@ void ClientBase::set_on_ready_callback(std::function<void(size_t, int)> callback
     on_ready_[id].set([callback, id](size_t count) { callback(count, static_cast<int>(id)); }, "set_on_ready_callback",
                       "action client",
                       [&](rcl_event_callback_t call, const void* data) {
-                        require_ok(kSetCallback[id](&client_, call, data), "could not set a callback");
+                        require_ok(kSetClientCallback[id](&client_, call, data), "could not set a callback");
                       });
   }
 }
@@ -179,7 +174,7 @@ void ClientBase::set_on_ready_callback(std::function<void(size_t, int)> callback
 void ClientBase::clear_on_ready_callback() {
   for (std::size_t id = 0; id < on_ready_.size(); ++id) {
     on_ready_[id].clear([&](rcl_event_callback_t call, const void* data) {
-      if (kSetCallback[id](&client_, call, data) != RCL_RET_OK) {
+      if (kSetClientCallback[id](&client_, call, data) != RCL_RET_OK) {
         rcl_reset_error();
       }
     });

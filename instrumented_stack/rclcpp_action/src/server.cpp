@@ -11,21 +11,16 @@
 #include "action_msgs/srv/cancel_goal.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
+#include "require_ok.hpp"
 
 namespace rclcpp_action {
 
 namespace {
 
 // By EntityType.
-constexpr rcl_ret_t (*kSetCallback[])(const rcl_action_server_t*, rcl_event_callback_t, const void*) = {
+constexpr rcl_ret_t (*kSetServerCallback[])(const rcl_action_server_t*, rcl_event_callback_t, const void*) = {
     rcl_action_server_set_goal_service_callback, rcl_action_server_set_result_service_callback,
     rcl_action_server_set_cancel_service_callback};
-
-void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    rclcpp::exceptions::throw_from_rcl_error(ret, what);
-  }
-}
 
 GoalInfo to_message(const rcl_action_goal_info_t& info) {
   GoalInfo message;
@@ -135,7 +130,7 @@ void ServerBase::set_on_ready_callback(std::function<void(size_t, int)> callback
     on_ready_[id].set([callback, id](size_t count) { callback(count, static_cast<int>(id)); }, "set_on_ready_callback",
                       "action server",
                       [&](rcl_event_callback_t call, const void* data) {
-                        require_ok(kSetCallback[id](&server_, call, data), "could not set a callback");
+                        require_ok(kSetServerCallback[id](&server_, call, data), "could not set a callback");
                       });
   }
 }
@@ -143,7 +138,7 @@ void ServerBase::set_on_ready_callback(std::function<void(size_t, int)> callback
 void ServerBase::clear_on_ready_callback() {
   for (std::size_t id = 0; id < on_ready_.size(); ++id) {
     on_ready_[id].clear([&](rcl_event_callback_t call, const void* data) {
-      if (kSetCallback[id](&server_, call, data) != RCL_RET_OK) {
+      if (kSetServerCallback[id](&server_, call, data) != RCL_RET_OK) {
         rcl_reset_error();
       }
     });

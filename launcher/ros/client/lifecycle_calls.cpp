@@ -16,7 +16,7 @@ namespace launch {
 
 namespace {
 
-namespace srv = lifecycle_msgs::srv;
+namespace lifecycle_srv = lifecycle_msgs::srv;
 using lifecycle_msgs::msg::Transition;
 using lifecycle_msgs::msg::TransitionEvent;
 using Clock = std::chrono::steady_clock;
@@ -104,7 +104,9 @@ class StateWait final : public Operation {
   std::string waits_for() const override { return describe(request_); }
 
  private:
-  void ask() { question_.emplace(node_, request_.node + "/get_state", std::make_shared<srv::GetState::Request>()); }
+  void ask() {
+    question_.emplace(node_, request_.node + "/get_state", std::make_shared<lifecycle_srv::GetState::Request>());
+  }
 
   bool check(const std::string& state) {
     if (state != request_.state) {
@@ -120,7 +122,7 @@ class StateWait final : public Operation {
   const StateReached request_;
   rclcpp::Node& node_;
   TransitionEvents events_;
-  std::optional<ServiceCall<srv::GetState>> question_;
+  std::optional<ServiceCall<lifecycle_srv::GetState>> question_;
   Clock::time_point asked_;
 };
 
@@ -149,18 +151,19 @@ class TransitionWatch final : public Operation {
 // Asks a node for a transition whose events shall reach the watches of this program that are there already. The node is
 // first asked for its state: discovery tells of our endpoints in the order of their creation, so a node that can answer
 // a client knows of every reader before it.
-class TransitionCall final : public CallOperation<srv::ChangeState> {
+class TransitionCall final : public CallOperation<lifecycle_srv::ChangeState> {
  public:
   TransitionCall(const ChangeState& request, rclcpp::Node& node, Answer answer)
-      : CallOperation(std::move(answer),
-                      ServiceCall<srv::ChangeState>(node, request.node + "/change_state", message_for(request)),
-                      [](const srv::ChangeState::Response& response) {
-                        RosAnswer result;
-                        result.ok = response.success;
-                        return result;
-                      }) {
+      : CallOperation(
+            std::move(answer),
+            ServiceCall<lifecycle_srv::ChangeState>(node, request.node + "/change_state", message_for(request)),
+            [](const lifecycle_srv::ChangeState::Response& response) {
+              RosAnswer result;
+              result.ok = response.success;
+              return result;
+            }) {
     if (node.count_subscribers(topic_of_events(request.node)) != 0) {
-      greeting_.emplace(node, request.node + "/get_state", std::make_shared<srv::GetState::Request>());
+      greeting_.emplace(node, request.node + "/get_state", std::make_shared<lifecycle_srv::GetState::Request>());
     }
   }
 
@@ -184,13 +187,13 @@ class TransitionCall final : public CallOperation<srv::ChangeState> {
   }
 
  private:
-  static std::shared_ptr<srv::ChangeState::Request> message_for(const ChangeState& request) {
-    auto message = std::make_shared<srv::ChangeState::Request>();
+  static std::shared_ptr<lifecycle_srv::ChangeState::Request> message_for(const ChangeState& request) {
+    auto message = std::make_shared<lifecycle_srv::ChangeState::Request>();
     message->transition = transition_of(request.transition);
     return message;
   }
 
-  std::optional<ServiceCall<srv::GetState>> greeting_;
+  std::optional<ServiceCall<lifecycle_srv::GetState>> greeting_;
 };
 
 }  // namespace
@@ -200,10 +203,11 @@ std::unique_ptr<Operation> call(const ChangeState& request, rclcpp::Node& node, 
 }
 
 std::unique_ptr<Operation> call(const GetState& request, rclcpp::Node& node, Operation::Answer answer) {
-  return std::make_unique<CallOperation<srv::GetState>>(
+  return std::make_unique<CallOperation<lifecycle_srv::GetState>>(
       std::move(answer),
-      ServiceCall<srv::GetState>(node, request.node + "/get_state", std::make_shared<srv::GetState::Request>()),
-      [](const srv::GetState::Response& response) {
+      ServiceCall<lifecycle_srv::GetState>(node, request.node + "/get_state",
+                                           std::make_shared<lifecycle_srv::GetState::Request>()),
+      [](const lifecycle_srv::GetState::Response& response) {
         RosAnswer result;
         result.ok = true;
         result.state = response.current_state.label;

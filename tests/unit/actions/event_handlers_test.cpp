@@ -91,46 +91,46 @@ TEST(EventHandlersText, MeansTheSameInBothFormats) {
   }
 }
 
-std::string error_of(const std::string& xml) {
+std::string plan_error(const std::string& xml) {
   return plan_actions(xml).error;
 }
 
 TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
   EXPECT_EQ(
-      error_of("<on_process_exit exit_code=\"-0x1\"/>"),
+      plan_error("<on_process_exit exit_code=\"-0x1\"/>"),
       "/test/system.launch.xml:2:29: error: '-0x1' is no exit code\n"
       "    2 | <on_process_exit exit_code=\"-0x1\"/>\n"
       "      |                             ^~~~\n"
       "      = help: write any, nonzero, or numbers from 0 to 255 and signals such as SIGSEGV, separated by commas");
-  EXPECT_EQ(error_of("<on_process_io stream=\"out\"/>"),
+  EXPECT_EQ(plan_error("<on_process_io stream=\"out\"/>"),
             "/test/system.launch.xml:2:24: error: 'out' is no stream of a process, expected stdout, stderr or both\n"
             "    2 | <on_process_io stream=\"out\"/>\n"
             "      |                        ^~~");
-  EXPECT_EQ(error_of("<on_process_start proces=\"a\"/>"),
+  EXPECT_EQ(plan_error("<on_process_start proces=\"a\"/>"),
             "/test/system.launch.xml:2:19: error: unexpected attribute 'proces' in 'on_process_start'\n"
             "    2 | <on_process_start proces=\"a\"/>\n"
             "      |                   ^~~~~~\n"
             "      = help: did you mean 'process'?");
-  EXPECT_EQ(error_of("<signal process=\"a\" signal=\"SIGUSER1\"/>"),
+  EXPECT_EQ(plan_error("<signal process=\"a\" signal=\"SIGUSER1\"/>"),
             "/test/system.launch.xml:2:29: error: 'SIGUSER1' is no signal\n"
             "    2 | <signal process=\"a\" signal=\"SIGUSER1\"/>\n"
             "      |                             ^~~~~~~~\n"
             "      = help: did you mean 'SIGUSR1'?");
-  EXPECT_EQ(error_of("<on_shutdown timeout=\"-1\"/>"),
+  EXPECT_EQ(plan_error("<on_shutdown timeout=\"-1\"/>"),
             "/test/system.launch.xml:2:23: error: expected a number that is not negative, got '-1'\n"
             "    2 | <on_shutdown timeout=\"-1\"/>\n"
             "      |                       ^~\n"
             "      = help: write 0 or more");
-  EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>"),
+  EXPECT_EQ(plan_error("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>"),
             "/test/system.launch.xml:2:56: error: condition can be started, exited or output, got 'exite'\n"
             "    2 | <executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>\n"
             "      |                                                        ^~~~~\n"
             "      = help: did you mean 'exited'?");
-  EXPECT_EQ(error_of("<executable cmd=\"a\"><depends_on process=\"b\" pattern=\"x\"/></executable>"),
+  EXPECT_EQ(plan_error("<executable cmd=\"a\"><depends_on process=\"b\" pattern=\"x\"/></executable>"),
             "/test/system.launch.xml:2:54: error: pattern goes with condition=\"output\" only\n"
             "    2 | <executable cmd=\"a\"><depends_on process=\"b\" pattern=\"x\"/></executable>\n"
             "      |                                                      ^");
-  EXPECT_EQ(error_of("<executable cmd=\"a\" respawn=\"true\" respawn_backoff=\"2\"/>"),
+  EXPECT_EQ(plan_error("<executable cmd=\"a\" respawn=\"true\" respawn_backoff=\"2\"/>"),
             "/test/system.launch.xml:2:53: error: respawn_backoff can't make a respawn_delay of 0 longer\n"
             "    2 | <executable cmd=\"a\" respawn=\"true\" respawn_backoff=\"2\"/>\n"
             "      |                                                     ^\n"
@@ -152,7 +152,7 @@ TEST(EventHandlersText, NumbersNeedNoQuotesInYaml) {
 }
 
 TEST(EventHandlersText, EndsAtShutdownWithoutTraces) {
-  EXPECT_EQ(error_of("<on_shutdown><trace session-name=\"late\"/></on_shutdown>"),
+  EXPECT_EQ(plan_error("<on_shutdown><trace session-name=\"late\"/></on_shutdown>"),
             "/test/system.launch.xml:2:15: error: a trace can't begin when the system ends\n"
             "    2 | <on_shutdown><trace session-name=\"late\"/></on_shutdown>\n"
             "      |               ^~~~~\n"

@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Pair;
 
-ProcessSpec only_process(const std::string& text) {
+ProcessSpec process_of(const std::string& text) {
   test_support::Planned planned = text.starts_with("launch:") ? plan_text(text) : plan_actions(text);
   EXPECT_EQ(planned.error, "");
   EXPECT_EQ(planned.plan.processes.size(), 1U);
@@ -51,7 +51,7 @@ TEST(ResourceFields, AreTakenFromBothFormats) {
     open_files_limit: 64
 )";
   for (const char* const text : {xml, yaml}) {
-    const launch::ResourceLimits limits = only_process(text).limits;
+    const launch::ResourceLimits limits = process_of(text).limits;
     EXPECT_EQ(limits.niceness, -5);
     EXPECT_EQ(limits.policy, SCHED_FIFO);
     EXPECT_EQ(limits.priority, 80);
@@ -64,7 +64,7 @@ TEST(ResourceFields, AreTakenFromBothFormats) {
 }
 
 TEST(ResourceFields, AreNothingByDefault) {
-  EXPECT_FALSE(only_process(R"xml(<executable cmd="a"/>)xml").limits.any());
+  EXPECT_FALSE(process_of(R"xml(<executable cmd="a"/>)xml").limits.any());
 }
 
 TEST(ResourceFields, SayWhatIsWrong) {
@@ -86,16 +86,16 @@ TEST(ResourceFields, SayWhatIsWrong) {
 }
 
 TEST(CleanEnvironment, HoldsOnlyWhatIsSaid) {
-  const ProcessSpec spec = only_process(R"xml(<set_env name="A" value="1"/>
+  const ProcessSpec spec = process_of(R"xml(<set_env name="A" value="1"/>
     <executable cmd="a" clean_env="true"><env name="B" value="$(env A)"/></executable>)xml");
   EXPECT_THAT(spec.environment, ElementsAre(Pair("B", "1")));
 }
 
 TEST(OutputTargets, MayBeSetForEachStream) {
-  const ProcessSpec both = only_process(R"xml(<executable cmd="a" stdout="none" stderr="screen,own_log"/>)xml");
+  const ProcessSpec both = process_of(R"xml(<executable cmd="a" stdout="none" stderr="screen,own_log"/>)xml");
   EXPECT_EQ(both.output.out, OutputTargets());
   EXPECT_EQ(both.output.err, (OutputTargets{.screen = true, .own_log = true}));
-  const ProcessSpec one = only_process(R"xml(<executable cmd="a" output="screen" stderr="log"/>)xml");
+  const ProcessSpec one = process_of(R"xml(<executable cmd="a" output="screen" stderr="log"/>)xml");
   EXPECT_EQ(one.output.out, OutputTargets{.screen = true});
   EXPECT_EQ(one.output.err, OutputTargets{.log = true});
 }

@@ -6,6 +6,7 @@
 #include <class_loader/multi_library_class_loader.hpp>
 
 #include "tests/unit/pluginlib/shapes.hpp"
+#include "tests/unit/pluginlib/thrown_by.hpp"
 
 namespace {
 
@@ -13,6 +14,7 @@ using class_loader::ClassLoader;
 using class_loader::MultiLibraryClassLoader;
 using shapes::Colour;
 using shapes::Shape;
+using test_support::thrown_by;
 using testing::ElementsAre;
 using testing::StartsWith;
 
@@ -20,16 +22,6 @@ class Circle : public Shape {
  public:
   std::string name() const override { return "circle"; }
 };
-
-template <typename ExceptionT, typename FunctionT>
-std::string thrown_by(FunctionT function) {
-  try {
-    function();
-  } catch (const ExceptionT& error) {
-    return error.what();
-  }
-  return "nothing";
-}
 
 TEST(ClassLoader, CreatesObjectsOfTheClassesOfABase) {
   ClassLoader loader(SHAPES_LIBRARY);

@@ -8,11 +8,13 @@
 #include <pluginlib/class_loader.hpp>
 
 #include "tests/unit/pluginlib/shapes.hpp"
+#include "tests/unit/pluginlib/thrown_by.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using shapes::Shape;
+using test_support::thrown_by;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -30,16 +32,6 @@ constexpr const char* kDescription = R"xml(
     <class name="lost" type="shapes::Lost" base_class_type="shapes::Shape"/>
   </library>
 </class_libraries>)xml";
-
-template <typename ExceptionT, typename FunctionT>
-std::string thrown_by(FunctionT function) {
-  try {
-    function();
-  } catch (const ExceptionT& error) {
-    return error.what();
-  }
-  return "nothing";
-}
 
 // A prefix with the package `shapes`, which has the base class, and `shapes_plugins`.
 class Plugins : public testing::Test {

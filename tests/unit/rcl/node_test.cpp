@@ -12,11 +12,9 @@
 namespace {
 
 using rcl_test::Context;
+using rcl_test::kPatience;
 using rcl_test::Node;
 using rcl_test::take_error;
-
-// Waiting for messages that must come ends a broken test.
-constexpr int64_t kPatience = 10'000'000'000;
 
 class RclNode : public testing::Test {
  protected:

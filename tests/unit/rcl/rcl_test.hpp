@@ -13,6 +13,9 @@
 
 namespace rcl_test {
 
+// Waiting for messages that must come ends a broken test.
+constexpr int64_t kPatience = 10'000'000'000;
+
 // Takes the error of this thread, without the place in the source that follows it.
 inline std::string take_error() {
   const rcl_error_state_t* state = rcl_get_error_state();

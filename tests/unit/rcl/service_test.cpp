@@ -8,13 +8,12 @@
 namespace {
 
 using rcl_test::Context;
+using rcl_test::kPatience;
 using rcl_test::Node;
 using rcl_test::take_error;
 using std_srvs::srv::SetBool;
 
-constexpr int64_t kPatience = 10'000'000'000;
-
-const rosidl_service_type_support_t* type_support() {
+const rosidl_service_type_support_t* set_bool_support() {
   return rosidl_typesupport_cpp::get_service_type_support_handle<SetBool>();
 }
 
@@ -22,7 +21,7 @@ class Service {
  public:
   Service(Node& node, const char* name) : node_(node) {
     const rcl_service_options_t options = rcl_service_get_default_options();
-    result = rcl_service_init(&handle, &node.handle, type_support(), name, &options);
+    result = rcl_service_init(&handle, &node.handle, set_bool_support(), name, &options);
   }
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
@@ -41,7 +40,7 @@ class Client {
  public:
   Client(Node& node, const char* name) : node_(node) {
     const rcl_client_options_t options = rcl_client_get_default_options();
-    result = rcl_client_init(&handle, &node.handle, type_support(), name, &options);
+    result = rcl_client_init(&handle, &node.handle, set_bool_support(), name, &options);
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -81,7 +80,8 @@ TEST(RclService, WrongNamesAndASecondInitAreRefused) {
   rcl_reset_error();
   Service service(node, "switch");
   const rcl_service_options_t options = rcl_service_get_default_options();
-  EXPECT_EQ(rcl_service_init(&service.handle, &node.handle, type_support(), "switch", &options), RCL_RET_ALREADY_INIT);
+  EXPECT_EQ(rcl_service_init(&service.handle, &node.handle, set_bool_support(), "switch", &options),
+            RCL_RET_ALREADY_INIT);
   EXPECT_EQ(take_error(), "the service is initialized already");
 }
 

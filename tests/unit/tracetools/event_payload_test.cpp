@@ -18,7 +18,7 @@ namespace {
 using test_support::run_command;
 
 // Event: its fields, each with type and the value that fire_all_events.cpp gives.
-constexpr const char* kEvents = R"rows(
+constexpr const char* kEventRows = R"rows(
 rcl_init: context_handle ptr 0x1, version str "8.10.1"
 rcl_node_init: node_handle ptr 0x1, rmw_handle ptr 0x2, node_name str "ping", namespace str "/robot"
 rmw_publisher_init: rmw_publisher_handle ptr 0x1, gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ]
@@ -64,7 +64,7 @@ message_link_partial_sync: _subs_length u64 1, subs ptr[_subs_length] [ 0x51 ], 
 )rows";
 
 // The same of provider ros2_ext.
-constexpr const char* kExtEvents = R"rows(
+constexpr const char* kExtEventRows = R"rows(
 rcl_context_fini: context_handle ptr 0x1
 rcl_node_fini: node_handle ptr 0x1
 rmw_publisher_fini: rmw_publisher_handle ptr 0x1
@@ -227,16 +227,16 @@ TEST_F(RecordedEvents, HaveTheNamesFieldsOrderAndTypesOfRos2) {
   const auto metadata = run_command({"babeltrace2", "--output-format=ctf-metadata", folder.string()});
   ASSERT_EQ(metadata.exit_code, 0) << metadata.err;
   const auto declaration = [](const auto& name, const auto& type, const auto&) { return name + " " + type; };
-  EXPECT_EQ(declared_events("ros2", metadata.out), expected(kEvents, declaration));
-  EXPECT_EQ(declared_events("ros2_ext", metadata.out), expected(kExtEvents, declaration));
+  EXPECT_EQ(declared_events("ros2", metadata.out), expected(kEventRows, declaration));
+  EXPECT_EQ(declared_events("ros2_ext", metadata.out), expected(kExtEventRows, declaration));
 }
 
 TEST_F(RecordedEvents, HoldTheArgumentsOfTheFunctions) {
   const auto text = run_command({"babeltrace2", trace_.string()});
   ASSERT_EQ(text.exit_code, 0) << text.err;
   const auto printed = [](const auto& name, const auto&, const auto& value) { return name + " = " + value; };
-  EXPECT_EQ(printed_events("ros2", text.out), expected(kEvents, printed));
-  EXPECT_EQ(printed_events("ros2_ext", text.out), expected(kExtEvents, printed));
+  EXPECT_EQ(printed_events("ros2", text.out), expected(kEventRows, printed));
+  EXPECT_EQ(printed_events("ros2_ext", text.out), expected(kExtEventRows, printed));
 }
 
 #define EVENT_NAME(name, ...) #name,
@@ -253,9 +253,9 @@ std::set<std::string> expected_names(const char* rows) {
 }
 
 TEST(EventFunctions, AreThoseOfTheEvents) {
-  EXPECT_EQ(kDeclaredNames, expected_names(kEvents));
+  EXPECT_EQ(kDeclaredNames, expected_names(kEventRows));
   EXPECT_EQ(kDeclaredNames.size(), 42u);
-  EXPECT_EQ(kDeclaredExtNames, expected_names(kExtEvents));
+  EXPECT_EQ(kDeclaredExtNames, expected_names(kExtEventRows));
 }
 
 }  // namespace

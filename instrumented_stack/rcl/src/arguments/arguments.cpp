@@ -11,16 +11,15 @@
 #include <vector>
 
 #include "arguments/arguments_impl.hpp"
+#include "arguments/wrong.hpp"
 #include "rcl/error_handling.h"
 #include "rcutils/logging.h"
 
 namespace {
 
-using Impl = rcl_arguments_impl_s;
+using rcl::wrong;
 
-[[noreturn]] void wrong(const std::string& what) {
-  throw std::invalid_argument(what);
-}
+using Impl = rcl_arguments_impl_s;
 
 std::string quoted(std::string_view flag, std::string_view value) {
   return std::string("'").append(flag).append(" ").append(value).append("'");

@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "arguments/wrong.hpp"
 #include "rcl/parameter_overrides.hpp"
 
 namespace rcl {
@@ -23,10 +24,6 @@ constexpr std::string_view kParametersKey = "ros__parameters";
 constexpr std::string_view kStringTag = "tag:yaml.org,2002:str";
 
 using Scalar = std::variant<bool, std::int64_t, double, std::string>;
-
-[[noreturn]] void wrong(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 std::string read_file(const std::string& path) {
   const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "re"), std::fclose);

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "arguments/wrong.hpp"
 #include "names/names.hpp"
 
 namespace rcl {
@@ -23,10 +24,6 @@ bool is_token(std::string_view text) {
     }
   }
   return true;
-}
-
-[[noreturn]] void wrong(const std::string& what) {
-  throw std::invalid_argument(what);
 }
 
 // Tokens separated by single slashes, optionally after `/` or `~/`.

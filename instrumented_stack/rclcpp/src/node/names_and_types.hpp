@@ -8,15 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "rclcpp/exceptions.hpp"
+#include "base/require_ok.hpp"
 
 namespace rclcpp::detail {
-
-inline void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, what);
-  }
-}
 
 // Also frees them.
 inline std::map<std::string, std::vector<std::string>> to_map(rcl_names_and_types_t& names_and_types) {

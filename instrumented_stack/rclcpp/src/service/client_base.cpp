@@ -19,7 +19,7 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-QoS to_qos(const rmw_qos_profile_t* profile) {
+QoS client_qos(const rmw_qos_profile_t* profile) {
   if (!profile) {
     exceptions::throw_from_rcl_error(RCL_RET_CLIENT_INVALID, "failed to get qos settings");
   }
@@ -66,11 +66,11 @@ const char* ClientBase::get_service_name() const {
 }
 
 QoS ClientBase::get_request_publisher_actual_qos() const {
-  return to_qos(rcl_client_request_publisher_get_actual_qos(client_handle_.get()));
+  return client_qos(rcl_client_request_publisher_get_actual_qos(client_handle_.get()));
 }
 
 QoS ClientBase::get_response_subscription_actual_qos() const {
-  return to_qos(rcl_client_response_subscription_get_actual_qos(client_handle_.get()));
+  return client_qos(rcl_client_response_subscription_get_actual_qos(client_handle_.get()));
 }
 
 bool ClientBase::service_is_ready() const {

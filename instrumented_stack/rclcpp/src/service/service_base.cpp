@@ -12,7 +12,7 @@ namespace rclcpp {
 
 namespace {
 
-QoS to_qos(const rmw_qos_profile_t* profile) {
+QoS service_qos(const rmw_qos_profile_t* profile) {
   if (!profile) {
     exceptions::throw_from_rcl_error(RCL_RET_SERVICE_INVALID, "failed to get qos settings");
   }
@@ -61,11 +61,11 @@ const char* ServiceBase::get_service_name() const {
 }
 
 QoS ServiceBase::get_request_subscription_actual_qos() const {
-  return to_qos(rcl_service_request_subscription_get_actual_qos(service_handle_.get()));
+  return service_qos(rcl_service_request_subscription_get_actual_qos(service_handle_.get()));
 }
 
 QoS ServiceBase::get_response_publisher_actual_qos() const {
-  return to_qos(rcl_service_response_publisher_get_actual_qos(service_handle_.get()));
+  return service_qos(rcl_service_response_publisher_get_actual_qos(service_handle_.get()));
 }
 
 bool ServiceBase::take_type_erased_request(void* request_out, rmw_request_id_t& request_id_out) {

@@ -11,21 +11,22 @@
 #include <utility>
 #include <vector>
 
+#include "base/require_ok.hpp"
 #include "rclcpp/create_subscription.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
 
 namespace rclcpp {
 
+using detail::require_ok;
+
 namespace {
 
 constexpr const char* kParameter = "use_sim_time";
 
-void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, what);
-  }
-}
+}  // namespace
+
+namespace detail {
 
 // Receives /clock for one time source, in a group that nothing else serves. It is not ended by what it runs itself:
 // that is called under the lock of the clock, which the end of simulated time needs.
@@ -65,7 +66,7 @@ class ClockThread {
   std::thread thread_;
 };
 
-}  // namespace
+}  // namespace detail
 
 class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
  public:
@@ -146,7 +147,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
  private:
   void use_sim_time(bool enabled) {
     // Ended after the lock, for which its thread may wait.
-    std::unique_ptr<ClockThread> ended;
+    std::unique_ptr<detail::ClockThread> ended;
     Subscription<rosgraph_msgs::msg::Clock>::SharedPtr ended_subscription;
     const std::lock_guard lock(mutex_);
     if (enabled == (subscription_ != nullptr) || (enabled && !node_base_)) {
@@ -162,9 +163,9 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     }
     last_time_ = 0;
     SubscriptionOptions options;
-    std::unique_ptr<ClockThread> thread;
+    std::unique_ptr<detail::ClockThread> thread;
     if (use_clock_thread_) {
-      thread = std::make_unique<ClockThread>(node_base_);
+      thread = std::make_unique<detail::ClockThread>(node_base_);
       options.callback_group = thread->group();
     }
     subscription_ = create_subscription<rosgraph_msgs::msg::Clock>(
@@ -220,7 +221,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   node_interfaces::PostSetParametersCallbackHandle::SharedPtr parameter_callback_;
   // While time is simulated. The thread goes first.
   Subscription<rosgraph_msgs::msg::Clock>::SharedPtr subscription_;
-  std::unique_ptr<ClockThread> thread_;
+  std::unique_ptr<detail::ClockThread> thread_;
   rcl_time_point_value_t last_time_ = 0;
 };
 

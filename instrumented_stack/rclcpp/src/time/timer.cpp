@@ -3,20 +3,13 @@
 
 #include <tracetools/tracetools.h>
 
+#include "base/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
-namespace {
-
-void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, what);
-  }
-}
-
-}  // namespace
+using detail::require_ok;
 
 TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Context::SharedPtr context,
                      bool autostart)

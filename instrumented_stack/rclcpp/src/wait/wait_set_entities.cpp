@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/require_ok.hpp"
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -16,12 +17,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
-
-void require_ok(rcl_ret_t ret, const char* what) {
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, what);
-  }
-}
 
 template <typename EntityT>
 bool refers_to(const std::weak_ptr<EntityT>& weak, const std::shared_ptr<EntityT>& entity) {

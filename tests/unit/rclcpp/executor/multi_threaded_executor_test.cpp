@@ -187,7 +187,7 @@ TEST_F(MultiThreadedExecutorTest, OptionsYieldAndTimeoutChangeNothingThatCanBeSe
 }
 
 // Ready after trigger(); counts the waits that it is part of.
-class Bell : public rclcpp::Waitable {
+class CountingBell : public rclcpp::Waitable {
  public:
   size_t get_number_of_ready_guard_conditions() override { return 1; }
   void add_to_wait_set(rcl_wait_set_t& wait_set) override {
@@ -222,7 +222,7 @@ class Bell : public rclcpp::Waitable {
 
 TEST_F(MultiThreadedExecutorTest, DoesNotTurnRoundWhileAGroupIsBusyThatHasMoreToDo) {
   const auto bell_group = node_->create_callback_group(CallbackGroupType::MutuallyExclusive);
-  auto bell = std::make_shared<Bell>();
+  auto bell = std::make_shared<CountingBell>();
   node_->get_node_waitables_interface()->add_waitable(bell, bell_group);
   std::promise<void> entered;
   std::promise<void> release;
@@ -246,7 +246,7 @@ TEST_F(MultiThreadedExecutorTest, DoesNotTurnRoundWhileAGroupIsBusyThatHasMoreTo
 }
 
 TEST_F(MultiThreadedExecutorTest, AWaitableThatWasTriggeredWhileItsGroupWasBusyRunsAfterwards) {
-  auto bell = std::make_shared<Bell>();
+  auto bell = std::make_shared<CountingBell>();
   node_->get_node_waitables_interface()->add_waitable(bell, nullptr);
   std::promise<void> entered;
   std::promise<void> release;

@@ -26,14 +26,14 @@ std::string error_of(FunctionT function) {
   return "";
 }
 
-UInt64 number(uint64_t data) {
+UInt64 number_message(uint64_t data) {
   UInt64 message;
   message.data = data;
   return message;
 }
 
 // Ready when its condition is triggered.
-class Bell : public rclcpp::Waitable {
+class WaitSetBell : public rclcpp::Waitable {
  public:
   size_t get_number_of_ready_guard_conditions() override { return 1; }
   void add_to_wait_set(rcl_wait_set_t& wait_set) override {
@@ -59,7 +59,7 @@ class WaitSetTest : public RosTest {
     if (!publisher) {
       publisher = node_->create_publisher<UInt64>(topic, 10);
     }
-    publisher->publish(number(data));
+    publisher->publish(number_message(data));
     ASSERT_TRUE(publisher->wait_for_all_acked(kPatience));
   }
 
@@ -92,7 +92,7 @@ TEST_F(WaitSetTest, FindsEveryOtherKindToo) {
   auto service = node_->create_service<AddTwoInts>(
       "add", [](const std::shared_ptr<AddTwoInts::Request>, std::shared_ptr<AddTwoInts::Response>) {});
   auto client = node_->create_client<AddTwoInts>("add");
-  auto bell = std::make_shared<Bell>();
+  auto bell = std::make_shared<WaitSetBell>();
   rclcpp::WaitSet wait_set({}, {guard_condition}, {timer}, {client}, {service}, {{bell}});
 
   auto timer_result = wait_set.wait(kPatience);
@@ -161,7 +161,7 @@ TEST_F(WaitSetTest, AnEntityIsInOneWaitSetAtATime) {
 
 TEST_F(WaitSetTest, ForgetsWhatWasDestroyed) {
   auto subscription = subscribe("a");
-  auto bell = std::make_shared<Bell>();
+  auto bell = std::make_shared<WaitSetBell>();
   auto owner = std::make_shared<int>();
   rclcpp::WaitSet wait_set;
   wait_set.add_subscription(subscription);
@@ -202,7 +202,7 @@ TEST_F(WaitSetTest, MessagesWithinTheProcessAreWaitedForUnlessTheMaskLeavesThemO
       node->create_subscription<UInt64>("a", 10, [&](const UInt64& message) { received = message.data; });
   rclcpp::WaitSet wait_set;
   wait_set.add_subscription(subscription);
-  publisher->publish(number(4));
+  publisher->publish(number_message(4));
   auto result = wait_set.wait(kPatience);
   ASSERT_EQ(result.kind(), WaitResultKind::Ready);
   const auto waitable = result.next_ready_waitable();
@@ -214,7 +214,7 @@ TEST_F(WaitSetTest, MessagesWithinTheProcessAreWaitedForUnlessTheMaskLeavesThemO
   rclcpp::SubscriptionWaitSetMask mask;
   mask.include_intra_process_waitable = false;
   wait_set.add_subscription(subscription, mask);
-  publisher->publish(number(5));
+  publisher->publish(number_message(5));
   EXPECT_EQ(wait_set.wait(milliseconds(0)).kind(), WaitResultKind::Timeout);
 }
 
@@ -265,7 +265,7 @@ TEST_F(WaitSetTest, WaitForMessageGivesTheNextOne) {
 
 TEST_F(WaitSetTest, WaitForMessageMakesItsSubscriptionAndEndsWithTheContext) {
   auto publisher = node_->create_publisher<UInt64>("a", rclcpp::QoS(1).transient_local());
-  publisher->publish(number(5));
+  publisher->publish(number_message(5));
   UInt64 message;
   EXPECT_TRUE(rclcpp::wait_for_message(message, node_, "a", kPatience, rclcpp::QoS(1).transient_local()));
   EXPECT_EQ(message.data, 5u);

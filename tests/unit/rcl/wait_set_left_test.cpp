@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wait sets with subscriptions that get messages.
+// What a wait set tells of the kept entities that it left, for subscriptions.
 #include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
 
+#include "rcl/wait_restore.h"
 #include "rcl_test.hpp"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 #include "std_msgs/msg/empty.hpp"
@@ -17,7 +18,7 @@ using testing::ElementsAre;
 
 constexpr std::nullptr_t kNull = nullptr;
 
-const rosidl_message_type_support_t* type_support() {
+const rosidl_message_type_support_t* empty_support() {
   return rosidl_typesupport_cpp::get_message_type_support_handle<Empty>();
 }
 
@@ -26,10 +27,10 @@ class Topic {
  public:
   Topic(rcl_test::Node& node, const std::string& name) : node_(node) {
     const rcl_publisher_options_t publisher_options = rcl_publisher_get_default_options();
-    EXPECT_EQ(rcl_publisher_init(&publisher_, &node.handle, type_support(), name.c_str(), &publisher_options),
+    EXPECT_EQ(rcl_publisher_init(&publisher_, &node.handle, empty_support(), name.c_str(), &publisher_options),
               RCL_RET_OK);
     const rcl_subscription_options_t options = rcl_subscription_get_default_options();
-    EXPECT_EQ(rcl_subscription_init(&subscription, &node.handle, type_support(), name.c_str(), &options), RCL_RET_OK);
+    EXPECT_EQ(rcl_subscription_init(&subscription, &node.handle, empty_support(), name.c_str(), &options), RCL_RET_OK);
   }
   Topic(const Topic&) = delete;
   Topic& operator=(const Topic&) = delete;
@@ -54,24 +55,30 @@ class Topic {
   rcl_publisher_t publisher_ = rcl_get_zero_initialized_publisher();
 };
 
-class WaitSetSubscriptions : public testing::Test {
+class WaitSetLeft : public testing::Test {
  protected:
-  WaitSetSubscriptions() {
+  WaitSetLeft() {
     EXPECT_EQ(rcl_wait_set_init(&set_, 4, 0, 0, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
-  }
-  ~WaitSetSubscriptions() override { EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK); }
-
-  void add(Topic& topic) { EXPECT_EQ(rcl_wait_set_add_subscription(&set_, &topic.subscription, nullptr), RCL_RET_OK); }
-  // For a, b and `further`.
-  void wait(std::vector<Topic*> further, rcl_ret_t expected, int64_t timeout) {
-    EXPECT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
     add(a_);
     add(b_);
+    EXPECT_EQ(rcl_wait_set_keep(&set_), RCL_RET_OK);
+  }
+  ~WaitSetLeft() override { EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK); }
+
+  void add(Topic& topic) { EXPECT_EQ(rcl_wait_set_add_subscription(&set_, &topic.subscription, nullptr), RCL_RET_OK); }
+  void wait(std::vector<Topic*> further, rcl_ret_t expected, int64_t timeout) {
+    EXPECT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
     for (Topic* topic : further) {
       add(*topic);
     }
     EXPECT_EQ(rcl_wait(&set_, timeout), expected);
     rcl_reset_error();
+  }
+  // Indices of those that the last wait has left.
+  std::vector<size_t> left() const {
+    const rcl_wait_set_left_t& left = *rcl_wait_set_get_left(&set_);
+    EXPECT_EQ(left.timers.count + left.services.count + left.clients.count + left.events.count, 0u);
+    return {left.subscriptions.indices, left.subscriptions.indices + left.subscriptions.count};
   }
   std::vector<const rcl_subscription_t*> entries() const {
     return {set_.subscriptions, set_.subscriptions + set_.size_of_subscriptions};
@@ -86,37 +93,50 @@ class WaitSetSubscriptions : public testing::Test {
   rcl_wait_set_t set_ = rcl_get_zero_initialized_wait_set();
 };
 
-TEST_F(WaitSetSubscriptions, WhatIsReadyIsLeft) {
+TEST_F(WaitSetLeft, TellsOfTheKeptOnesThatAreReady) {
+  EXPECT_THAT(left(), ElementsAre());
   for (int i = 0; i < 3; ++i) {
     wait({}, RCL_RET_TIMEOUT, 0);
-    EXPECT_THAT(entries(), ElementsAre(kNull, kNull, kNull, kNull));
+    EXPECT_THAT(left(), ElementsAre());
 
     b_.publish();
     wait({}, RCL_RET_OK, -1);
+    EXPECT_THAT(left(), ElementsAre(1));
     EXPECT_THAT(entries(), ElementsAre(kNull, &b_.subscription, kNull, kNull));
 
-    // What is not taken stays ready.
+    // What is not taken stays ready, and what is not kept is not told of, nor forgotten by the wait.
     c_.publish();
     a_.publish();
     do {
       wait({&c_}, RCL_RET_OK, -1);
     } while (set_.subscriptions[0] == nullptr || set_.subscriptions[2] == nullptr);
+    EXPECT_THAT(left(), ElementsAre(0, 1));
     EXPECT_THAT(entries(), ElementsAre(&a_.subscription, &b_.subscription, &c_.subscription, kNull));
 
+    ASSERT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
+    EXPECT_THAT(left(), ElementsAre());
     rmw_message_info_t info;
     EXPECT_EQ(a_.take(info), RCL_RET_OK);
     EXPECT_EQ(b_.take(info), RCL_RET_OK);
     EXPECT_EQ(c_.take(info), RCL_RET_OK);
     EXPECT_GT(info.source_timestamp, 0);
-    // There is no message, so nothing is told of one.
+    // Nothing is known of a message that there is not.
     EXPECT_EQ(c_.take(info), RCL_RET_SUBSCRIPTION_TAKE_FAILED);
     EXPECT_EQ(info.source_timestamp, 0);
   }
 }
 
-TEST_F(WaitSetSubscriptions, NeedAWaitSet) {
-  rcl_wait_set_t none = rcl_get_zero_initialized_wait_set();
-  EXPECT_EQ(rcl_wait(&none, 0), RCL_RET_WAIT_SET_INVALID);
+TEST_F(WaitSetLeft, ForgetsWithTheKeptOnes) {
+  a_.publish();
+  wait({}, RCL_RET_OK, -1);
+  EXPECT_THAT(left(), ElementsAre(0));
+  ASSERT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
+  EXPECT_THAT(left(), ElementsAre());
+}
+
+TEST_F(WaitSetLeft, NeedsAWaitSet) {
+  const rcl_wait_set_t none = rcl_get_zero_initialized_wait_set();
+  EXPECT_EQ(rcl_wait_set_get_left(&none), nullptr);
   EXPECT_EQ(rcl_test::take_error(), "the wait set is not initialized");
 }
 

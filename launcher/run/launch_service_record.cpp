@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/recording.hpp"
-
-#include <utility>
-#include <variant>
+// What the launch tells its recorder and its scopes.
+#include <algorithm>
 
 #include "launcher/base/monotonic_clock.hpp"
+#include "launcher/run/launch_service.hpp"
 
 namespace launch {
 
-void Recording::record(const LaunchRecord& record) {
+void LaunchService::record(const LaunchRecord& record) {
   if (recorder_ != nullptr) {
     recorder_->record(record);
   }
-  scopes_.record(record);
+  for (const auto& scope : active_scopes_) {
+    scope->record(record);
+  }
 }
 
-void Recording::record(const ProcessEvent& event) {
+void LaunchService::record(const ProcessEvent& event) {
   using Kind = LaunchRecord::Kind;
   LaunchRecord what{.name = event.label, .where = event.spec.origin, .time = monotonic_time()};
   if (const auto* const started = std::get_if<ProcessStarted>(&event.what)) {
@@ -40,28 +41,24 @@ void Recording::record(const ProcessEvent& event) {
   record(what);
 }
 
-void Recording::record_visit(std::int64_t begin, const SourceRange& where, const Requests& requests) {
+void LaunchService::record_visit(std::int64_t begin, const SourceRange& where, Requests& requests) {
   for (const LaunchRecord& step : requests.records) {
     record(step);
   }
   record({.kind = LaunchRecord::Kind::kVisit, .where = where, .time = begin, .duration = monotonic_time() - begin});
 }
 
-void Recording::begin() {
-  if (recorder_ == nullptr || begun_) {
+// Called when the scopes of some requests have begun, before their processes start.
+void LaunchService::begin_recording() {
+  if (recorder_ == nullptr || recording_) {
     return;
   }
-  begun_ = scopes_.want_records();
-  if (begun_) {
+  recording_ = std::any_of(active_scopes_.begin(), active_scopes_.end(),
+                           [](const auto& scope) { return scope->wants_records(); });
+  if (recording_) {
     recorder_->begin();
   } else {
     recorder_->drop();
-  }
-}
-
-void Recording::end() {
-  if (std::exchange(begun_, false)) {
-    recorder_->end();
   }
 }
 
