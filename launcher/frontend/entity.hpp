@@ -67,10 +67,6 @@ struct Entity {
   const Attribute* find(std::string_view name) const;
 };
 
-// True when both trees mean the same: names, order of children, attribute texts. A YAML scalar equals the XML text
-// that is coerced to it; attribute order, places and the order between structured items of different names don't count.
-bool equivalent(const Entity& left, const Entity& right);
-
 // Human-readable name of a scalar's type as the messages use it: "str", "int", "bool", "float", "null", "date".
 std::string_view type_name(Scalar::Type type);
 

@@ -62,9 +62,39 @@ std::string without_line_end(std::string text) {
 
 }  // namespace
 
-RosTasks::RosTasks(LaunchContext& context, EventLoop& loop, RosClient& client, std::function<void()> idle,
+RosTasks::RosTasks(LaunchContext& context, EventLoop& loop, std::function<void()> idle,
                    std::function<void(const LaunchError&)> failed)
-    : context_(context), loop_(loop), client_(client), idle_(std::move(idle)), failed_(std::move(failed)) {}
+    : context_(context), loop_(loop), idle_(std::move(idle)), failed_(std::move(failed)) {}
+
+void RosTasks::start(std::vector<LoadRequest> loads, std::vector<TransitionRequest> transitions) {
+  if (context_.ros_client() == nullptr && !(loads.empty() && transitions.empty())) {
+    failed_(LaunchError("there is no ROS client to load components and change states",
+                        loads.empty() ? transitions.front().origin : loads.front().origin));
+    return;
+  }
+  for (LoadRequest& request : loads) {
+    add(std::move(request));
+  }
+  for (TransitionRequest& request : transitions) {
+    add(std::move(request));
+  }
+}
+
+void RosTasks::name_process(ProcessId process, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (name.starts_with('/')) {
+      nodes_[process] = name;
+    }
+  }
+}
+
+void RosTasks::on_skipped(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (name.starts_with('/')) {
+      drop(name, false);
+    }
+  }
+}
 
 void RosTasks::add(Request request) {
   std::string node = std::visit([](const auto& given) { return node_of(given); }, request);
@@ -98,8 +128,8 @@ void RosTasks::next(TaskPlace task) {
               },
               task->request);
         });
-        task->answer = client_.ask(step, request.environment, Duration(0),
-                                   [this, task](const RosAnswer& answer) { on_answer(task, answer); });
+        task->answer = context_.ros_client()->ask(step, request.environment, Duration(0),
+                                                  [this, task](const RosAnswer& answer) { on_answer(task, answer); });
       },
       task->request);
 }
@@ -209,7 +239,9 @@ void RosTasks::shutdown() {
   }
   tasks_.clear();
   repeated_.clear();
-  client_.close();
+  if (RosClient* const client = context_.ros_client()) {
+    client->close();
+  }
 }
 
 }  // namespace launch

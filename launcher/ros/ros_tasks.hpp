@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/process/process_supervisor.hpp"
+#include "launcher/process/process_event.hpp"
 #include "launcher/ros/ros_client.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -26,19 +26,18 @@ class RosTasks {
   // How long a step waits before the user is told what it waits for.
   static constexpr Duration kPatience = std::chrono::seconds(10);
 
-  // The references must outlive the tasks. `idle` is called when the last task has ended, `failed` when the client
-  // itself can't do its work.
-  RosTasks(LaunchContext& context, EventLoop& loop, RosClient& client, std::function<void()> idle,
+  // The references must outlive the tasks. The client is that of the context. `idle` is called when the last task has
+  // ended, `failed` when there is no client or it can't do its work.
+  RosTasks(LaunchContext& context, EventLoop& loop, std::function<void()> idle,
            std::function<void(const LaunchError&)> failed);
 
-  void load(LoadRequest request) { add(std::move(request)); }
-  void change_state(TransitionRequest request) { add(std::move(request)); }
+  void start(std::vector<LoadRequest> loads, std::vector<TransitionRequest> transitions);
 
-  // Tells which node a process is, by its fully qualified name.
-  void name_process(ProcessId process, std::string node) { nodes_[process] = std::move(node); }
+  // Tells the names of a process. A fully qualified one is that of the node that it is.
+  void name_process(ProcessId process, const std::vector<std::string>& names);
   void on_process_event(const ProcessEvent& event);
-  // The process of that node will never start.
-  void on_skipped(const std::string& node) { drop(node, false); }
+  // The process with these names will never start.
+  void on_skipped(const std::vector<std::string>& names);
 
   // Gives up what is under way.
   void shutdown();
@@ -69,7 +68,6 @@ class RosTasks {
 
   LaunchContext& context_;
   EventLoop& loop_;
-  RosClient& client_;
   std::function<void()> idle_;
   std::function<void(const LaunchError&)> failed_;
 

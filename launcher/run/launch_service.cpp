@@ -5,31 +5,17 @@
 #include <signal.h>
 #include <string.h>
 
-#include <algorithm>
+#include <utility>
+#include <variant>
 
 #include "launcher/base/monotonic_clock.hpp"
-#include "launcher/visit/dependency_resolution.hpp"
+#include "launcher/visit/farewell_check.hpp"
 
 namespace launch {
 
 namespace {
 
 constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
-
-// To a process that is not done.
-void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor) {
-  switch (command.kind) {
-    case ProcessCommand::Kind::kStop:
-      supervisor.stop(id);
-      break;
-    case ProcessCommand::Kind::kRestart:
-      supervisor.restart(id);
-      break;
-    case ProcessCommand::Kind::kSignal:
-      supervisor.signal(id, command.signal);
-      break;
-  }
-}
 
 }  // namespace
 
@@ -38,43 +24,45 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       loop_(loop),
       supervisor_(supervisor),
       errors_(std::move(errors)),
-      state_handlers_([this](std::vector<Invocation> invocations) { invoke(std::move(invocations)); },
-                      [this](const LaunchError& error) { fail(error); }),
+      scopes_(
+          loop,
+          [this](bool warning, const std::string& text) {
+            context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch.trace", text);
+          },
+          timing_),
+      rounds_(scopes_, {[this](Round round) { start(std::move(round)); },
+                        [this](const LaunchError& error) { fail(error); }, [this] { check_finished(); }}),
+      recording_(scopes_),
+      processes_(loop, supervisor,
+                 {[this](ProcessSpec& spec, ProcessId id) { prepare(spec, id); },
+                  [this](const LaunchError& error) { fail(error); },
+                  [this](LogLevel level, const std::string& logger, const std::string& text) {
+                    context_.message(level, logger, text);
+                  },
+                  [this](const TrackedProcess& process) { ros_tasks_.on_skipped(process.names); },
+                  [this](const std::string& process, const Dependency& dependency) {
+                    record({.kind = LaunchRecord::Kind::kReady,
+                            .name = process,
+                            .what = describe(dependency),
+                            .where = dependency.where,
+                            .time = monotonic_time()});
+                  }}),
+      handlers_(
+          loop, [this](const Invocation& invocation) { visit(invocation.scope(), invocation.handler->actions); },
+          [this] { check_finished(); }, [this](const LaunchError& error) { fail(error); }),
+      timers_(loop, [this](TimerRequest timer) { visit(std::move(timer.scope), timer.actions); }),
       coroutines_(
-          context, loop, [this] { on_step(); }, [this](const LaunchError& error) { fail(error); }),
-      start_order_(loop,
-                   {[this](ProcessSpec spec, TrackedProcess& process) { start_process(std::move(spec), process); },
-                    [this](const LaunchError& error) { fail(error); },
-                    [this](LogLevel level, const std::string& process, const std::string& text) {
-                      context_.message(level, process, text);
-                    },
-                    [this](const TrackedProcess& process) {
-                      for (const std::string& name : process.names) {
-                        if (ros_tasks_ && name.starts_with('/')) {
-                          ros_tasks_->on_skipped(name);
-                        }
-                      }
-                    },
-                    [this](const std::string& process, const Dependency& dependency) {
-                      record({.kind = LaunchRecord::Kind::kReady,
-                              .name = process,
-                              .what = describe(dependency),
-                              .where = dependency.where,
-                              .time = monotonic_time()});
-                    }}) {
+          context, loop, [this] { on_coroutine_step(); }, [this](const LaunchError& error) { fail(error); }),
+      ros_tasks_(
+          context, loop, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); }),
+      farewell_(loop,
+                {[this](const Invocation& invocation) { visit_farewell(invocation); }, [this] { stop_processes(); },
+                 [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
 }
 
 LaunchService::~LaunchService() {
-  if (output_observed_) {
-    supervisor_.observe_output(nullptr);
-  }
-}
-
-void LaunchService::use_ros_client(RosClient& client) {
-  context_.use_ros_client(client);
-  ros_tasks_ = std::make_unique<RosTasks>(
-      context_, loop_, client, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); });
+  supervisor_.observe_output(nullptr);
 }
 
 int LaunchService::run(const LaunchDescription& description) {
@@ -82,22 +70,16 @@ int LaunchService::run(const LaunchDescription& description) {
       loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
   loop_.post([this, &description] {
     const Duration before = loop_.now();
-    const std::int64_t begin = monotonic_time();
-    try {
+    traverse({description.file, 0, 0}, [&] {
       context_.visit(description);
-    } catch (const LaunchError& error) {
-      context_.take_requests();
-      fail(error);
-      return;
-    }
-    timing_.push_back({"visit", loop_.now() - before});
-    Requests requests = context_.take_requests();
-    record_visit(begin, {description.file, 0, 0}, requests);
-    carry_out(std::move(requests));
+      timing_.push_back({"visit", loop_.now() - before});
+    });
   });
   loop_.run();
   return exit_code_;
 }
+
+// What happens in the course of the launch.
 
 void LaunchService::on_signal(int signal) {
   const std::string name = signal == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal));
@@ -108,20 +90,24 @@ void LaunchService::on_signal(int signal) {
   }
   context_.message(LogLevel::kWarning, "launch",
                    fmt::format("user interrupted with {} again, killing what is left", name));
-  end_farewell();
+  farewell_.end();
   supervisor_.kill_all();
-  for (const auto& scope : active_scopes_) {
-    scope->hurry();
-  }
+  scopes_.hurry();
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
-  record(event);
-  if (TrackedProcess* const process = table_.note(event)) {
-    start_order_.on_process_event(*process);
+  recording_.record(event);
+  processes_.on_event(event);
+  handlers_.on_event(event);
+  on_end_of_required(event);
+  ros_tasks_.on_process_event(event);
+  if (std::holds_alternative<ProcessDone>(event.what)) {
+    farewell_.on_done(event.id);
+    post_check();
   }
-  invoke(handlers_.on_event(event));
+}
 
+void LaunchService::on_end_of_required(const ProcessEvent& event) {
   const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
   const auto* const exited = std::get_if<ProcessExited>(&event.what);
   if (failed_to_start) {
@@ -130,160 +116,89 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   // One that is ended to be started again doesn't end the system.
   const bool restarts = exited != nullptr && exited->expected && exited->will_respawn;
   const bool ends_system = event.spec.shutdown_on_exit || event.spec.required;
-  if (ends_system && (failed_to_start || exited != nullptr) && !restarts && !shutting_down_) {
-    context_.message(LogLevel::kInfo, "launch",
-                     fmt::format("process[{}] was required: shutting down launched system", event.label));
-    if (event.spec.required && exited != nullptr && !exited->expected && exited->exit.code != 0) {
-      exit_code_ = exited->exit.code > 0 ? exited->exit.code : kExitCodeOfSignal - exited->exit.code;
-    }
-    shutdown(fmt::format("process[{}] was required", event.label));
+  if (!ends_system || (!failed_to_start && exited == nullptr) || restarts || phase_ != Phase::kRunning) {
+    return;
   }
-  if (ros_tasks_) {
-    ros_tasks_->on_process_event(event);
+  context_.message(LogLevel::kInfo, "launch",
+                   fmt::format("process[{}] was required: shutting down launched system", event.label));
+  if (event.spec.required && exited != nullptr && !exited->expected && exited->exit.code != 0) {
+    exit_code_ = exited->exit.code > 0 ? exited->exit.code : kExitCodeOfSignal - exited->exit.code;
   }
-  if (std::holds_alternative<ProcessDone>(event.what)) {
-    if (last_processes_.erase(event.id) != 0 && last_processes_.empty()) {
-      loop_.post([this] { end_farewell(); });
-    }
-    post_check();
+  shutdown(fmt::format("process[{}] was required", event.label));
+}
+
+void LaunchService::on_coroutine_step() {
+  Requests requests = context_.take_requests();
+  if (requests.empty()) {
+    check_finished();
+  } else {
+    carry_out(std::move(requests));
   }
 }
 
-void LaunchService::on_line(const ProcessSpec& spec, ProcessId id, const std::string& label, OutputStream stream,
-                            std::string_view line) {
-  if (TrackedProcess* const process = start_order_.watch_output() ? table_.find(id) : nullptr) {
-    start_order_.on_line(*process, stream, line);
-  }
-  invoke(handlers_.on_line(spec, label, stream, line));
-}
-
-void LaunchService::on_timer(std::list<Timer>::iterator timer) {
-  TimerRequest request = std::move(timer->request);
-  timers_.erase(timer);
-  visit(std::move(request.scope), request.actions);
-}
+// A traversal, from the visit to the start of its processes.
 
 void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
+  traverse(actions.empty() ? SourceRange() : actions.front()->where(),
+           [&] { context_.visit_in(std::move(scope), actions); });
+}
+
+void LaunchService::traverse(const SourceRange& where, const std::function<void()>& traversal) {
   const std::int64_t begin = monotonic_time();
   try {
-    context_.visit_in(std::move(scope), actions);
+    traversal();
   } catch (const LaunchError& error) {
     context_.take_requests();
     fail(error);
     return;
   }
   Requests requests = context_.take_requests();
-  record_visit(begin, actions.empty() ? SourceRange() : actions.front()->where(), requests);
+  recording_.record_visit(begin, where, requests);
   carry_out(std::move(requests));
 }
 
 void LaunchService::carry_out(Requests requests) {
-  if (shutting_down_) {
+  if (phase_ != Phase::kRunning) {
     check_finished();
     return;
   }
-  Round round{std::move(requests), {}};
-  for (const ProcessSpec& spec : round.requests.processes) {
-    round.processes.push_back(&table_.add(spec));
-  }
+  Round round;
   try {
-    resolve_dependencies(round.requests.dependencies, round.processes, table_);
-    check_commands(round.requests.commands, table_);
+    round = processes_.enter(std::move(requests));
   } catch (const LaunchError& error) {
     fail(error);
     return;
   }
-  waiting_.push_back(std::move(round));
-  if (waiting_.size() == 1) {
-    begin_next();
-  }
-}
-
-void LaunchService::begin_next() {
-  while (!waiting_.empty()) {
-    const auto& scopes = waiting_.front().requests.scopes;
-    if (next_scope_ < scopes.size()) {
-      scope_is_beginning_ = true;
-      guard(*scopes[next_scope_]);
-      scopes[next_scope_]->expect(waiting_.front().requests.processes);
-      scopes[next_scope_]->begin(loop_, teller(), [this](std::exception_ptr error) { on_begun(std::move(error)); });
-      return;
-    }
-    next_scope_ = 0;
-    Round round = std::move(waiting_.front());
-    waiting_.pop_front();
-    start(std::move(round));
-  }
-  check_finished();
-}
-
-void LaunchService::on_begun(std::exception_ptr error) {
-  scope_is_beginning_ = false;
-  std::unique_ptr<RunScope> scope = std::move(waiting_.front().requests.scopes[next_scope_++]);
-  if (error) {
-    unguard(*scope);
-    try {
-      std::rethrow_exception(error);
-    } catch (const LaunchError& failure) {
-      fail(failure);
-    } catch (const std::exception& failure) {
-      fail(LaunchError(failure.what(), scope->origin()));
-    }
-    return;
-  }
-  append_timing(*scope);
-  active_scopes_.push_back(std::move(scope));
-  if (shutting_down_) {
-    waiting_.clear();
-    next_scope_ = 0;
-    check_finished();
-    return;
-  }
-  begin_next();
+  rounds_.add(std::move(round));
 }
 
 void LaunchService::start(Round round) {
   const Duration before = loop_.now();
-  begin_recording();
+  recording_.begin();
   Requests& requests = round.requests;
   for (const ProcessCommand& command : requests.commands) {
-    execute(command);
+    processes_.execute(command);
   }
   for (const UnregisterRequest& request : requests.unregistered) {
-    unregister_handlers(request);
+    if (!handlers_.remove(request.name)) {
+      context_.message(LogLevel::kWarning, "launch",
+                       fmt::format("no event handler is registered that is named '{}' ({})", request.name,
+                                   to_string(request.where)));
+    }
   }
   for (EventHandler& handler : requests.handlers) {
-    register_handler(std::move(handler));
+    handlers_.add(std::move(handler), context_.ros_client());
   }
   for (TimerRequest& request : requests.timers) {
-    start_timer(std::move(request));
+    timers_.start(std::move(request));
   }
-  std::vector<std::vector<Dependency>> dependencies(requests.processes.size());
-  for (Dependency& dependency : requests.dependencies) {
-    dependencies[dependency.process].push_back(std::move(dependency));
-  }
-  // Those that wait come first: they watch the others from their start on.
-  for (std::size_t i = 0; i < requests.processes.size(); ++i) {
-    if (!dependencies[i].empty()) {
-      start_order_.add(std::move(requests.processes[i]), *round.processes[i], std::move(dependencies[i]));
-      round.processes[i] = nullptr;
-    }
-  }
-  if (!output_observed_ && (handlers_.watch_output() || start_order_.watch_output())) {
-    output_observed_ = true;
-    supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
-                                      OutputStream stream,
-                                      std::string_view line) { on_line(spec, id, label, stream, line); });
-  }
-  for (std::size_t i = 0; i < requests.processes.size(); ++i) {
-    if (round.processes[i] != nullptr && !shutting_down_) {
-      start_process(std::move(requests.processes[i]), *round.processes[i]);
-    }
-  }
+  processes_.wait(round);
+  observe_output();
+  processes_.start(round);
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
-  start_ros_tasks(requests);
+  ros_tasks_.start(std::move(requests.loads), std::move(requests.transitions));
   for (const CoroutineRequest& request : requests.coroutines) {
-    if (!shutting_down_) {
+    if (phase_ == Phase::kRunning) {
       coroutines_.start(request);
     }
   }
@@ -292,68 +207,113 @@ void LaunchService::start(Round round) {
   }
 }
 
-void LaunchService::start_process(ProcessSpec spec, TrackedProcess& process) {
-  for (const auto& scope : active_scopes_) {
-    scope->prepare(spec);
+void LaunchService::observe_output() {
+  if (!handlers_.watch_output() && !processes_.watch_output()) {
+    return;
   }
-  const ProcessId id = supervisor_.next_id();
-  table_.bind(process, id, fmt::format("{}-{}", spec.name, id));
-  for (const std::string& name : spec.other_names) {
-    if (ros_tasks_ && name.starts_with('/')) {
-      ros_tasks_->name_process(id, name);
-    }
-  }
+  supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
+                                    OutputStream stream, std::string_view line) {
+    processes_.on_line(id, stream, line);
+    handlers_.on_line(spec, label, stream, line);
+  });
+}
+
+void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
+  scopes_.prepare(spec);
+  ros_tasks_.name_process(id, spec.other_names);
   record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
-  supervisor_.start(std::move(spec));
 }
 
-void LaunchService::start_timer(TimerRequest request) {
-  timers_.push_back({std::move(request), nullptr});
-  const auto timer = std::prev(timers_.end());
-  timer->source = loop_.after(timer->request.period, [this, timer] { on_timer(timer); });
+// The end: a farewell, then the processes, then the scopes.
+
+void LaunchService::fail(const LaunchError& error) {
+  exit_code_ = 1;
+  errors_(error);
+  shutdown("an error");
 }
 
-void LaunchService::start_ros_tasks(Requests& requests) {
-  if (!ros_tasks_ && !(requests.loads.empty() && requests.transitions.empty())) {
-    fail(LaunchError("there is no ROS client to load components and change states",
-                     requests.loads.empty() ? requests.transitions.front().origin : requests.loads.front().origin));
+void LaunchService::shutdown(const std::string& reason) {
+  if (phase_ == Phase::kRunning) {
+    phase_ = Phase::kFarewell;
+    rounds_.close();
+    timers_.shutdown();
+    processes_.shutdown();
+    std::vector<Invocation> farewell = handlers_.shutdown(reason);
+    coroutines_.cancel();
+    ros_tasks_.shutdown();
+    farewell_.say(std::move(farewell));
+  }
+  check_finished();
+}
+
+// Everything is still up, but nothing else starts any more.
+void LaunchService::visit_farewell(const Invocation& invocation) {
+  Requests requests;
+  try {
+    context_.visit_in(invocation.scope(), invocation.handler->actions);
+    requests = context_.take_requests();
+    check_farewell(requests);
+    processes_.check(requests.commands);
+  } catch (const LaunchError& error) {
+    context_.take_requests();
+    fail(error);
     return;
   }
-  for (LoadRequest& request : requests.loads) {
-    ros_tasks_->load(std::move(request));
+  for (const ProcessCommand& command : requests.commands) {
+    processes_.execute(command);
   }
-  for (TransitionRequest& request : requests.transitions) {
-    ros_tasks_->change_state(std::move(request));
+  for (ProcessSpec& spec : requests.processes) {
+    farewell_.wait_for(supervisor_.next_id());
+    processes_.start_last(std::move(spec));
   }
 }
 
-void LaunchService::execute(const ProcessCommand& command) {
-  const std::vector<TrackedProcess*> named = table_.find(command.process);
-  bool carried_out = false;
-  for (const TrackedProcess* const process : named) {
-    if (process->id == 0) {
-      carried_out |= command.kind == ProcessCommand::Kind::kStop && start_order_.drop(*process);
-    } else if (!process->is_over) {
-      carried_out = true;
-      send(command, process->id, supervisor_);
-    }
-  }
-  if (carried_out) {
-    return;
-  }
-  if (command.kind == ProcessCommand::Kind::kRestart && named.back()->id != 0) {
-    supervisor_.restart(named.back()->id);
-    return;
-  }
-  context_.message(LogLevel::kWarning, "launch",
-                   fmt::format("{}: process '{}' does not run ({})", name_of(command.kind), command.process,
-                               to_string(command.where)));
+void LaunchService::stop_processes() {
+  phase_ = Phase::kStopping;
+  supervisor_.shutdown();
+  check_finished();
 }
 
-RunScope::Tell LaunchService::teller() {
-  return [this](bool warning, const std::string& text) {
-    context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch.trace", text);
-  };
+bool LaunchService::is_idle() const {
+  return rounds_.empty() && timers_.empty() && handlers_.idle() && !processes_.waiting() && supervisor_.active() == 0 &&
+         coroutines_.idle() && ros_tasks_.idle();
+}
+
+void LaunchService::check_finished() {
+  if (!is_idle()) {
+    return;
+  }
+  if (phase_ == Phase::kRunning && handlers_.has_on_shutdown()) {
+    shutdown("idle");
+  } else if (phase_ == Phase::kRunning || phase_ == Phase::kStopping) {
+    end_scopes();
+  }
+}
+
+void LaunchService::post_check() {
+  if (!check_posted_) {
+    check_posted_ = true;
+    loop_.post([this] {
+      check_posted_ = false;
+      check_finished();
+    });
+  }
+}
+
+void LaunchService::end_scopes() {
+  phase_ = Phase::kEndingScopes;
+  ros_tasks_.shutdown();
+  recording_.end();
+  scopes_.end(
+      [this](const LaunchError& error) {
+        exit_code_ = 1;
+        errors_(error);
+      },
+      [this, last_exit = loop_.now()] {
+        phase_ = Phase::kDone;
+        timing_.push_back({"end, from the last exit", loop_.now() - last_exit});
+        loop_.quit();
+      });
 }
 
 }  // namespace launch

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "launcher/visit/dependency_resolution.hpp"
-#include "launcher/visit/farewell.hpp"
+#include "launcher/visit/farewell_check.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "launcher/frontend/entity_equivalence.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/input_text.hpp"
 #include "launcher/frontend/simple_yaml.hpp"

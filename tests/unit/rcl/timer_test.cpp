@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Timers on simulated time: every moment is set by the test.
-#include "rcl/wait_restore.h"
 #include "rcl_test.hpp"
 
 namespace {
@@ -143,24 +142,21 @@ TEST_F(Timer, WakesAWaitWhenItsTimeComes) {
   EXPECT_EQ(rcl_wait_set_fini(&wait_set), RCL_RET_OK);
 }
 
-TEST_F(Timer, IsWaitedForAgainByAWaitSetThatKeepsIt) {
+TEST_F(Timer, IsWaitedForAgainBesideAGuardCondition) {
   start(10 * kMillisecond);
   rcl_guard_condition_t guard_condition = rcl_get_zero_initialized_guard_condition();
   ASSERT_EQ(rcl_guard_condition_init(&guard_condition, &context_.handle, rcl_guard_condition_get_default_options()),
             RCL_RET_OK);
   rcl_wait_set_t wait_set = rcl_get_zero_initialized_wait_set();
   ASSERT_EQ(rcl_wait_set_init(&wait_set, 0, 1, 1, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
-  EXPECT_EQ(rcl_wait_set_restore(&wait_set), RCL_RET_WAIT_SET_EMPTY);
-  EXPECT_STREQ(rcl_get_error_state()->message, "the wait set has kept nothing");
-  rcl_reset_error();
   ASSERT_EQ(rcl_wait_set_add_timer(&wait_set, &timer_, nullptr), RCL_RET_OK);
-  ASSERT_EQ(rcl_wait_set_keep(&wait_set), RCL_RET_OK);
   EXPECT_EQ(rcl_wait(&wait_set, 0), RCL_RET_TIMEOUT);
   EXPECT_EQ(wait_set.timers[0], nullptr);
 
-  ASSERT_EQ(rcl_wait_set_restore(&wait_set), RCL_RET_OK);
+  ASSERT_EQ(rcl_wait_set_clear(&wait_set), RCL_RET_OK);
+  ASSERT_EQ(rcl_wait_set_add_timer(&wait_set, &timer_, nullptr), RCL_RET_OK);
   size_t index = 7;
-  ASSERT_EQ(rcl_wait_set_add_guard_condition(&wait_set, &guard_condition, &index), RCL_RET_OK);  // for this time
+  ASSERT_EQ(rcl_wait_set_add_guard_condition(&wait_set, &guard_condition, &index), RCL_RET_OK);
   EXPECT_EQ(index, 0u);
   ASSERT_EQ(rcl_trigger_guard_condition(&guard_condition), RCL_RET_OK);
   EXPECT_EQ(rcl_wait(&wait_set, -1), RCL_RET_OK);
@@ -168,7 +164,8 @@ TEST_F(Timer, IsWaitedForAgainByAWaitSetThatKeepsIt) {
   EXPECT_EQ(wait_set.guard_conditions[0], &guard_condition);
 
   set_time(1010 * kMillisecond);
-  ASSERT_EQ(rcl_wait_set_restore(&wait_set), RCL_RET_OK);
+  ASSERT_EQ(rcl_wait_set_clear(&wait_set), RCL_RET_OK);
+  ASSERT_EQ(rcl_wait_set_add_timer(&wait_set, &timer_, nullptr), RCL_RET_OK);
   EXPECT_EQ(rcl_wait(&wait_set, -1), RCL_RET_OK);
   EXPECT_EQ(wait_set.timers[0], &timer_);
   EXPECT_EQ(wait_set.guard_conditions[0], nullptr);

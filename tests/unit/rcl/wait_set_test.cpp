@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waiting again for what a wait set keeps.
+// Wait sets that are filled and waited with again and again.
 #include <gmock/gmock.h>
 
 #include <vector>
 
-#include "rcl/wait_restore.h"
 #include "rcl_test.hpp"
 
 namespace {
@@ -14,7 +13,7 @@ using testing::ElementsAre;
 constexpr int64_t kNoTime = 0;
 constexpr std::nullptr_t kNull = nullptr;
 
-class WaitSetKeeps : public testing::Test {
+class WaitSetConditions : public testing::Test {
  protected:
   struct Condition {
     explicit Condition(rcl_test::Context& context) {
@@ -27,20 +26,19 @@ class WaitSetKeeps : public testing::Test {
     rcl_guard_condition_t handle = rcl_get_zero_initialized_guard_condition();
   };
 
-  WaitSetKeeps() {
+  WaitSetConditions() {
     EXPECT_EQ(rcl_wait_set_init(&set_, 0, 4, 0, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
-    add(a_);
-    add(b_);
-    EXPECT_EQ(rcl_wait_set_keep(&set_), RCL_RET_OK);
   }
-  ~WaitSetKeeps() override { EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK); }
+  ~WaitSetConditions() override { EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK); }
 
   void add(Condition& condition) {
     EXPECT_EQ(rcl_wait_set_add_guard_condition(&set_, &condition.handle, nullptr), RCL_RET_OK);
   }
-  // Restores the set, adds `further`, and gives the entries after the wait.
+  // Adds a, b and `further`, and gives the entries after the wait.
   std::vector<const rcl_guard_condition_t*> left(std::vector<Condition*> further, rcl_ret_t expected) {
-    EXPECT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
+    add(a_);
+    add(b_);
     for (Condition* condition : further) {
       add(*condition);
     }
@@ -57,7 +55,7 @@ class WaitSetKeeps : public testing::Test {
   rcl_wait_set_t set_ = rcl_get_zero_initialized_wait_set();
 };
 
-TEST_F(WaitSetKeeps, WhatItIsGivenEachTimeIsFoundEachTime) {
+TEST_F(WaitSetConditions, WhatItIsGivenEachTimeIsFoundEachTime) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_THAT(left({}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));
     b_.trigger();
@@ -70,7 +68,7 @@ TEST_F(WaitSetKeeps, WhatItIsGivenEachTimeIsFoundEachTime) {
   }
 }
 
-TEST_F(WaitSetKeeps, WhatIsAddedForOneWaitIsThereInThatWaitOnly) {
+TEST_F(WaitSetConditions, WhatIsAddedForOneWaitIsThereInThatWaitOnly) {
   c_.trigger();
   EXPECT_THAT(left({}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));
   EXPECT_THAT(left({&c_}, RCL_RET_OK), ElementsAre(kNull, kNull, &c_.handle, kNull));
@@ -85,7 +83,7 @@ TEST_F(WaitSetKeeps, WhatIsAddedForOneWaitIsThereInThatWaitOnly) {
   EXPECT_THAT(left({}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));
 }
 
-TEST_F(WaitSetKeeps, AnAddedOneMayBeAnotherAtTheSameAddress) {
+TEST_F(WaitSetConditions, AnAddedOneMayBeAnotherAtTheSameAddress) {
   EXPECT_THAT(left({&c_}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));
   EXPECT_THAT(left({&c_}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));
   ASSERT_EQ(rcl_guard_condition_fini(&c_.handle), RCL_RET_OK);
@@ -97,40 +95,23 @@ TEST_F(WaitSetKeeps, AnAddedOneMayBeAnotherAtTheSameAddress) {
   EXPECT_THAT(left({&c_}, RCL_RET_OK), ElementsAre(kNull, kNull, &c_.handle, kNull));
 }
 
-TEST_F(WaitSetKeeps, ClearingForgets) {
-  EXPECT_THAT(left({}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));
-  ASSERT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
-  EXPECT_EQ(rcl_wait_set_restore(&set_), RCL_RET_WAIT_SET_EMPTY);
-  rcl_reset_error();
-  add(d_);
-  add(a_);
-  ASSERT_EQ(rcl_wait_set_keep(&set_), RCL_RET_OK);
-  a_.trigger();
-  b_.trigger();
-  EXPECT_THAT(left({}, RCL_RET_OK), ElementsAre(kNull, &a_.handle, kNull, kNull));
-  d_.trigger();
-  EXPECT_THAT(left({&b_}, RCL_RET_OK), ElementsAre(&d_.handle, kNull, &b_.handle, kNull));
-}
-
 // Timers on simulated time, and one on steady time that is never due.
-class WaitSetKeepsTimers : public testing::Test {
+class WaitSetTimers : public testing::Test {
  protected:
-  WaitSetKeepsTimers() {
+  WaitSetTimers() {
     rcl_allocator_t allocator = rcl_get_default_allocator();
     EXPECT_EQ(rcl_clock_init(RCL_ROS_TIME, &simulated_, &allocator), RCL_RET_OK);
     EXPECT_EQ(rcl_clock_init(RCL_STEADY_TIME, &steady_, &allocator), RCL_RET_OK);
     EXPECT_EQ(rcl_enable_ros_time_override(&simulated_), RCL_RET_OK);
     set_time(100);
-    EXPECT_EQ(rcl_wait_set_init(&set_, 0, 1, 5, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_init(&set_, 0, 1, 4, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
     EXPECT_EQ(rcl_guard_condition_init(&end_, &context_.handle, rcl_guard_condition_get_default_options()), RCL_RET_OK);
-    EXPECT_EQ(rcl_wait_set_add_guard_condition(&set_, &end_, nullptr), RCL_RET_OK);
-    add(timers_[0], &simulated_, 30);
-    add(timers_[1], &simulated_, 10);
-    add(timers_[2], &steady_, int64_t{1} << 60);
-    add(timers_[3], &simulated_, 20);
-    EXPECT_EQ(rcl_wait_set_keep(&set_), RCL_RET_OK);
+    init(timers_[0], &simulated_, 30);
+    init(timers_[1], &simulated_, 10);
+    init(timers_[2], &steady_, int64_t{1} << 60);
+    init(timers_[3], &simulated_, 20);
   }
-  ~WaitSetKeepsTimers() override {
+  ~WaitSetTimers() override {
     EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK);
     for (rcl_timer_t& timer : timers_) {
       EXPECT_EQ(rcl_timer_fini(&timer), RCL_RET_OK);
@@ -140,15 +121,18 @@ class WaitSetKeepsTimers : public testing::Test {
     EXPECT_EQ(rcl_clock_fini(&steady_), RCL_RET_OK);
   }
 
-  void add(rcl_timer_t& timer, rcl_clock_t* clock, int64_t period) {
+  void init(rcl_timer_t& timer, rcl_clock_t* clock, int64_t period) {
     EXPECT_EQ(rcl_timer_init2(&timer, clock, &context_.handle, period, nullptr, rcl_get_default_allocator(), true),
               RCL_RET_OK);
-    EXPECT_EQ(rcl_wait_set_add_timer(&set_, &timer, nullptr), RCL_RET_OK);
   }
   void set_time(int64_t time) { EXPECT_EQ(rcl_set_ros_time_override(&simulated_, time), RCL_RET_OK); }
   // The numbers of those that a wait leaves; they are called.
   std::vector<std::ptrdiff_t> call_ready() {
-    EXPECT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_add_guard_condition(&set_, &end_, nullptr), RCL_RET_OK);
+    for (const rcl_timer_t& timer : timers_) {
+      EXPECT_EQ(rcl_wait_set_add_timer(&set_, &timer, nullptr), RCL_RET_OK);
+    }
     const rcl_ret_t result = rcl_wait(&set_, kNoTime);
     std::vector<std::ptrdiff_t> ready;
     for (size_t i = 0; i < set_.size_of_timers; ++i) {
@@ -158,8 +142,6 @@ class WaitSetKeepsTimers : public testing::Test {
       }
     }
     EXPECT_EQ(result == RCL_RET_OK || !ready.empty(), result == RCL_RET_OK);
-    const rcl_wait_set_left_indices_t& left = rcl_wait_set_get_left(&set_)->timers;
-    EXPECT_EQ(std::vector<std::ptrdiff_t>(left.indices, left.indices + left.count), ready);
     rcl_reset_error();
     return ready;
   }
@@ -168,11 +150,11 @@ class WaitSetKeepsTimers : public testing::Test {
   rcl_clock_t simulated_{};
   rcl_clock_t steady_{};
   rcl_guard_condition_t end_ = rcl_get_zero_initialized_guard_condition();
-  rcl_timer_t timers_[5]{};
+  rcl_timer_t timers_[4]{};
   rcl_wait_set_t set_ = rcl_get_zero_initialized_wait_set();
 };
 
-TEST_F(WaitSetKeepsTimers, EachIsLeftWhenItIsDue) {
+TEST_F(WaitSetTimers, EachIsLeftWhenItIsDue) {
   const std::vector<std::vector<std::ptrdiff_t>> expected = {{}, {1}, {1, 3}, {0, 1}, {1, 3}, {1}};
   for (size_t i = 0; i < expected.size(); ++i) {
     set_time(100 + static_cast<int64_t>(i) * 10);
@@ -181,7 +163,7 @@ TEST_F(WaitSetKeepsTimers, EachIsLeftWhenItIsDue) {
   }
 }
 
-TEST_F(WaitSetKeepsTimers, TheEntriesOfOneThatIsCancelledComeBackWithItsReset) {
+TEST_F(WaitSetTimers, ACancelledOneComesBackWithItsReset) {
   EXPECT_THAT(call_ready(), ElementsAre());
   ASSERT_EQ(rcl_timer_cancel(&timers_[1]), RCL_RET_OK);
   set_time(120);
@@ -192,7 +174,7 @@ TEST_F(WaitSetKeepsTimers, TheEntriesOfOneThatIsCancelledComeBackWithItsReset) {
   EXPECT_THAT(call_ready(), ElementsAre(0, 1));
 }
 
-TEST_F(WaitSetKeepsTimers, AShorterPeriodCountsFromAReset) {
+TEST_F(WaitSetTimers, AShorterPeriodCountsFromAReset) {
   EXPECT_THAT(call_ready(), ElementsAre());
   int64_t old_period = 0;
   ASSERT_EQ(rcl_timer_exchange_period(&timers_[0], 1, &old_period), RCL_RET_OK);
@@ -204,25 +186,13 @@ TEST_F(WaitSetKeepsTimers, AShorterPeriodCountsFromAReset) {
   EXPECT_THAT(call_ready(), ElementsAre(0));
 }
 
-TEST_F(WaitSetKeepsTimers, TimeThatJumpsBackMakesThemDueAgain) {
+TEST_F(WaitSetTimers, TimeThatJumpsBackMakesThemDueAgain) {
   set_time(200);
   EXPECT_THAT(call_ready(), ElementsAre(0, 1, 3));
   set_time(50);
   EXPECT_THAT(call_ready(), ElementsAre());
   set_time(60);
   EXPECT_THAT(call_ready(), ElementsAre(1));
-}
-
-TEST_F(WaitSetKeepsTimers, OneThatIsAddedForAWaitIsLeftInThatWait) {
-  EXPECT_THAT(call_ready(), ElementsAre());
-  ASSERT_EQ(rcl_timer_init2(&timers_[4], &simulated_, &context_.handle, 5, nullptr, rcl_get_default_allocator(), true),
-            RCL_RET_OK);
-  set_time(110);
-  ASSERT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
-  ASSERT_EQ(rcl_wait_set_add_timer(&set_, &timers_[4], nullptr), RCL_RET_OK);
-  ASSERT_EQ(rcl_wait(&set_, kNoTime), RCL_RET_OK);
-  EXPECT_THAT(std::vector<const rcl_timer_t*>(set_.timers, set_.timers + 5),
-              ElementsAre(kNull, &timers_[1], kNull, kNull, &timers_[4]));
 }
 
 }  // namespace

@@ -10,46 +10,9 @@
 #include "launcher/process/fake/fake_event_loop.hpp"
 #include "launcher/process/fake/fake_process_runner.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "tests/unit/run/fake_scope.hpp"
 
 namespace launch {
-
-using Journal = std::vector<std::string>;
-
-// Begins and ends a while after it is asked to, and writes down when.
-class FakeScope : public RunScope {
- public:
-  FakeScope(std::string name, bool fails, SourceRange origin, Journal& journal)
-      : name_(std::move(name)), fails_(fails), origin_(std::move(origin)), journal_(journal) {}
-
-  void begin(EventLoop& loop, Tell, Completion done) override {
-    journal_.push_back("begin " + name_);
-    timer_ = loop.after(std::chrono::milliseconds(10), [this, done = std::move(done)] {
-      journal_.push_back((fails_ ? "failed " : "begun ") + name_);
-      done(fails_ ? std::make_exception_ptr(std::runtime_error("no tracer")) : nullptr);
-    });
-  }
-  void end(EventLoop& loop, Tell, Completion done) override {
-    journal_.push_back("end " + name_ + (hurried_ ? " in a hurry" : ""));
-    timer_ = loop.after(std::chrono::milliseconds(10), [this, done = std::move(done)] {
-      journal_.push_back("ended " + name_);
-      done(nullptr);
-    });
-  }
-  void hurry() override { hurried_ = true; }
-  void prepare(ProcessSpec& spec) const override { spec.environment["SCOPES"] += name_; }
-  std::string kind() const override { return "fake"; }
-  std::vector<ScopeSetting> describe() const override { return {}; }
-  std::vector<TimedStep> timing() const override { return {}; }
-  const SourceRange& origin() const override { return origin_; }
-
- private:
-  std::string name_;
-  bool fails_;
-  SourceRange origin_;
-  Journal& journal_;
-  bool hurried_ = false;
-  EventLoop::SourcePtr timer_;
-};
 
 class ScopeAction : public Action {
  public:

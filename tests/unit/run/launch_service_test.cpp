@@ -108,6 +108,12 @@ TEST_F(LaunchServiceTest, ASignalWhileAScopeBeginsStartsNothingAndEndsIt) {
   EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with SIGTERM"));
 }
 
+TEST_F(LaunchServiceTest, AScopeThatCannotBeginAfterASignalEndsTheLaunch) {
+  const auto signal = loop_.after(5ms, [this] { loop_.deliver_signal(SIGTERM); });
+  EXPECT_EQ(run(R"xml(<scope name="x" fails="true"/><executable cmd="a"/>)xml"), 1);
+  EXPECT_THAT(journal_, ElementsAre("begin x", "failed x"));
+}
+
 TEST_F(LaunchServiceTest, AScopeOfATimerBeginsBeforeItsProcesses) {
   EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="1.0"><executable cmd="b"/><scope name="late"/></timer>
                    <timer period="2.0"><shutdown/></timer>)xml"),

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wait sets: what is in them, and what of it stays from wait to wait.
+// Wait sets: what is in them.
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
-#include "rcl/wait_restore.h"
 #include "wait/wait_set_impl.hpp"
 
 using rcl::check;
-using rcl::Kept;
-using rcl::rmw_entity_of;
 
 namespace {
 
@@ -31,42 +27,6 @@ rcl_ret_t add(const rcl_wait_set_t* wait_set, std::vector<const Entity*> rcl_wai
   }
   entries[used++] = entity;
   return RCL_RET_OK;
-}
-
-template <typename Entity>
-void keep(const std::vector<const Entity*>& entities, size_t count, Kept<Entity>& kept) {
-  kept.entities.assign(entities.begin(), entities.begin() + static_cast<std::ptrdiff_t>(count));
-  kept.rmw_entities.clear();
-  kept.left.clear();
-  if constexpr (!std::is_same_v<Entity, rcl_timer_t>) {
-    for (const Entity* entity : kept.entities) {
-      kept.rmw_entities.push_back(rmw_entity_of(entity));
-    }
-  }
-}
-
-template <typename Entity>
-void restore(std::vector<const Entity*>& entities, size_t& count, const Kept<Entity>& kept) {
-  std::fill(std::copy(kept.entities.begin(), kept.entities.end(), entities.begin()), entities.end(), nullptr);
-  count = kept.entities.size();
-}
-
-// As restore(), but the entries of those that were kept are null.
-template <typename Entity>
-void restore_as_null(std::vector<const Entity*>& entities, size_t& count, Kept<Entity>& kept) {
-  for (const size_t i : kept.left) {
-    entities[i] = nullptr;
-  }
-  kept.left.clear();
-  count = kept.entities.size();
-  std::fill(entities.begin() + static_cast<std::ptrdiff_t>(count), entities.end(), nullptr);
-}
-
-template <typename Entity>
-void forget(Kept<Entity>& kept) {
-  kept.entities.clear();
-  kept.rmw_entities.clear();
-  kept.left.clear();
 }
 
 }  // namespace
@@ -133,61 +93,7 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set) {
   std::fill(impl.events.begin(), impl.events.end(), nullptr);
   impl.subscription_count = impl.guard_condition_count = impl.timer_count = 0;
   impl.client_count = impl.service_count = impl.event_count = 0;
-  impl.has_kept = impl.rmw_knows_kept = impl.are_entries_null = false;
-  impl.left = {};
-  forget(impl.kept_subscriptions);
-  forget(impl.kept_guard_conditions);
-  forget(impl.kept_timers);
-  impl.timer_queue.clear();
-  forget(impl.kept_clients);
-  forget(impl.kept_services);
-  forget(impl.kept_events);
   return RCL_RET_OK;
-}
-
-rcl_ret_t rcl_wait_set_keep(rcl_wait_set_t* wait_set) {
-  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
-    return result;
-  }
-  rcl_wait_set_impl_t& impl = *wait_set->impl;
-  keep(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
-  keep(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
-  keep(impl.timers, impl.timer_count, impl.kept_timers);
-  impl.timer_queue.assign(impl.kept_timers.entities);
-  keep(impl.clients, impl.client_count, impl.kept_clients);
-  keep(impl.services, impl.service_count, impl.kept_services);
-  keep(impl.events, impl.event_count, impl.kept_events);
-  impl.has_kept = true;
-  impl.rmw_knows_kept = false;
-  impl.left = {};
-  return RCL_RET_OK;
-}
-
-rcl_ret_t rcl_wait_set_restore(rcl_wait_set_t* wait_set) {
-  if (const rcl_ret_t result = check(wait_set); result != RCL_RET_OK) {
-    return result;
-  }
-  rcl_wait_set_impl_t& impl = *wait_set->impl;
-  if (!impl.has_kept) {
-    RCL_SET_ERROR_MSG("the wait set has kept nothing");
-    return RCL_RET_WAIT_SET_EMPTY;
-  }
-  impl.are_entries_null = impl.rmw_knows_kept;
-  impl.left = {};
-  const auto restore_kind = [&](auto& entities, size_t& count, auto& kept) {
-    impl.rmw_knows_kept ? restore_as_null(entities, count, kept) : restore(entities, count, kept);
-  };
-  restore_kind(impl.subscriptions, impl.subscription_count, impl.kept_subscriptions);
-  restore_kind(impl.guard_conditions, impl.guard_condition_count, impl.kept_guard_conditions);
-  restore_kind(impl.timers, impl.timer_count, impl.kept_timers);
-  restore_kind(impl.clients, impl.client_count, impl.kept_clients);
-  restore_kind(impl.services, impl.service_count, impl.kept_services);
-  restore_kind(impl.events, impl.event_count, impl.kept_events);
-  return RCL_RET_OK;
-}
-
-[[gnu::hot]] const rcl_wait_set_left_t* rcl_wait_set_get_left(const rcl_wait_set_t* wait_set) {
-  return check(wait_set) == RCL_RET_OK ? &wait_set->impl->left : nullptr;
 }
 
 rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_size, size_t guard_conditions_size,

@@ -2,18 +2,13 @@
 #include "executor/executor_entities.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "base/require_ok.hpp"
-#include "rclcpp/event_handler.hpp"
-#include "rclcpp/exceptions.hpp"
-#include "rclcpp/logging.hpp"
-
 namespace rclcpp {
-
-using detail::require_ok;
 
 namespace {
 
@@ -30,17 +25,7 @@ bool refer_to_same(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b) {
 }  // namespace
 
 ExecutorEntities::ExecutorEntities(const Context::SharedPtr& context)
-    : rcl_context_(context->get_rcl_context()), interrupt_(context), wait_set_(rcl_get_zero_initialized_wait_set()) {
-  require_ok(rcl_wait_set_init(&wait_set_, 0, 1, 0, 0, 0, 0, rcl_context_.get(), rcl_get_default_allocator()),
-             "failed to create wait set");
-}
-
-ExecutorEntities::~ExecutorEntities() {
-  if (rcl_wait_set_fini(&wait_set_) != RCL_RET_OK) {
-    RCLCPP_ERROR(get_logger("rclcpp"), "failed to destroy wait set: %s", rcl_get_error_string().str);
-    rcl_reset_error();
-  }
-}
+    : interrupt_(context), wait_(context->get_rcl_context(), interrupt_) {}
 
 void ExecutorEntities::add_node(const NodePtr& node) {
   if (node->get_associated_with_executor_atomic().exchange(true)) {
@@ -169,6 +154,36 @@ void ExecutorEntities::erase_unserved(std::vector<detail::ReadyEntity>& ready) {
               ready.end());
 }
 
+[[gnu::hot]] void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
+  {
+    std::optional<Owners> owners;
+    const std::lock_guard lock(mutex_);
+    if (changed_) {
+      rebuild(owners.emplace());
+    }
+    waiting_ = true;
+  }
+
+  std::exception_ptr failure;
+  try {
+    wait_.wait(timeout, ready);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+
+  {
+    std::unique_lock lock(mutex_);
+    waiting_ = false;
+    if (changed_) {
+      const WaitedEntities outdated = wait_.exchange({});
+      lock.unlock();
+    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+}
+
 void ExecutorEntities::interrupt() {
   interrupt_.trigger();
   const std::lock_guard lock(mutex_);
@@ -193,7 +208,7 @@ void ExecutorEntities::mark_changed(Owners& owners) {
   if (waiting_) {
     interrupt_.trigger();
   } else {
-    owners.waited = std::exchange(waited_, {});
+    owners.waited = wait_.exchange({});
   }
   if (on_change_) {
     on_change_();
@@ -222,40 +237,15 @@ void ExecutorEntities::find_groups(Owners& owners) {
 
 void ExecutorEntities::rebuild(Owners& owners) {
   find_groups(owners);
-  owners.waited = std::exchange(waited_, {});
-  kept_sizes_ = {};
+  std::vector<WaitedEntities::Group> groups;
   for (const ServedGroup& served : groups_) {
-    CallbackGroup::SharedPtr group = served.group.lock();
-    if (!group) {
-      continue;
+    if (CallbackGroup::SharedPtr group = served.group.lock()) {
+      groups.push_back({served.group, group->shared_can_be_taken_from()});
+      group->collect(owners.entities.emplace_back());
+      owners.groups.push_back(std::move(group));
     }
-    CallbackGroup::Entities& entities = owners.entities.emplace_back();
-    group->collect(entities);
-    WaitedGroup& waited = waited_.emplace_back();
-    waited.group = group;
-    waited.can_be_taken_from = group->shared_can_be_taken_from();
-    for (const TimerBase::SharedPtr& timer : entities.timers) {
-      waited.timers.push_back({timer->get_timer_handle(), timer});
-    }
-    for (const SubscriptionBase::SharedPtr& subscription : entities.subscriptions) {
-      waited.subscriptions.push_back({subscription->get_subscription_handle(), subscription});
-    }
-    for (const ServiceBase::SharedPtr& service : entities.services) {
-      waited.services.push_back({service->get_service_handle(), service});
-    }
-    for (const ClientBase::SharedPtr& client : entities.clients) {
-      waited.clients.push_back({client->get_client_handle(), client});
-    }
-    for (const Waitable::SharedPtr& waitable : entities.waitables) {
-      // There can be thousands of event handlers, one per publisher and subscription at least.
-      if (const auto* handler = dynamic_cast<const EventHandlerBase*>(waitable.get())) {
-        waited.events.push_back({handler->get_event_handle(), waitable});
-      } else {
-        waited.waitables.push_back(waitable);
-      }
-    }
-    owners.groups.push_back(std::move(group));
   }
+  owners.waited = wait_.exchange(WaitedEntities(std::move(groups), owners.entities));
   changed_ = false;
 }
 

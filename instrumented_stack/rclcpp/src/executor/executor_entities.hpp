@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an executor serves: the nodes and groups it was given, the entities in them, and the wait set.
+// What an executor serves: the nodes and groups that it was given, and the entities in them.
 //
-// The list of entities is rebuilt only after something changed. It holds the rcl handles, so that a wait never looks at
-// a dead one, and the rclcpp objects weakly, so that a user's reset() destroys a subscription at once. Its handle
-// follows at once too if nobody waits, else as soon as the wait, which the change interrupts, has returned. Waitables
-// are owned while they are waited for.
+// The list of entities is rebuilt only after something has changed. When a user destroys an entity, the list lets go of
+// the rcl handle at once if no thread waits. Otherwise the change interrupts the wait, and the handle goes as soon as
+// the wait has returned. Waitables are owned while they are waited for.
 #pragma once
-
-#include <rcl/wait.h>
-#include <rcl/wait_restore.h>
 
 #include <atomic>
 #include <chrono>
@@ -18,16 +14,13 @@
 #include <mutex>
 #include <vector>
 
+#include "executor/executor_wait.hpp"
+#include "executor/waited_entities.hpp"
 #include "rclcpp/callback_group.hpp"
-#include "rclcpp/client_base.hpp"
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/ready_entity.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/node_interfaces/node_base.hpp"
-#include "rclcpp/service_base.hpp"
-#include "rclcpp/subscription_base.hpp"
-#include "rclcpp/timer.hpp"
-#include "rclcpp/waitable.hpp"
 
 namespace rclcpp {
 
@@ -36,7 +29,6 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   using NodePtr = node_interfaces::NodeBaseInterface::SharedPtr;
 
   explicit ExecutorEntities(const Context::SharedPtr& context);
-  ~ExecutorEntities();
   RCLCPP_DISABLE_COPY(ExecutorEntities)
 
   void add_node(const NodePtr& node);
@@ -72,44 +64,13 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
     node_interfaces::NodeBaseInterface::WeakPtr node;
     bool added_by_hand;
   };
-  template <typename HandleT, typename EntityT>
-  struct Waited {
-    std::shared_ptr<HandleT> handle;
-    std::weak_ptr<EntityT> entity;
-  };
-  // What is waited for of one group.
-  struct WaitedGroup {
-    CallbackGroup::WeakPtr group;
-    std::shared_ptr<const std::atomic_bool> can_be_taken_from;
-    std::vector<Waited<rcl_timer_t, TimerBase>> timers;
-    std::vector<Waited<rcl_subscription_t, SubscriptionBase>> subscriptions;
-    std::vector<Waited<rcl_service_t, ServiceBase>> services;
-    std::vector<Waited<rcl_client_t, ClientBase>> clients;
-    std::vector<Waited<const rcl_event_t, Waitable>> events;  // of event handlers, which need no care of their own
-    std::vector<Waitable::WeakPtr> waitables;
-    bool in_wait_set = false;
-  };
-  // How many entities of each kind the wait set has room for.
-  struct Sizes {
-    size_t timers = 0;
-    size_t subscriptions = 0;
-    size_t services = 0;
-    size_t clients = 0;
-    size_t events = 0;
-    size_t guard_conditions = 0;
-    bool operator==(const Sizes&) const = default;
-  };
-  struct HeldWaitable {
-    Waitable::SharedPtr waitable;
-    CallbackGroup::WeakPtr group;
-  };
   // Owners that a locked section met on its way. They may be the last ones, and destructors report back here: the
   // caller lets go of them after the lock.
   struct Owners {
     std::vector<NodePtr> nodes;
     std::vector<CallbackGroup::SharedPtr> groups;
     std::vector<CallbackGroup::Entities> entities;
-    std::vector<WaitedGroup> waited;
+    WaitedEntities waited;
   };
 
   void changed();
@@ -120,18 +81,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   void serve(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool added_by_hand);
   static void release(const CallbackGroup::SharedPtr& group);
 
-  // Of the waiting thread:
-  void fill_wait_set(std::vector<HeldWaitable>& waitables);
-  void add_handles(const Sizes& sizes);
-  void append_ready(const std::vector<HeldWaitable>& waitables, std::vector<detail::ReadyEntity>& ready) const;
-  // The entities of one kind, group after group, of which the wait has left the handle.
-  template <typename KindT>
-  void append_left(const rcl_wait_set_left_indices_t& left, KindT WaitedGroup::*kind,
-                   std::vector<detail::ReadyEntity>& ready) const;
-
-  const std::shared_ptr<rcl_context_t> rcl_context_;
   GuardCondition interrupt_;
-  rcl_wait_set_t wait_set_;
 
   std::atomic<size_t> removals_{0};
   std::mutex mutex_;
@@ -140,9 +90,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   std::function<void()> on_change_;
   bool changed_ = true;
   bool waiting_ = false;
-  // While waiting_, of the waiting thread alone.
-  std::vector<WaitedGroup> waited_;
-  Sizes kept_sizes_;  // those with which the wait set keeps the handles of waited_; none: guard_conditions is 0
+  ExecutorWait wait_;  // while waiting_, of the waiting thread alone
 };
 
 }  // namespace rclcpp

@@ -1,168 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an executor waits for its entities.
-#include <rcl/wait_restore.h>
+#include "executor/executor_wait.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <exception>
+#include <cstdint>
+#include <rcl/rmw_entity.hpp>
 #include <utility>
-
-#include "base/require_ok.hpp"
-#include "executor/executor_entities.hpp"
-#include "rclcpp/exceptions.hpp"
 
 namespace rclcpp {
 
-using detail::require_ok;
+ExecutorWait::ExecutorWait(const std::shared_ptr<rcl_context_t>& context, const GuardCondition& interrupt)
+    : interrupt_(interrupt), waitables_(context) {}
 
-[[gnu::hot]] void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
-  {
-    Owners owners;
-    const std::lock_guard lock(mutex_);
-    if (changed_) {
-      rebuild(owners);
-    }
-    waiting_ = true;
-  }
-
-  std::exception_ptr failure;
-  std::vector<HeldWaitable> waitables;
-  try {
-    fill_wait_set(waitables);
-    const rcl_ret_t ret = rcl_wait(&wait_set_, timeout.count());
-    if (ret != RCL_RET_OK && ret != RCL_RET_TIMEOUT) {
-      exceptions::throw_from_rcl_error(ret, "rcl_wait() failed");
-    }
-    append_ready(waitables, ready);
-  } catch (...) {
-    failure = std::current_exception();
-  }
-
-  {
-    std::unique_lock lock(mutex_);
-    waiting_ = false;
-    if (changed_) {
-      const std::vector<WaitedGroup> outdated = std::exchange(waited_, {});
-      lock.unlock();
-    }
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+WaitedEntities ExecutorWait::exchange(WaitedEntities waited) {
+  is_registered_ = false;
+  timers_.assign({});
+  return std::exchange(waited_, std::move(waited));
 }
 
-void ExecutorEntities::fill_wait_set(std::vector<HeldWaitable>& waitables) {
-  Sizes sizes;
-  sizes.guard_conditions = 1;
-  bool same_groups = true;
-  for (WaitedGroup& group : waited_) {
-    const bool in_wait_set = *group.can_be_taken_from;
-    same_groups = same_groups && in_wait_set == group.in_wait_set;
-    group.in_wait_set = in_wait_set;
-    if (!in_wait_set) {
-      continue;
-    }
-    sizes.timers += group.timers.size();
-    sizes.subscriptions += group.subscriptions.size();
-    sizes.services += group.services.size();
-    sizes.clients += group.clients.size();
-    sizes.events += group.events.size();
-    for (const Waitable::WeakPtr& weak : group.waitables) {
-      if (Waitable::SharedPtr waitable = weak.lock()) {
-        sizes.timers += waitable->get_number_of_ready_timers();
-        sizes.subscriptions += waitable->get_number_of_ready_subscriptions();
-        sizes.services += waitable->get_number_of_ready_services();
-        sizes.clients += waitable->get_number_of_ready_clients();
-        sizes.events += waitable->get_number_of_ready_events();
-        sizes.guard_conditions += waitable->get_number_of_ready_guard_conditions();
-        waitables.push_back({std::move(waitable), group.group});
-      }
-    }
+[[gnu::hot]] void ExecutorWait::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
+  struct Release {
+    AskedWaitables& waitables;
+    ~Release() { waitables.release(); }
+  };
+  const Release release{waitables_};
+  if (!is_registered_) {
+    register_all();
   }
-  if (same_groups && sizes == kept_sizes_) {
-    require_ok(rcl_wait_set_restore(&wait_set_), "couldn't restore wait set");
-  } else {
-    kept_sizes_ = {};
-    add_handles(sizes);
-    kept_sizes_ = sizes;
-  }
-  // Last, so that the indices of the others are known without asking.
-  for (const HeldWaitable& held : waitables) {
-    held.waitable->add_to_wait_set(wait_set_);
-  }
+  waitables_.ask(waited_, waiter_, first_of_waitables());
+  wait_for_ready(timeout, ready);
 }
 
-void ExecutorEntities::add_handles(const Sizes& sizes) {
-  require_ok(rcl_wait_set_resize(&wait_set_, sizes.subscriptions, sizes.guard_conditions, sizes.timers, sizes.clients,
-                                 sizes.services, sizes.events),
-             "couldn't resize the wait set");
-  require_ok(rcl_wait_set_add_guard_condition(&wait_set_, &interrupt_.get_rcl_guard_condition(), nullptr),
-             "couldn't add guard condition to wait set");
-  for (const WaitedGroup& group : waited_) {
-    if (!group.in_wait_set) {
-      continue;
-    }
-    for (const auto& timer : group.timers) {
-      require_ok(rcl_wait_set_add_timer(&wait_set_, timer.handle.get(), nullptr), "couldn't add timer to wait set");
-    }
-    for (const auto& subscription : group.subscriptions) {
-      require_ok(rcl_wait_set_add_subscription(&wait_set_, subscription.handle.get(), nullptr),
-                 "couldn't add subscription to wait set");
-    }
-    for (const auto& service : group.services) {
-      require_ok(rcl_wait_set_add_service(&wait_set_, service.handle.get(), nullptr),
-                 "couldn't add service to wait set");
-    }
-    for (const auto& client : group.clients) {
-      require_ok(rcl_wait_set_add_client(&wait_set_, client.handle.get(), nullptr), "couldn't add client to wait set");
-    }
-    for (const auto& event : group.events) {
-      require_ok(rcl_wait_set_add_event(&wait_set_, event.handle.get(), nullptr), "couldn't add event to wait set");
-    }
+void ExecutorWait::register_all() {
+  const auto may_be_taken = [this](const WaitedEntities::Entity& entity) {
+    return waited_.groups[entity.group].may_be_taken.get();
+  };
+  waiter_.remove_from(0);
+  for (const WaitedEntities::Entity& entity : waited_.entities) {
+    waiter_.add(entity.rmw_entity, may_be_taken(entity));
   }
-  require_ok(rcl_wait_set_keep(&wait_set_), "couldn't keep wait set");
+  waiter_.add(rcl::rmw_entity_of(&interrupt_.get_rcl_guard_condition()));
+  std::vector<TimerQueue::Timer> timers;
+  for (const WaitedEntities::Entity& timer : waited_.timers) {
+    waiter_.add(timer.rmw_entity);
+    timers.push_back({static_cast<const rcl_timer_t*>(timer.handle.get()), may_be_taken(timer)});
+  }
+  timers_.assign(std::move(timers));
+  is_registered_ = true;
 }
 
-template <typename KindT>
-[[gnu::hot, gnu::noinline]] void ExecutorEntities::append_left(const rcl_wait_set_left_indices_t& left,
-                                                               KindT WaitedGroup::*kind,
-                                                               std::vector<detail::ReadyEntity>& ready) const {
-  auto group = waited_.begin();
-  size_t first = 0;  // of the group
-  for (size_t i = 0; i < left.count; ++i) {
-    const auto size = [&] { return group->in_wait_set ? ((*group).*kind).size() : 0; };
-    for (size_t in_group = size(); left.indices[i] - first >= in_group; in_group = size()) {
-      first += in_group;
-      ++group;
-    }
-    ready.push_back({((*group).*kind)[left.indices[i] - first].entity, group->group});
-  }
-}
+[[gnu::hot]] void ExecutorWait::wait_for_ready(std::chrono::nanoseconds timeout,
+                                               std::vector<detail::ReadyEntity>& ready) {
+  const std::int64_t limit = timeout.count() < 0 ? TimerQueue::kNever : timeout.count();
+  const std::int64_t until_timer = std::min(timers_.time_until_first(), waitables_.time_until_first_timer());
+  const std::int64_t time = std::max<std::int64_t>(0, std::min(limit, until_timer));
+  waiter_.wait(std::chrono::nanoseconds(time == TimerQueue::kNever ? -1 : time), positions_);
 
-[[gnu::hot]] void ExecutorEntities::append_ready(const std::vector<HeldWaitable>& waitables,
-                                                 std::vector<detail::ReadyEntity>& ready) const {
-  // Nothing but what the wait has left is looked at: there may be thousands that have nothing to do.
-  const rcl_wait_set_left_t& left = *rcl_wait_set_get_left(&wait_set_);
-  if (left.timers.count != 0) {
-    append_left(left.timers, &WaitedGroup::timers, ready);
+  const auto begin = positions_.begin();
+  const auto end_of_entities = std::lower_bound(begin, positions_.end(), interrupt_position());
+  const auto own = std::lower_bound(end_of_entities, positions_.end(), first_of_waitables());
+  if (own != end_of_entities && *(own - 1) > interrupt_position()) {
+    timers_.forget_times();
   }
-  if (left.subscriptions.count != 0) {
-    append_left(left.subscriptions, &WaitedGroup::subscriptions, ready);
+  due_.clear();
+  timers_.append_due(due_);
+  for (const std::size_t index : due_) {
+    ready.push_back(waited_.if_ready(waited_.timers[index]));
   }
-  if (left.services.count != 0) {
-    append_left(left.services, &WaitedGroup::services, ready);
+  for (auto position = begin; position != end_of_entities; ++position) {
+    ready.push_back(waited_.if_ready(waited_.entities[*position]));
   }
-  if (left.clients.count != 0) {
-    append_left(left.clients, &WaitedGroup::clients, ready);
-  }
-  if (left.events.count != 0) {
-    append_left(left.events, &WaitedGroup::events, ready);
-  }
-  for (const HeldWaitable& held : waitables) {
-    if (held.waitable->is_ready(wait_set_)) {
-      ready.push_back({Waitable::WeakPtr(held.waitable), held.group});
-    }
-  }
+  waitables_.append_ready(waited_, positions_.data() + (own - begin), positions_.data() + positions_.size(), ready);
 }
 
 }  // namespace rclcpp

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a wait set tells of the kept entities that it left, for subscriptions.
+// Wait sets with subscriptions that get messages.
 #include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
 
-#include "rcl/wait_restore.h"
 #include "rcl_test.hpp"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 #include "std_msgs/msg/empty.hpp"
@@ -55,30 +54,24 @@ class Topic {
   rcl_publisher_t publisher_ = rcl_get_zero_initialized_publisher();
 };
 
-class WaitSetLeft : public testing::Test {
+class WaitSetSubscriptions : public testing::Test {
  protected:
-  WaitSetLeft() {
+  WaitSetSubscriptions() {
     EXPECT_EQ(rcl_wait_set_init(&set_, 4, 0, 0, 0, 0, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
-    add(a_);
-    add(b_);
-    EXPECT_EQ(rcl_wait_set_keep(&set_), RCL_RET_OK);
   }
-  ~WaitSetLeft() override { EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK); }
+  ~WaitSetSubscriptions() override { EXPECT_EQ(rcl_wait_set_fini(&set_), RCL_RET_OK); }
 
   void add(Topic& topic) { EXPECT_EQ(rcl_wait_set_add_subscription(&set_, &topic.subscription, nullptr), RCL_RET_OK); }
+  // For a, b and `further`.
   void wait(std::vector<Topic*> further, rcl_ret_t expected, int64_t timeout) {
-    EXPECT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
+    EXPECT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
+    add(a_);
+    add(b_);
     for (Topic* topic : further) {
       add(*topic);
     }
     EXPECT_EQ(rcl_wait(&set_, timeout), expected);
     rcl_reset_error();
-  }
-  // Indices of those that the last wait has left.
-  std::vector<size_t> left() const {
-    const rcl_wait_set_left_t& left = *rcl_wait_set_get_left(&set_);
-    EXPECT_EQ(left.timers.count + left.services.count + left.clients.count + left.events.count, 0u);
-    return {left.subscriptions.indices, left.subscriptions.indices + left.subscriptions.count};
   }
   std::vector<const rcl_subscription_t*> entries() const {
     return {set_.subscriptions, set_.subscriptions + set_.size_of_subscriptions};
@@ -93,50 +86,37 @@ class WaitSetLeft : public testing::Test {
   rcl_wait_set_t set_ = rcl_get_zero_initialized_wait_set();
 };
 
-TEST_F(WaitSetLeft, TellsOfTheKeptOnesThatAreReady) {
-  EXPECT_THAT(left(), ElementsAre());
+TEST_F(WaitSetSubscriptions, WhatIsReadyIsLeft) {
   for (int i = 0; i < 3; ++i) {
     wait({}, RCL_RET_TIMEOUT, 0);
-    EXPECT_THAT(left(), ElementsAre());
+    EXPECT_THAT(entries(), ElementsAre(kNull, kNull, kNull, kNull));
 
     b_.publish();
     wait({}, RCL_RET_OK, -1);
-    EXPECT_THAT(left(), ElementsAre(1));
     EXPECT_THAT(entries(), ElementsAre(kNull, &b_.subscription, kNull, kNull));
 
-    // What is not taken stays ready, and what is not kept is not told of, nor forgotten by the wait.
+    // What is not taken stays ready.
     c_.publish();
     a_.publish();
     do {
       wait({&c_}, RCL_RET_OK, -1);
     } while (set_.subscriptions[0] == nullptr || set_.subscriptions[2] == nullptr);
-    EXPECT_THAT(left(), ElementsAre(0, 1));
     EXPECT_THAT(entries(), ElementsAre(&a_.subscription, &b_.subscription, &c_.subscription, kNull));
 
-    ASSERT_EQ(rcl_wait_set_restore(&set_), RCL_RET_OK);
-    EXPECT_THAT(left(), ElementsAre());
     rmw_message_info_t info;
     EXPECT_EQ(a_.take(info), RCL_RET_OK);
     EXPECT_EQ(b_.take(info), RCL_RET_OK);
     EXPECT_EQ(c_.take(info), RCL_RET_OK);
     EXPECT_GT(info.source_timestamp, 0);
-    // Nothing is known of a message that there is not.
+    // There is no message, so nothing is told of one.
     EXPECT_EQ(c_.take(info), RCL_RET_SUBSCRIPTION_TAKE_FAILED);
     EXPECT_EQ(info.source_timestamp, 0);
   }
 }
 
-TEST_F(WaitSetLeft, ForgetsWithTheKeptOnes) {
-  a_.publish();
-  wait({}, RCL_RET_OK, -1);
-  EXPECT_THAT(left(), ElementsAre(0));
-  ASSERT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
-  EXPECT_THAT(left(), ElementsAre());
-}
-
-TEST_F(WaitSetLeft, NeedsAWaitSet) {
-  const rcl_wait_set_t none = rcl_get_zero_initialized_wait_set();
-  EXPECT_EQ(rcl_wait_set_get_left(&none), nullptr);
+TEST_F(WaitSetSubscriptions, NeedAWaitSet) {
+  rcl_wait_set_t none = rcl_get_zero_initialized_wait_set();
+  EXPECT_EQ(rcl_wait(&none, 0), RCL_RET_WAIT_SET_INVALID);
   EXPECT_EQ(rcl_test::take_error(), "the wait set is not initialized");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/visit/farewell.hpp"
+#include "launcher/visit/farewell_check.hpp"
 
 #include "launcher/base/diagnostic.hpp"
 

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launch tells its recorder and its scopes.
-#include <algorithm>
+#include "launcher/run/recording.hpp"
+
+#include <utility>
+#include <variant>
 
 #include "launcher/base/monotonic_clock.hpp"
-#include "launcher/run/launch_service.hpp"
 
 namespace launch {
 
-void LaunchService::record(const LaunchRecord& record) {
+void Recording::record(const LaunchRecord& record) {
   if (recorder_ != nullptr) {
     recorder_->record(record);
   }
-  for (const auto& scope : active_scopes_) {
-    scope->record(record);
-  }
+  scopes_.record(record);
 }
 
-void LaunchService::record(const ProcessEvent& event) {
+void Recording::record(const ProcessEvent& event) {
   using Kind = LaunchRecord::Kind;
   LaunchRecord what{.name = event.label, .where = event.spec.origin, .time = monotonic_time()};
   if (const auto* const started = std::get_if<ProcessStarted>(&event.what)) {
@@ -41,24 +40,28 @@ void LaunchService::record(const ProcessEvent& event) {
   record(what);
 }
 
-void LaunchService::record_visit(std::int64_t begin, const SourceRange& where, Requests& requests) {
+void Recording::record_visit(std::int64_t begin, const SourceRange& where, const Requests& requests) {
   for (const LaunchRecord& step : requests.records) {
     record(step);
   }
   record({.kind = LaunchRecord::Kind::kVisit, .where = where, .time = begin, .duration = monotonic_time() - begin});
 }
 
-// Called when the scopes of some requests have begun, before their processes start.
-void LaunchService::begin_recording() {
-  if (recorder_ == nullptr || recording_) {
+void Recording::begin() {
+  if (recorder_ == nullptr || begun_) {
     return;
   }
-  recording_ = std::any_of(active_scopes_.begin(), active_scopes_.end(),
-                           [](const auto& scope) { return scope->wants_records(); });
-  if (recording_) {
+  begun_ = scopes_.want_records();
+  if (begun_) {
     recorder_->begin();
   } else {
     recorder_->drop();
+  }
+}
+
+void Recording::end() {
+  if (std::exchange(begun_, false)) {
+    recorder_->end();
   }
 }
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The timers of an executor by the time at which they are due, so that a wait looks at the next ones and not at all.
+//
+// Call assign() with all timers, ask time_until_first() before a wait and append_due() after it. Call forget_times()
+// when the guard condition of a timer was triggered.
+#pragma once
+
+#include <rcl/timer.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace rclcpp {
+
+// There is a heap for each clock. The queue does not learn that a timer was called or cancelled: the entry of the timer
+// then tells too early a time, which is corrected when the entry comes first. A reset, or a jump of simulated time, can
+// make a timer due earlier than its entry tells. Both trigger the guard condition of the timer. For one thread at a
+// time. The functions throw if rcl reports an error.
+class TimerQueue {
+ public:
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+  struct Timer {
+    const rcl_timer_t* handle;
+    const std::atomic_bool* may_be_taken;  // while this is false, the timer counts as cancelled
+  };
+
+  // The timers must live until the next call of assign(), or of the destructor.
+  void assign(std::vector<Timer> timers);
+
+  // Times are read anew before the next answer.
+  void forget_times() { has_times_ = false; }
+
+  // Nanoseconds until the first timer is due by its clock; 0 or less if one is due already, `kNever` without a timer.
+  std::int64_t time_until_first();
+
+  // Appends the indices of the timers that are due, in ascending order.
+  void append_due(std::vector<std::size_t>& indices);
+
+ private:
+  struct Entry {
+    std::int64_t due;  // or earlier than that
+    std::size_t index;
+  };
+  // Clocks that tell one time count as one: all steady clocks, and all clocks of system time. A clock of simulated time
+  // is one of system time while nothing simulates time. When that begins or ends, guard conditions are triggered.
+  struct OfClock {
+    rcl_clock_type_t kind;
+    rcl_clock_t* clock;
+    std::vector<Entry> heap;       // the earliest first
+    std::vector<Entry> held_back;  // entries that came first while they may not be taken
+  };
+
+  void read_times();
+  OfClock& clock_of(const Timer& timer);
+  void return_held_back(OfClock& of_clock);
+  // Corrects entries until the first one tells the truth and may be taken. Entries of cancelled timers leave.
+  void settle_first(OfClock& of_clock);
+  bool may_be_taken(const Entry& entry) const { return timers_[entry.index].may_be_taken->load(); }
+  // Corrects the entry. False if the timer is cancelled.
+  bool update(Entry& entry) const;
+
+  std::vector<Timer> timers_;
+  std::vector<OfClock> clocks_;
+  std::vector<std::size_t> to_visit_;
+  bool has_times_ = false;
+};
+
+}  // namespace rclcpp

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scopes of a launch, such as trace sessions: they begin one at a time and end in reverse order.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/guardian/guardian.hpp"
+#include "launcher/visit/run_scope.hpp"
+
+namespace launch {
+
+class ActiveScopes {
+ public:
+  // Called in a later turn of the loop, with what went wrong.
+  using Begun = std::function<void(const std::optional<LaunchError>& error)>;
+
+  // `timing` receives the steps of every scope. Both references must outlive this object.
+  ActiveScopes(EventLoop& loop, RunScope::Tell tell, std::vector<TimedStep>& timing);
+
+  // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive this object.
+  void use_guardian(Guardian& guardian) { guardian_ = &guardian; }
+
+  // Begins one scope, for the processes that will start after it. The next one may begin when `done` is called. A scope
+  // that can't begin is forgotten.
+  void begin(std::unique_ptr<RunScope> scope, const std::vector<ProcessSpec>& processes, Begun done);
+  // Ends all scopes, the last one first. `failed` is given the error of a scope that ends with one; the others end all
+  // the same. `done` follows at once when no scope is active.
+  void end(std::function<void(const LaunchError&)> failed, std::function<void()> done);
+  // The user is in a hurry: ends finish at once, with what is there.
+  void hurry();
+
+  // Changes what a process that is about to start is given.
+  void prepare(ProcessSpec& spec) const;
+  void record(const LaunchRecord& record);
+  // Some scope's trace shall hold what the launcher does.
+  bool want_records() const;
+
+ private:
+  void on_begun(const std::exception_ptr& error, const Begun& done);
+  void end_last();
+  void on_ended(const std::exception_ptr& error);
+  void keep_timing(const RunScope& scope);
+  void guard(RunScope& scope);
+  void release(const RunScope& scope);
+
+  EventLoop& loop_;
+  RunScope::Tell tell_;
+  std::vector<TimedStep>& timing_;
+  Guardian* guardian_ = nullptr;
+  std::map<const RunScope*, std::int32_t> clean_ups_;  // their numbers at the guardian
+  std::unique_ptr<RunScope> beginning_;
+  std::vector<std::unique_ptr<RunScope>> active_;
+  bool hurried_ = false;
+  std::function<void(const LaunchError&)> failed_;  // of end()
+  std::function<void()> done_;
+};
+
+}  // namespace launch

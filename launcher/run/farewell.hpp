@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first thing of the end: what on_shutdown handlers ask for. Everything still runs meanwhile, and the processes
+// that the handlers start have a limited time.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_spec.hpp"
+#include "launcher/visit/event_handler.hpp"
+
+namespace launch {
+
+class Farewell {
+ public:
+  struct Callbacks {
+    // Visits a handler. Calls wait_for() before each process that it starts.
+    std::function<void(const Invocation&)> visit;
+    // Called once: what the handlers asked for is done, or its time is over.
+    std::function<void()> over;
+    std::function<void(const std::string&)> warn;
+  };
+
+  // The loop must outlive this object.
+  Farewell(EventLoop& loop, Callbacks callbacks) : loop_(loop), callbacks_(std::move(callbacks)) {}
+
+  // The handlers, all with an OnShutdown, are visited in a turn of the loop of their own. Without handlers it is over
+  // at once.
+  void say(std::vector<Invocation> handlers);
+  void wait_for(ProcessId process) { processes_.insert(process); }
+  // The process will not run again.
+  void on_done(ProcessId process);
+  // Cuts it short.
+  void end();
+
+ private:
+  void visit_handlers();
+
+  EventLoop& loop_;
+  Callbacks callbacks_;
+  bool under_way_ = false;
+  std::vector<Invocation> handlers_;
+  std::set<ProcessId> processes_;  // that the handlers have started, until they are done
+  EventLoop::SourcePtr timer_;
+};
+
+}  // namespace launch

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Events that have happened and whose handlers are still to be visited.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/process/event_loop.hpp"
+#include "launcher/visit/event_handler.hpp"
+
+namespace launch {
+
+// The handlers of each event are visited in a turn of the loop of their own, because handlers start and stop processes,
+// which an observer of their events must not do. Events keep their order.
+class InvocationQueue {
+ public:
+  // `visited` follows when all handlers of one event have been visited. The loop must outlive this object.
+  InvocationQueue(EventLoop& loop, std::function<void(const Invocation&)> visit, std::function<void()> visited)
+      : loop_(loop), visit_(std::move(visit)), visited_(std::move(visited)) {}
+
+  // All handlers of one event; none is no event.
+  void add(std::vector<Invocation> invocations);
+  // Handlers of that name are not visited any more, but for the event whose handlers are being visited: one of them may
+  // forget another, which still hears of this event.
+  void forget(const std::string& name);
+  // False also while handlers are being visited: the system is not idle between two of them.
+  bool empty() const { return events_.empty(); }
+
+ private:
+  void visit_next();
+
+  EventLoop& loop_;
+  std::function<void(const Invocation&)> visit_;
+  std::function<void()> visited_;
+  std::deque<std::vector<Invocation>> events_;
+};
+
+}  // namespace launch

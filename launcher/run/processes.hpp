@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The processes of a launch, by name: each starts once what it waits for holds, and is given the commands that name it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_supervisor.hpp"
+#include "launcher/run/round.hpp"
+#include "launcher/run/start_order.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+class Processes {
+ public:
+  struct Callbacks {
+    // A process with this number is about to start. Its spec may still be changed.
+    std::function<void(ProcessSpec& spec, ProcessId id)> starting;
+    // A process won't start, and the launch shall end.
+    std::function<void(const LaunchError&)> fail;
+    // `logger` is the name of a process, or "launch".
+    std::function<void(LogLevel level, const std::string& logger, const std::string& text)> tell;
+    // A process won't start, and the launch goes on without it.
+    std::function<void(const TrackedProcess& process)> skipped;
+    // What the process waits for is there.
+    std::function<void(const std::string& process, const Dependency& dependency)> ready;
+  };
+
+  // The references must outlive this object.
+  Processes(EventLoop& loop, ProcessSupervisor& supervisor, Callbacks callbacks);
+
+  // The processes of a traversal can be spoken of by name from now on. Throws LaunchError when its dependencies or
+  // commands name no process, or none can start first.
+  Round enter(Requests requests);
+  // Throws LaunchError for names that no process has.
+  void check(const std::vector<ProcessCommand>& commands) const { check_commands(commands, table_); }
+  // Tells of a command that no process could be given.
+  void execute(const ProcessCommand& command);
+
+  // Those of a round that wait for something begin to wait; they watch the others from their start on, so this comes
+  // before start().
+  void wait(Round& round);
+  // The others start, unless a start that fails brings the shutdown.
+  void start(Round& round);
+  // What still waits never starts, and start() does nothing any more.
+  void shutdown();
+  // For on_shutdown handlers: starts a process that runs once, whatever its spec says.
+  void start_last(ProcessSpec spec);
+
+  void on_event(const ProcessEvent& event);
+  void on_line(ProcessId id, OutputStream stream, std::string_view line);
+  // Some process waits for a line of another.
+  bool watch_output() const { return order_.watch_output(); }
+  // Some process waits for something before it starts.
+  bool waiting() const { return !order_.empty(); }
+
+ private:
+  void start(ProcessSpec spec, TrackedProcess& process);
+
+  ProcessSupervisor& supervisor_;
+  Callbacks callbacks_;
+  ProcessTable table_;
+  StartOrder order_;
+  bool shut_down_ = false;
+};
+
+}  // namespace launch

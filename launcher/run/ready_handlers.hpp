@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The handlers that wait for something outside of the launch, such as a service that is offered. Each is visited once.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/visit/event_handler.hpp"
+
+namespace launch {
+
+class ReadyHandlers {
+ public:
+  // `invoke` is given a handler whose condition holds, `fail` what keeps a condition from being known. The loop must
+  // outlive this object.
+  ReadyHandlers(EventLoop& loop, std::function<void(std::vector<Invocation>)> invoke,
+                std::function<void(const LaunchError&)> fail)
+      : loop_(loop), invoke_(std::move(invoke)), fail_(std::move(fail)) {}
+
+  // Watches the condition of a OnceReady.
+  void add(EventHandler handler);
+  void clear() { handlers_.clear(); }
+
+ private:
+  EventLoop& loop_;
+  std::function<void(std::vector<Invocation>)> invoke_;
+  std::function<void(const LaunchError&)> fail_;
+  std::list<std::shared_ptr<const EventHandler>> handlers_;
+};
+
+}  // namespace launch

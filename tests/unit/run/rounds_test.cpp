@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/run/rounds.hpp"
+
+#include <gmock/gmock.h>
+
+#include "launcher/process/fake/fake_event_loop.hpp"
+#include "tests/unit/run/fake_scope.hpp"
+
+namespace launch {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class RoundsTest : public testing::Test {
+ protected:
+  // A round that is named by a message of its own; a scope whose name begins with "bad" can't begin.
+  void add(const std::string& name, const std::vector<std::string>& scopes = {}) {
+    Round round;
+    round.requests.logs = {name};
+    for (const std::string& scope : scopes) {
+      round.requests.scopes.push_back(
+          std::make_unique<FakeScope>(scope, scope.starts_with("bad"), SourceRange(), journal_));
+    }
+    rounds_.add(std::move(round));
+  }
+
+  FakeEventLoop loop_;
+  Journal journal_;
+  std::vector<TimedStep> timing_;
+  ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};
+  Rounds rounds_{scopes_,
+                 {[this](const Round& round) { journal_.push_back("start " + round.requests.logs.front()); },
+                  [this](const LaunchError& error) { journal_.emplace_back(error.what()); },
+                  [this] { journal_.emplace_back("empty"); }}};
+};
+
+TEST_F(RoundsTest, ARoundWithoutScopesStartsAtOnce) {
+  add("a");
+  EXPECT_THAT(journal_, ElementsAre("start a", "empty"));
+}
+
+TEST_F(RoundsTest, AllScopesOfARoundBeginOneAfterTheOtherBeforeItStarts) {
+  add("a", {"x", "y"});
+  add("b");
+  loop_.advance(1s);
+  EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "begin y", "begun y", "start a", "start b", "empty"));
+}
+
+TEST_F(RoundsTest, AScopeThatCannotBeginDropsItsRoundAndThoseBehind) {
+  add("a", {"x", "bad", "z"});
+  add("b");
+  loop_.advance(1s);
+  EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "begin bad", "failed bad", HasSubstr("no tracer")));
+  EXPECT_TRUE(rounds_.empty());
+}
+
+TEST_F(RoundsTest, AfterCloseTheScopeThatIsBeginningIsTheLast) {
+  add("a", {"x", "y"});
+  loop_.advance(5ms);
+  rounds_.close();
+  EXPECT_FALSE(rounds_.empty());
+  loop_.advance(1s);
+  EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "empty"));
+  EXPECT_TRUE(rounds_.empty());
+}
+
+TEST_F(RoundsTest, AfterCloseAScopeThatCannotBeginLeavesNothing) {
+  add("a", {"bad", "y"});
+  loop_.advance(5ms);
+  rounds_.close();
+  loop_.advance(1s);
+  EXPECT_THAT(journal_, ElementsAre("begin bad", "failed bad", HasSubstr("no tracer")));
+  EXPECT_TRUE(rounds_.empty());
+}
+
+}  // namespace
+}  // namespace launch
