@@ -29,7 +29,7 @@ typedef enum rmw_event_type_e {
   RMW_EVENT_INVALID
 } rmw_event_type_t;
 
-// `data` is what rmw_wait() takes. It is of the publisher or subscription, which must outlive the event.
+// `data` is what rmw_wait() takes. It belongs to the publisher or subscription, which must outlive the event.
 typedef struct rmw_event_s {
   const char* implementation_identifier;
   void* data;
@@ -39,19 +39,19 @@ typedef struct rmw_event_s {
 rmw_event_t rmw_get_zero_initialized_event(void);
 bool rmw_event_type_is_supported(rmw_event_type_t rmw_event_type);
 
-// Several events of one type share what has happened: who takes it, takes it from the others. RMW_RET_UNSUPPORTED for a
-// type that there is not, or not of this endpoint.
+// Several events of one type share one status: taking it from one takes it from all. Returns RMW_RET_UNSUPPORTED if the
+// type does not exist or is not one of this endpoint.
 rmw_ret_t rmw_publisher_event_init(rmw_event_t* rmw_event, const rmw_publisher_t* publisher,
                                    rmw_event_type_t event_type);
 rmw_ret_t rmw_subscription_event_init(rmw_event_t* rmw_event, const rmw_subscription_t* subscription,
                                       rmw_event_type_t event_type);
 rmw_ret_t rmw_event_fini(rmw_event_t* event);
 
-// Copies the status, of the type above, into `event_info` and sets its changes back to 0. `taken` is true; there is
-// always a status.
+// Copies the status, of the type above, into `event_info` and sets its changes back to 0. `taken` is always true,
+// because there is always a status.
 rmw_ret_t rmw_take_event(const rmw_event_t* event_handle, void* event_info, bool* taken);
 
-// Null ends the calls: none is going on any more when this returns. Not to be called from the callback.
+// Null ends the calls: none is running any more when this returns. Must not be called from the callback.
 rmw_ret_t rmw_event_set_callback(rmw_event_t* event, rmw_event_callback_t callback, const void* user_data);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the events of publishers and subscriptions tell. Totals count since the endpoint was created, changes since the
-// event was last taken.
+// The statuses of the events of publishers and subscriptions. Totals count since the endpoint was created, changes
+// since the event was last taken.
 #pragma once
 
 #include <stddef.h>
@@ -12,13 +12,13 @@
 extern "C" {
 #endif
 
-// Of a publisher: its own lease ran out. It is told once per loss.
+// Of a publisher: its own lease ran out. Each loss is reported once.
 typedef struct rmw_liveliness_lost_status_s {
   int32_t total_count;
   int32_t total_count_change;
 } rmw_liveliness_lost_status_t;
 
-// Of a subscription: its matched publishers came alive, or ceased to be.
+// Of a subscription: its matched publishers became alive or stopped being alive.
 typedef struct rmw_liveliness_changed_status_s {
   int32_t alive_count;
   int32_t not_alive_count;
@@ -26,14 +26,14 @@ typedef struct rmw_liveliness_changed_status_s {
   int32_t not_alive_count_change;
 } rmw_liveliness_changed_status_t;
 
-// Periods without a message.
+// Deadline periods without a message.
 typedef struct rmw_offered_deadline_missed_status_s {
   int32_t total_count;
   int32_t total_count_change;
 } rmw_offered_deadline_missed_status_t;
 typedef rmw_offered_deadline_missed_status_t rmw_requested_deadline_missed_status_t;
 
-// Endpoints of the topic that cannot match, and the first policy at fault with the last of them.
+// Endpoints of the topic that cannot match. The policy is the first one that the last of them violates.
 typedef struct rmw_qos_incompatible_event_status_s {
   int32_t total_count;
   int32_t total_count_change;
@@ -48,13 +48,13 @@ typedef struct rmw_message_lost_status_s {
   size_t total_count_change;
 } rmw_message_lost_status_t;
 
-// Endpoints of the topic at the other side that have another type.
+// Endpoints at the other side of the topic that have another type.
 typedef struct rmw_incompatible_type_status_s {
   int32_t total_count;
   int32_t total_count_change;
 } rmw_incompatible_type_status_t;
 
-// Matched endpoints at the other side: ever, and now.
+// Matched endpoints at the other side: all so far, and the current ones.
 typedef struct rmw_matched_status_s {
   size_t total_count;
   size_t total_count_change;

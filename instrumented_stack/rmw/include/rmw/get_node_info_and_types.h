@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// RMW_RET_NODE_NAME_NON_EXISTENT if no such node is known. `no_demangle`: names and types as DDS has them.
+// Returns RMW_RET_NODE_NAME_NON_EXISTENT if no such node is known. `no_demangle`: names and types as DDS has them.
 rmw_ret_t rmw_get_publisher_names_and_types_by_node(const rmw_node_t* node, rcutils_allocator_t* allocator,
                                                     const char* node_name, const char* node_namespace, bool no_demangle,
                                                     rmw_names_and_types_t* topic_names_and_types);

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// Full topic name; with `no_mangle` as DDS has it, and the types likewise. `info` must be zero initialized.
+// Takes the full topic name. With `no_mangle`, name and types are those of DDS. `info` must be zero initialized.
 rmw_ret_t rmw_get_publishers_info_by_topic(const rmw_node_t* node, rcutils_allocator_t* allocator,
                                            const char* topic_name, bool no_mangle,
                                            rmw_topic_endpoint_info_array_t* info);

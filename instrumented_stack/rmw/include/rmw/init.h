@@ -28,7 +28,7 @@ rmw_context_t rmw_get_zero_initialized_context(void);
 // node is destroyed.
 rmw_ret_t rmw_init(const rmw_init_options_t* options, rmw_context_t* context);
 
-// Marks the context as shut down: no new nodes.
+// Marks the context as shut down: no new nodes can be created.
 rmw_ret_t rmw_shutdown(rmw_context_t* context);
 
 // Frees a context that was shut down and has no nodes.

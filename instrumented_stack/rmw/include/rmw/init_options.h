@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a context is created with.
+// The options for creating a context.
 #pragma once
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where in the network the messages of a publisher come from, or those of a subscription arrive.
+// The network address from which a publisher sends, or at which a subscription receives.
 #pragma once
 
 #include <stddef.h>
@@ -15,7 +15,7 @@ extern "C" {
 #define RMW_INET_ADDRSTRLEN 48
 
 typedef enum rmw_transport_protocol_e {
-  RMW_TRANSPORT_PROTOCOL_UNKNOWN = 0,  // shared memory, too
+  RMW_TRANSPORT_PROTOCOL_UNKNOWN = 0,  // also for shared memory
   RMW_TRANSPORT_PROTOCOL_UDP,
   RMW_TRANSPORT_PROTOCOL_TCP
 } rmw_transport_protocol_t;

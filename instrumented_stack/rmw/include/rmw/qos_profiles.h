@@ -58,7 +58,7 @@ static const rmw_qos_profile_t rmw_qos_profile_parameter_events = {RMW_QOS_POLIC
                                                                    RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
                                                                    false};
 
-// /rosout: late joiners get the last ten seconds.
+// /rosout: late joiners get the messages of the last ten seconds.
 static const rmw_qos_profile_t rmw_qos_profile_rosout_default = {RMW_QOS_POLICY_HISTORY_KEEP_LAST,
                                                                  1000,
                                                                  RMW_QOS_POLICY_RELIABILITY_RELIABLE,
@@ -69,7 +69,7 @@ static const rmw_qos_profile_t rmw_qos_profile_rosout_default = {RMW_QOS_POLICY_
                                                                  RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
                                                                  false};
 
-// Everything as the middleware has it by default.
+// Every policy as the middleware has it by default.
 static const rmw_qos_profile_t rmw_qos_profile_system_default = {RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT,
                                                                  RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT,
                                                                  RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The middleware interface: publishers, subscriptions, services, clients, waiting and the graph, on Fast DDS.
 //
-// A context (rmw/init.h) holds one DDS participant. Creation functions return null, the others a code other than
-// RMW_RET_OK, after leaving a message for rmw_get_error_string(). A handle must be destroyed before its node, a node
-// before its context. Publish, take and trigger may be called from several threads; a wait set serves one thread at a
-// time.
+// A context (rmw/init.h) holds one DDS participant. On errors, creation functions return null and the others a code
+// other than RMW_RET_OK; both leave a message for rmw_get_error_string(). A handle must be destroyed before its node, a
+// node before its context. Publish, take and trigger may be called from several threads. A wait set serves one thread
+// at a time.
 #pragma once
 
 #include <stdbool.h>
@@ -26,7 +26,7 @@
 extern "C" {
 #endif
 
-// `rmw_fastrtps_cpp`: what ROS 2 calls a middleware that speaks this wire format.
+// `rmw_fastrtps_cpp`: the name in ROS 2 of the middleware that speaks this wire format.
 const char* rmw_get_implementation_identifier(void);
 const char* rmw_get_serialization_format(void);
 
@@ -51,9 +51,9 @@ rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
                                          const rmw_serialized_message_t* serialized_message,
                                          rmw_publisher_allocation_t* allocation);
 
-// Memory of the middleware to make a message in, which is then sent from where it is. The memory is not initialised.
-// Only for publishers whose can_loan_messages is set, those of types that have the same layout in memory and on the
-// wire: otherwise RMW_RET_UNSUPPORTED. The memory must be given back by one of the other two functions.
+// Borrows memory of the middleware for a message, which is then sent without a copy. The memory is not initialised, and
+// must be given back by one of the other two functions. Works only for publishers whose can_loan_messages is set: their
+// type has the same layout in memory and on the wire. Otherwise returns RMW_RET_UNSUPPORTED.
 rmw_ret_t rmw_borrow_loaned_message(const rmw_publisher_t* publisher, const rosidl_message_type_support_t* type_support,
                                     void** ros_message);
 rmw_ret_t rmw_return_loaned_message_from_publisher(const rmw_publisher_t* publisher, void* loaned_message);
@@ -64,10 +64,11 @@ rmw_ret_t rmw_publisher_count_matched_subscriptions(const rmw_publisher_t* publi
 rmw_ret_t rmw_publisher_get_actual_qos(const rmw_publisher_t* publisher, rmw_qos_profile_t* qos);
 rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher);
 
-// Waits until every matched reliable subscription has acknowledged everything written so far.
-// RMW_RET_TIMEOUT if that takes longer than `wait_timeout`.
+// Waits until every matched reliable subscription has acknowledged everything written so far. Returns RMW_RET_TIMEOUT
+// if that takes longer than `wait_timeout`.
 rmw_ret_t rmw_publisher_wait_for_all_acked(const rmw_publisher_t* publisher, rmw_time_t wait_timeout);
-// From where the publisher may send. `network_flow_endpoint_array` must be zero initialised, and is to be finalised.
+// The addresses that the publisher may send from. The caller passes `network_flow_endpoint_array` zero initialised and
+// finalises it.
 rmw_ret_t rmw_publisher_get_network_flow_endpoints(const rmw_publisher_t* publisher, rcutils_allocator_t* allocator,
                                                    rmw_network_flow_endpoint_array_t* network_flow_endpoint_array);
 rmw_ret_t rmw_get_gid_for_publisher(const rmw_publisher_t* publisher, rmw_gid_t* gid);
@@ -82,19 +83,19 @@ rmw_ret_t rmw_destroy_subscription(rmw_node_t* node, rmw_subscription_t* subscri
 rmw_ret_t rmw_subscription_count_matched_publishers(const rmw_subscription_t* subscription, size_t* publisher_count);
 rmw_ret_t rmw_subscription_get_actual_qos(const rmw_subscription_t* subscription, rmw_qos_profile_t* qos);
 
-// `callback` is told of every message that arrives from now on, and at once of those that wait to be taken. It may be
-// told of more than can be taken, but not of less. Null ends the calls: none is going on any more when this returns.
-// Not to be called from the callback. The same holds for services and clients below.
+// `callback` is called for every message that arrives from now on, and at once for those that wait to be taken. It may
+// count more messages than can be taken, but never fewer. Null ends the calls: none is running any more when this
+// returns. Must not be called from the callback. All this holds for services and clients below, too.
 rmw_ret_t rmw_subscription_set_on_new_message_callback(rmw_subscription_t* subscription, rmw_event_callback_t callback,
                                                        const void* user_data);
 
-// Takes the next message without waiting; `taken` is false when there is none.
-// Which messages are wanted from now on; an empty expression ends the filter. RMW_RET_ERROR, and nothing changes, for a
-// filter that does not fit the type, for an empty one where there is none, and while messages are on loan. What the
-// subscription has not taken when it gets its first filter, or loses it, is lost: the middleware makes another reader.
+// Sets the messages that are wanted from now on; an empty expression ends the filter. Returns RMW_RET_ERROR and changes
+// nothing if the filter does not fit the type, if it is empty and there is none, or while messages are on loan. The
+// middleware makes another reader when a filter is first set or is removed: messages not taken by then are lost.
 rmw_ret_t rmw_subscription_set_content_filter(rmw_subscription_t* subscription,
                                               const rmw_subscription_content_filter_options_t* options);
-// Into zero initialised `options`, to be finalized by the caller. RMW_RET_ERROR if there is no filter.
+// Copies the filter into zero initialised `options`, which the caller finalizes. Returns RMW_RET_ERROR without a
+// filter.
 rmw_ret_t rmw_subscription_get_content_filter(const rmw_subscription_t* subscription, rcutils_allocator_t* allocator,
                                               rmw_subscription_content_filter_options_t* options);
 
@@ -102,14 +103,14 @@ rmw_ret_t rmw_take(const rmw_subscription_t* subscription, void* ros_message, bo
                    rmw_subscription_allocation_t* allocation);
 rmw_ret_t rmw_take_with_info(const rmw_subscription_t* subscription, void* ros_message, bool* taken,
                              rmw_message_info_t* message_info, rmw_subscription_allocation_t* allocation);
-// Takes the next message where the middleware holds it, only for subscriptions whose can_loan_messages is set:
-// otherwise RMW_RET_UNSUPPORTED. It must be returned, and not be written to.
+// Takes the next message without copying it from the memory of the middleware. The caller must return it and must not
+// write to it. Works only for subscriptions whose can_loan_messages is set: otherwise returns RMW_RET_UNSUPPORTED.
 rmw_ret_t rmw_take_loaned_message_with_info(const rmw_subscription_t* subscription, void** loaned_message, bool* taken,
                                             rmw_message_info_t* message_info,
                                             rmw_subscription_allocation_t* allocation);
 rmw_ret_t rmw_return_loaned_message_from_subscription(const rmw_subscription_t* subscription, void* loaned_message);
 
-// Where the subscription listens; see rmw_publisher_get_network_flow_endpoints().
+// The addresses at which the subscription listens; see rmw_publisher_get_network_flow_endpoints().
 rmw_ret_t rmw_subscription_get_network_flow_endpoints(const rmw_subscription_t* subscription,
                                                       rcutils_allocator_t* allocator,
                                                       rmw_network_flow_endpoint_array_t* network_flow_endpoint_array);
@@ -131,8 +132,8 @@ rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service);
 // `request_header->request_id`.
 rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* request_header, void* ros_request,
                            bool* taken);
-// Waits a moment for the client's reader to be known, then RMW_RET_TIMEOUT. RMW_RET_OK, and nothing is sent, if the
-// client is gone.
+// Waits briefly until the client's reader is known, then returns RMW_RET_TIMEOUT. Returns RMW_RET_OK and sends nothing
+// if the client is gone.
 rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* request_header, void* ros_response);
 rmw_ret_t rmw_service_set_on_new_request_callback(rmw_service_t* service, rmw_event_callback_t callback,
                                                   const void* user_data);
@@ -144,13 +145,13 @@ rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_typ
                                 const char* service_name, const rmw_qos_profile_t* qos_policies);
 rmw_ret_t rmw_destroy_client(rmw_node_t* node, rmw_client_t* client);
 
-// The identity of the client that services find in rmw_request_id_t::writer_guid.
+// Identifies the client; services find it in rmw_request_id_t::writer_guid.
 rmw_ret_t rmw_get_gid_for_client(const rmw_client_t* client, rmw_gid_t* gid);
 
 // `sequence_id` gets the number that the response will carry.
 rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, int64_t* sequence_id);
-// Takes the next response without waiting; `taken` is false when there is none, and also when the next one was for
-// another client.
+// Takes the next response without waiting. `taken` is false if there is none, and also if the next one is for another
+// client.
 rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* request_header, void* ros_response,
                             bool* taken);
 rmw_ret_t rmw_client_set_on_new_response_callback(rmw_client_t* client, rmw_event_callback_t callback,
@@ -158,7 +159,7 @@ rmw_ret_t rmw_client_set_on_new_response_callback(rmw_client_t* client, rmw_even
 rmw_ret_t rmw_client_request_publisher_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos);
 rmw_ret_t rmw_client_response_subscription_get_actual_qos(const rmw_client_t* client, rmw_qos_profile_t* qos);
 
-// Whether a request would reach a service and the response come back. Changes trigger the graph guard condition.
+// Whether a request reaches a service and the response comes back. Changes trigger the graph guard condition.
 rmw_ret_t rmw_service_server_is_available(const rmw_node_t* node, const rmw_client_t* client, bool* is_available);
 
 // ---- serialization without a middleware entity
@@ -176,8 +177,8 @@ rmw_ret_t rmw_trigger_guard_condition(const rmw_guard_condition_t* guard_conditi
 rmw_wait_set_t* rmw_create_wait_set(rmw_context_t* context, size_t max_conditions);
 rmw_ret_t rmw_destroy_wait_set(rmw_wait_set_t* wait_set);
 
-// Blocks until an entity is ready or the time is over (null: forever; zero: not at all). Entries that are not ready
-// become null; triggered guard conditions are reset. RMW_RET_TIMEOUT when nothing became ready.
+// Blocks until an entity is ready or the timeout has passed (null: wait forever; zero: do not wait). Entries that are
+// not ready become null; triggered guard conditions are reset. Returns RMW_RET_TIMEOUT if nothing became ready.
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
                    rmw_services_t* services, rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set,
                    const rmw_time_t* wait_timeout);
@@ -188,7 +189,7 @@ rmw_ret_t rmw_get_node_names(const rmw_node_t* node, rcutils_string_array_t* nod
 rmw_ret_t rmw_get_node_names_with_enclaves(const rmw_node_t* node, rcutils_string_array_t* node_names,
                                            rcutils_string_array_t* node_namespaces, rcutils_string_array_t* enclaves);
 
-// Publishers and subscriptions of a full topic name in the whole system, this process included.
+// Counts publishers and subscriptions of a full topic name in the whole system, including this process.
 rmw_ret_t rmw_count_publishers(const rmw_node_t* node, const char* topic_name, size_t* count);
 rmw_ret_t rmw_count_subscribers(const rmw_node_t* node, const char* topic_name, size_t* count);
 
@@ -196,7 +197,7 @@ rmw_ret_t rmw_count_subscribers(const rmw_node_t* node, const char* topic_name, 
 rmw_ret_t rmw_get_topic_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator, bool no_demangle,
                                         rmw_names_and_types_t* topic_names_and_types);
 
-// The same for services, of which at least one end exists: `/add`, `example_interfaces/srv/AddTwoInts`.
+// Services with their types, if at least one end exists: `/add`, `example_interfaces/srv/AddTwoInts`.
 rmw_ret_t rmw_get_service_names_and_types(const rmw_node_t* node, rcutils_allocator_t* allocator,
                                           rmw_names_and_types_t* service_names_and_types);
 rmw_ret_t rmw_count_services(const rmw_node_t* node, const char* service_name, size_t* count);

@@ -27,10 +27,10 @@ typedef rcutils_duration_value_t rmw_duration_t;
 
 bool rmw_time_equal(const rmw_time_t left, const rmw_time_t right);
 
-// Nanoseconds, RMW_DURATION_INFINITE's when they do not fit.
+// Nanoseconds; RMW_DURATION_INFINITE if they do not fit.
 rmw_duration_t rmw_time_total_nsec(const rmw_time_t time);
 
-// Negative durations give the infinite one.
+// Negative durations become the infinite one.
 rmw_time_t rmw_time_from_nsec(const rmw_duration_t nanoseconds);
 
 #ifdef __cplusplus

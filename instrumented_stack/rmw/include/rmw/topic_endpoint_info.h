@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of one publisher or subscription of the system.
+// The known facts about one publisher or subscription of the system.
 #pragma once
 
 #include <stddef.h>
@@ -13,14 +13,14 @@
 extern "C" {
 #endif
 
-// The strings are owned. An endpoint of no known node has name and namespace `_NODE_NAME_UNKNOWN_` and
-// `_NODE_NAMESPACE_UNKNOWN_`. History and depth of an endpoint of another process are unknown: discovery does not tell
-// them.
+// The strings are owned. An endpoint without a known node has name and namespace `_NODE_NAME_UNKNOWN_` and
+// `_NODE_NAMESPACE_UNKNOWN_`. History and depth of an endpoint of another process are unknown, because discovery does
+// not transmit them.
 typedef struct rmw_topic_endpoint_info_s {
   const char* node_name;
   const char* node_namespace;
   const char* topic_type;
-  rosidl_type_hash_t topic_type_hash;  // zero if the endpoint does not tell it
+  rosidl_type_hash_t topic_type_hash;  // zero if the endpoint does not announce it
   rmw_endpoint_type_t endpoint_type;
   uint8_t endpoint_gid[RMW_GID_STORAGE_SIZE];
   rmw_qos_profile_t qos_profile;
@@ -32,7 +32,7 @@ typedef struct rmw_topic_endpoint_info_array_s {
 } rmw_topic_endpoint_info_array_t;
 
 rmw_topic_endpoint_info_array_t rmw_get_zero_initialized_topic_endpoint_info_array(void);
-// Also frees the strings. `allocator` is the one that the array was filled with.
+// Also frees the strings. `allocator` is the one that was used to fill the array.
 rmw_ret_t rmw_topic_endpoint_info_array_fini(rmw_topic_endpoint_info_array_t* array, rcutils_allocator_t* allocator);
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/// What a type support knows of the definition of its type; null for a type of which only the name is known. Any
+/// The type definition held by a type support; null if only the name of the type is known. May be called from any
 /// thread.
 const rosidl_type_description_t* rmw_message_type_description(const rosidl_message_type_support_t* type_support);
 const rosidl_type_description_t* rmw_service_type_description(const rosidl_service_type_support_t* type_support);

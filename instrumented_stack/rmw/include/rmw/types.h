@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Handles, options and quality of service of the middleware layer.
 //
-// The addresses of rmw_publisher_t, rmw_subscription_t, rmw_service_t and rmw_client_t are what the tracepoints of this
-// layer report.
+// The tracepoints of this layer report the addresses of rmw_publisher_t, rmw_subscription_t, rmw_service_t and
+// rmw_client_t.
 #pragma once
 
 #include <stdbool.h>
@@ -48,7 +48,7 @@ typedef struct rmw_subscription_options_s {
   void* rmw_specific_subscription_payload;  // unused
   bool ignore_local_publications;           // drop messages of publishers of the same context
   rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints;
-  // Null: every message is wanted. Read during the creation only.
+  // Null: every message is wanted. Only read during creation.
   rmw_subscription_content_filter_options_t* content_filter_options;
 } rmw_subscription_options_t;
 
@@ -87,7 +87,7 @@ typedef struct rmw_guard_condition_s {
   rmw_context_t* context;
 } rmw_guard_condition_t;
 
-// Optional memory hints of publish and take; no field of them is used.
+// Optional memory hints of publish and take; none of their fields is used.
 typedef struct rmw_publisher_allocation_s {
   const char* implementation_identifier;
   void* data;
@@ -98,8 +98,8 @@ typedef struct rmw_subscription_allocation_s {
   void* data;
 } rmw_subscription_allocation_t;
 
-// What rmw_wait() waits for: arrays of the `data` members of handles. After the wait, entries that are not ready are
-// null.
+// The entities that rmw_wait() waits for: arrays of the `data` members of handles. After the wait, entries that are not
+// ready are null.
 typedef struct rmw_subscriptions_s {
   size_t subscriber_count;
   void** subscribers;
@@ -157,7 +157,7 @@ typedef enum rmw_qos_durability_policy_e {
 typedef enum rmw_qos_liveliness_policy_e {
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT = 0,
   RMW_QOS_POLICY_LIVELINESS_AUTOMATIC = 1,
-  // 2 was manual by node, which is gone.
+  // 2 was "manual by node", which was removed.
   RMW_QOS_POLICY_LIVELINESS_MANUAL_BY_TOPIC = 3,
   RMW_QOS_POLICY_LIVELINESS_UNKNOWN = 4,
   RMW_QOS_POLICY_LIVELINESS_BEST_AVAILABLE = 5
@@ -169,7 +169,7 @@ typedef enum rmw_qos_liveliness_policy_e {
 
 typedef struct rmw_qos_profile_s {
   enum rmw_qos_history_policy_e history;
-  size_t depth;  // of keep-last
+  size_t depth;  // for keep-last
   enum rmw_qos_reliability_policy_e reliability;
   enum rmw_qos_durability_policy_e durability;
   struct rmw_time_s deadline;
@@ -188,8 +188,8 @@ typedef struct rmw_gid_s {
 #define RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED UINT64_MAX
 
 typedef struct rmw_message_info_s {
-  rmw_time_point_value_t source_timestamp;    // ns since 1970 of the publisher's system clock
-  rmw_time_point_value_t received_timestamp;  // ns since 1970 of this host's system clock
+  rmw_time_point_value_t source_timestamp;    // system clock of the publisher, ns since 1970
+  rmw_time_point_value_t received_timestamp;  // system clock of this host, ns since 1970
   uint64_t publication_sequence_number;
   uint64_t reception_sequence_number;  // RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED
   rmw_gid_t publisher_gid;
@@ -198,15 +198,15 @@ typedef struct rmw_message_info_s {
 
 rmw_message_info_t rmw_get_zero_initialized_message_info(void);
 
-// Which request of which client: what a response must be sent with.
+// Identifies a request and its client. A response must carry it.
 typedef struct rmw_request_id_s {
   int8_t writer_guid[RMW_GID_STORAGE_SIZE];  // the GUID of the client's response reader
-  int64_t sequence_number;                   // counts the requests of that client
+  int64_t sequence_number;                   // counts the requests of this client
 } rmw_request_id_t;
 
 typedef struct rmw_service_info_s {
-  rmw_time_point_value_t source_timestamp;    // ns since 1970 of the sender's system clock
-  rmw_time_point_value_t received_timestamp;  // ns since 1970 of this host's system clock
+  rmw_time_point_value_t source_timestamp;    // system clock of the sender, ns since 1970
+  rmw_time_point_value_t received_timestamp;  // system clock of this host, ns since 1970
   rmw_request_id_t request_id;
 } rmw_service_info_t;
 

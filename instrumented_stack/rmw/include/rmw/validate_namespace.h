@@ -22,7 +22,7 @@ extern "C" {
 
 #define RMW_NAMESPACE_MAX_LENGTH (RMW_TOPIC_MAX_NAME_LENGTH - 2U)
 
-// `/` or an absolute name.
+// A namespace is `/` or an absolute name.
 rmw_ret_t rmw_validate_namespace(const char* namespace_, int* validation_result, size_t* invalid_index);
 
 const char* rmw_namespace_validation_result_string(int validation_result);

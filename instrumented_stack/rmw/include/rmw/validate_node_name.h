@@ -18,7 +18,7 @@ extern "C" {
 
 #define RMW_NODE_NAME_MAX_NAME_LENGTH 255U
 
-// Letters, digits and underscores, no digit first.
+// A node name has letters, digits and underscores, and does not start with a digit.
 rmw_ret_t rmw_validate_node_name(const char* node_name, int* validation_result, size_t* invalid_index);
 
 const char* rmw_node_name_validation_result_string(int validation_result);

@@ -45,7 +45,8 @@ std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimeP
 GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph)
     : participant_(participant), graph_(graph) {
   const auto& type_support = *rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>();
-  // Only the last state of a participant counts, but a burst of states of many participants must not push any out.
+  // Only the last state of a participant counts. But a burst of states of many participants must not push out any of
+  // them.
   rmw_qos_profile_t profile = channel_profile();
   profile.history = RMW_QOS_POLICY_HISTORY_KEEP_LAST;
   profile.depth = 1;
@@ -57,7 +58,7 @@ GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, Gra
   wait_set_ = rmw_create_wait_set(&context, 3);
   stop_ = rmw_create_guard_condition(&context);
 
-  // Signals are for the threads of the application.
+  // Signals are left to the threads of the application.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The topic ros_discovery_info: tells other participants of the nodes of this one, and listens to theirs.
+// The topic ros_discovery_info: announces the nodes of this participant to others, and receives the nodes of others.
 //
-// Its publisher and subscription have no rcl counterpart. A thread of its own takes what arrives; it ends each wake-up
-// for a message with one take that finds nothing. It also announces the participant again to those who may have missed
-// it.
+// Its publisher and subscription have no rcl counterpart. A thread of its own takes the messages that arrive. Each
+// wake-up for a message ends with one take that finds nothing. The thread also announces the participant again to
+// participants that may have missed it.
 #pragma once
 
 #include <thread>
@@ -17,7 +17,7 @@ namespace rmw_fastrtps {
 
 class GraphChannel {
  public:
-  // `graph` is updated from the thread. Throws std::runtime_error.
+  // The thread updates `graph`. Throws std::runtime_error.
   GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph);
   ~GraphChannel();
   GraphChannel(const GraphChannel&) = delete;

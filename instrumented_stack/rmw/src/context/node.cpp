@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes and the endpoints that they own: every change is announced on ros_discovery_info.
+// Nodes and the endpoints that they own. Every change is announced on ros_discovery_info.
 #include "context/node.hpp"
 
 #include <memory>
@@ -128,7 +128,7 @@ rmw_ret_t rmw_destroy_node(rmw_node_t* node) try {
   std::lock_guard lock(impl.mutex);
   const auto info = impl.graph.remove_node(impl.participant->gid(), owned->namespace_, owned->name);
   if (--impl.nodes == 0) {
-    // Others learn of the node's end from the end of the participant.
+    // The end of the participant tells the others that the node is gone.
     close_participant(impl);
   } else {
     impl.channel->announce(info);

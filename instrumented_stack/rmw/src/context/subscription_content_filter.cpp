@@ -21,7 +21,7 @@ using rmw_fastrtps::subscription_of;
 
 namespace {
 
-// Gives the subscription a reader on another topic: a reader has its topic, filtered or not, for life.
+// Gives the subscription a reader on another topic. A reader cannot change its topic, filtered or not.
 void replace_reader(Subscription& subscription, eprosima::fastdds::dds::ContentFilteredTopic* filtered_topic) {
   const std::unique_lock lock(subscription.reader_mutex);
   if (!subscription.loans.empty()) {

@@ -40,7 +40,7 @@ fdds::ContentFilteredTopic& create_filtered_topic(fdds::Topic& topic, const mess
                              "' cannot be filtered by content: the members of the type are not known");
   }
   register_type_object(*type.description_);
-  // The name is known within the participant only.
+  // The name is only known within the participant.
   static std::atomic<std::uint64_t> count{0};
   const std::string name = topic.get_name() + "_filtered_" + std::to_string(++count);
   auto* filtered =

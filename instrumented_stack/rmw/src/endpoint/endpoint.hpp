@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creation of publishers and subscriptions without a node: what rmw_create_publisher() and ros_discovery_info share.
+// Creates publishers and subscriptions without a node, for rmw_create_publisher() and for ros_discovery_info.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options);
 
-// The node whose mutex and graph a subscription uses when its reader changes.
+// Sets the node whose mutex and graph a subscription uses when its reader changes.
 void set_node(const rmw_subscription_t& subscription, const rmw_node_t& node);
 
 void destroy_publisher(rmw_publisher_t* publisher);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locators of DDS as endpoints of network flows.
+// Converts locators of DDS to endpoints of network flows.
 #pragma once
 
 #include <fastdds/rtps/common/Locator.h>
@@ -8,7 +8,7 @@
 
 namespace rmw_fastrtps {
 
-// `endpoints` must be zero initialised. RMW_RET_BAD_ALLOC.
+// `endpoints` must be zero initialised. Returns RMW_RET_BAD_ALLOC if memory runs out.
 rmw_ret_t to_endpoints(const eprosima::fastdds::rtps::LocatorList& locators, rcutils_allocator_t* allocator,
                        rmw_network_flow_endpoint_array_t& endpoints);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishers: a DDS DataWriter each.
+// Publishers. Each has a DDS DataWriter.
 #include <time.h>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -37,7 +37,7 @@ namespace {
 struct Publisher final : WriterEvents {
   rmw_publisher_t handle{};
   fdds::DataWriter* writer = nullptr;
-  std::string topic_name;  // of the handle
+  std::string topic_name;  // the handle points to it
   Participant* participant = nullptr;
   fdds::Topic* topic = nullptr;
   EndpointIdentity identity{};
@@ -47,7 +47,7 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   return *static_cast<Publisher*>(handle.data);
 }
 
-// `data` is what the writer gets: an OutgoingMessage, or a loan.
+// `data` is passed to the writer: an OutgoingMessage, or a loan.
 [[gnu::hot]] rmw_ret_t write(const rmw_publisher_t* publisher, void* data,
                              [[maybe_unused]] const void* traced_message) {
   timespec now{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subscriptions: a DDS DataReader each.
+// Subscriptions. Each has a DDS DataReader.
 #include "endpoint/subscription.hpp"
 
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -44,7 +44,7 @@ namespace {
   message_info.from_intra_process = false;
 }
 
-// Invalid samples tell of the end of a writer's data, not of a message.
+// An invalid sample announces the end of a writer's data. It is no message.
 [[gnu::hot]] bool is_wanted(const rmw_subscription_t* handle, const fdds::SampleInfo& sample) {
   const bool ignored =
       handle->options.ignore_local_publications &&
@@ -125,7 +125,7 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
   }
   subscription->topic_name = topic_name;
   rmw_subscription_options_t kept_options = options;
-  kept_options.content_filter_options = nullptr;  // of the caller
+  kept_options.content_filter_options = nullptr;  // belongs to the caller
   subscription->handle = {
       kIdentifier,         static_cast<Waitable*>(subscription.get()), subscription->topic_name.c_str(), kept_options,
       is_plain(callbacks), subscription->filtered_topic != nullptr};

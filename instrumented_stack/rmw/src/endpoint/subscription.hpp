@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subscription is made of, shared by the files about it.
+// The parts of a subscription, for the files that implement it.
 #pragma once
 
 #include <fastdds/dds/core/LoanableSequence.hpp>
@@ -25,7 +25,7 @@ namespace rmw_fastrtps {
 
 // A sample that stays in the reader until it is returned.
 struct Loan {
-  eprosima::fastdds::dds::LoanableSequence<unsigned char> samples;  // whatever the type: it gets pointers, no elements
+  eprosima::fastdds::dds::LoanableSequence<unsigned char> samples;  // works for any type: it gets pointers, no elements
   eprosima::fastdds::dds::SampleInfoSeq infos;
 };
 
@@ -39,16 +39,16 @@ struct Subscription final : ReaderEvents {
   }
 
   rmw_subscription_t handle{};
-  std::string topic_name;  // of the handle
+  std::string topic_name;  // the handle points to it
   Participant* participant = nullptr;
-  const rmw_node_t* node = nullptr;  // null for one of the context's own
+  const rmw_node_t* node = nullptr;  // null for the context's own subscription
   const message_type_support_callbacks_t* type = nullptr;
   eprosima::fastdds::dds::Topic* topic = nullptr;
   eprosima::fastdds::dds::ContentFilteredTopic* filtered_topic = nullptr;  // null: there is no filter
   eprosima::fastdds::dds::DataReaderQos reader_qos;
   EndpointIdentity identity{};
 
-  // Held shared by whoever uses the reader, since a filter that comes or goes makes another one.
+  // Held shared by all users of the reader, because a filter that is added or removed creates a new reader.
   std::shared_mutex reader_mutex;
 
   std::mutex loans_mutex;
@@ -60,7 +60,7 @@ inline Subscription& subscription_of(const rmw_subscription_t& handle) {
   return *static_cast<Subscription*>(static_cast<Waitable*>(handle.data));
 }
 
-// Makes the reader on the topic, or the filtered topic, and what the graph knows of it. Throws std::runtime_error.
+// Creates the reader on the topic, or on the filtered topic, and its identity for the graph. Throws std::runtime_error.
 void create_reader(Subscription& subscription);
 
 }  // namespace rmw_fastrtps

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the statuses that DDS tells, whose changes count since the last call, to those of rmw, whose changes count since
-// somebody took them.
+// Adds statuses of DDS to those of rmw. The changes of DDS count since the last call, those of rmw since the status was
+// last taken.
 #pragma once
 
 #include <fastdds/dds/core/status/IncompatibleQosStatus.hpp>
@@ -30,7 +30,7 @@ inline rmw_qos_policy_kind_t policy_kind(eprosima::fastdds::dds::QosPolicyId_t i
   }
 }
 
-// Statuses of a total and its change.
+// Statuses with a total and its change.
 template <typename DdsStatusT, typename StatusT>
 void add_total(const DdsStatusT& told, StatusT& status) {
   using CountT = decltype(status.total_count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events in general. Those of a publisher or subscription are initialised beside it.
+// Events in general. The files of publisher and subscription initialise their own events.
 #include "rmw/event.h"
 
 #include "event/status_event.hpp"

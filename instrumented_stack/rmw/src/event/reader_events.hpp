@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What DDS tells of a DataReader, as messages and events of a subscription.
+// Turns what DDS reports of a DataReader into messages and events of a subscription.
 #pragma once
 
 #include <atomic>
@@ -52,7 +52,7 @@ class ReaderEvents : public DataReaderWaitable {
     message_lost_.update([&info](rmw_message_lost_status_t& status) { add_total(info, status); });
   }
 
-  // Null for what is no event of a subscription.
+  // Null for a type that is not an event of subscriptions.
   StatusEvent* event(rmw_event_type_t type) {
     switch (type) {
       case RMW_EVENT_LIVELINESS_CHANGED:
@@ -74,7 +74,7 @@ class ReaderEvents : public DataReaderWaitable {
 
   std::size_t matched() const { return matched_; }
 
-  // For the graph, which knows the types of the others.
+  // For the graph, which knows the types of the other endpoints.
   const std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>>& incompatible_type() const {
     return incompatible_type_;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An event of a publisher or subscription that rmw_wait() can wait for: the status that DDS tells, gathered until
-// somebody takes it.
+// An event of a publisher or subscription that rmw_wait() can wait for. It gathers the status that DDS reports until
+// the status is taken.
 #pragma once
 
 #include <atomic>
@@ -16,10 +16,10 @@ class StatusEvent : public Waitable {
  public:
   bool is_ready() override { return has_occurred_.load(std::memory_order_acquire); }
 
-  // Copies the status to `status`, which points to one of this event's type, and sets its changes back.
+  // Copies the status to `status`, which must point to this event's type, and sets its changes back to 0.
   virtual void take(void* status) = 0;
 
-  // `callback` is told of every occurrence, and of a former one that was not taken.
+  // `callback` is called for every occurrence, and for earlier ones that were not taken.
   void set_callback(rmw_event_callback_t callback, const void* user_data) {
     callback_.set(callback, user_data);
     if (is_ready()) {
@@ -34,7 +34,7 @@ class StatusEvent : public Waitable {
     callback_.tell(1);
   }
 
-  std::mutex mutex_;  // of the status
+  std::mutex mutex_;  // guards the status
   std::atomic<bool> has_occurred_{false};
 
  private:
@@ -54,7 +54,7 @@ void reset_changes(StatusT& status) {
   status.total_count_change = 0;
 }
 
-// Any thread. The status counts from the beginning, whether anybody asks for it or not.
+// Any thread may call it. The status counts from the beginning, whether or not it is ever asked for.
 template <typename StatusT>
 class StatusEventOf final : public StatusEvent {
  public:

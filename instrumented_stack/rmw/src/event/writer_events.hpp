@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What DDS tells of a DataWriter, as events of a publisher.
+// Turns what DDS reports of a DataWriter into events of a publisher.
 #pragma once
 
 #include <atomic>
@@ -43,7 +43,7 @@ class WriterEvents : public eprosima::fastdds::dds::DataWriterListener {
         [&info](rmw_offered_qos_incompatible_event_status_t& status) { add_incompatible(info, status); });
   }
 
-  // Null for what is no event of a publisher.
+  // Null for a type that is not an event of publishers.
   StatusEvent* event(rmw_event_type_t type) {
     switch (type) {
       case RMW_EVENT_LIVELINESS_LOST:
@@ -63,7 +63,7 @@ class WriterEvents : public eprosima::fastdds::dds::DataWriterListener {
 
   std::size_t matched() const { return matched_; }
 
-  // For the graph, which knows the types of the others.
+  // For the graph, which knows the types of the other endpoints.
   const std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>>& incompatible_type() const {
     return incompatible_type_;
   }

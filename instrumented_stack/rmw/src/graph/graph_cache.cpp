@@ -8,7 +8,7 @@
 namespace rmw_fastrtps {
 namespace {
 
-// Far more than can end between two messages of one of them.
+// Far more participants than can end between two messages of one of them.
 constexpr std::size_t kRemembered = 1000;
 
 template <typename Nodes>
@@ -74,7 +74,8 @@ void GraphCache::add_endpoint(const Gid& gid, Endpoint endpoint) {
     if (found == endpoints_.end()) {
       enter_topic(endpoints_.emplace(gid, std::move(endpoint)).first->second);
     } else {
-      // Discovery finds the own ones, too, and tells again when something changes, which topic and type don't.
+      // Discovery also finds our own endpoints, and reports an endpoint again when it changes. Topic and type never
+      // change.
       Endpoint& known = found->second;
       known.qos = endpoint.qos;
       if (endpoint.incompatible_type) {
@@ -184,7 +185,7 @@ GraphCache::EntitiesInfo GraphCache::add_node_endpoint(const Gid& participant, c
 GraphCache::EntitiesInfo GraphCache::remove_node_endpoint(const Gid& participant, const std::string& namespace_,
                                                           const std::string& name, Kind kind, const Gid& endpoint) {
   return change_nodes(participant, [&](auto& nodes) {
-    // Nodes of one name are told apart by nothing else, so look in all of them.
+    // Nothing else distinguishes nodes of the same name, so look in all of them.
     for (NodeInfo& node : nodes) {
       if (node.node_namespace == namespace_ && node.node_name == name) {
         std::erase_if(endpoints_of(node, kind),
@@ -249,7 +250,7 @@ std::optional<GraphCache::Topics> GraphCache::topics_of_node(const std::string& 
         result.emplace();
       }
       for (const auto& message : endpoints_of(node, kind)) {
-        // An endpoint may be announced by its node before discovery has found it.
+        // A node may announce an endpoint before discovery has found it.
         const auto endpoint = endpoints_.find(gid_in(message));
         if (endpoint != endpoints_.end()) {
           (*result)[endpoint->second.topic].insert(endpoint->second.type);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is there: the participants, nodes and endpoints that discovery has found so far, and those of this process.
+// The known graph: participants, nodes and endpoints that discovery has found so far, and those of this process.
 //
-// Endpoints come from DDS discovery, nodes from the topic ros_discovery_info, in which every participant tells the
-// names of its nodes and the endpoints of each. Thread safe.
+// Endpoints come from DDS discovery. Nodes come from the topic ros_discovery_info, on which every participant announces
+// the names of its nodes and the endpoints of each. Thread safe.
 #pragma once
 
 #include <deque>
@@ -36,13 +36,13 @@ class GraphCache {
     std::string topic;
     std::string type;
     rmw_qos_profile_t qos;
-    // Of an own endpoint, else null: is told of those at the other side of the topic that have another type. Fast DDS
-    // 2.9 says nothing of them.
+    // Set for an own endpoint, else null. It is notified of endpoints at the other side of the topic that have another
+    // type. Fast DDS 2.9 does not report them.
     std::shared_ptr<StatusEventOf<rmw_incompatible_type_status_t>> incompatible_type = nullptr;
-    std::string type_hash = {};  // `RIHS01_…`; empty if it does not tell it
+    std::string type_hash = {};  // `RIHS01_…`; empty if it is not announced
   };
 
-  // One with its node. Empty names if no node is known to have it.
+  // An endpoint with its node. The names are empty if no node is known to have it.
   struct OwnedEndpoint {
     Gid gid;
     Endpoint endpoint;
@@ -59,19 +59,19 @@ class GraphCache {
     std::string enclave;
   };
 
-  // `on_change` is called after every change, under no lock.
+  // `on_change` is called after every change, without a lock held.
   explicit GraphCache(std::function<void()> on_change) : on_change_(std::move(on_change)) {}
 
   void add_participant(const Gid& gid, std::string enclave);
-  // Also forgets its nodes and endpoints.
+  // Also forgets the participant's nodes and endpoints.
   void remove_participant(const Gid& gid);
   void add_endpoint(const Gid& gid, Endpoint endpoint);
   void remove_endpoint(const Gid& gid);
-  // What a participant has told of its nodes; replaces what was known. What comes after its end is ignored: discovery
-  // and the topic don't keep any order between them.
+  // Replaces the known nodes of a participant by those it has announced. Messages after the participant's end are
+  // ignored, because discovery and the topic are not ordered.
   void update_nodes(const EntitiesInfo& info);
 
-  // Changes of a participant of this process. Each returns what that participant now has to announce.
+  // Changes of a participant of this process. Each returns the new announcement of that participant.
   EntitiesInfo add_node(const Gid& participant, const std::string& namespace_, const std::string& name);
   EntitiesInfo remove_node(const Gid& participant, const std::string& namespace_, const std::string& name);
   EntitiesInfo add_node_endpoint(const Gid& participant, const std::string& namespace_, const std::string& name,
@@ -83,7 +83,7 @@ class GraphCache {
   std::vector<Node> nodes() const;
   Topics topics() const;
   std::vector<OwnedEndpoint> endpoints(Kind kind, std::string_view topic) const;
-  // The topics that a node writes or reads; of all nodes of that name. Nothing if there is no such node.
+  // The topics that nodes of that name write or read. Empty optional if there is no such node.
   std::optional<Topics> topics_of_node(const std::string& namespace_, const std::string& name, Kind kind) const;
 
  private:
@@ -94,14 +94,14 @@ class GraphCache {
     std::vector<NodeInfo> nodes;
   };
 
-  // Null if no node is known to have it. Under the lock.
+  // Null if no node is known to have the endpoint. The lock must be held.
   const NodeInfo* owner_of(const Gid& endpoint, Kind kind) const;
 
-  // Changes the nodes of an own participant under the lock, then tells of the change.
+  // Changes the nodes of an own participant under the lock, then reports the change.
   template <typename Change>
   EntitiesInfo change_nodes(const Gid& gid, Change change);
 
-  // Under the lock:
+  // The lock must be held for these:
   std::vector<const Endpoint*> incompatible_with(const Endpoint& endpoint) const;
   void enter_topic(const Endpoint& endpoint);
   void leave_topic(const Endpoint& endpoint);
@@ -111,7 +111,7 @@ class GraphCache {
   std::map<Gid, Participant> participants_;
   std::deque<Gid> gone_;  // the last participants that were removed
   std::map<Gid, Endpoint> endpoints_;
-  std::unordered_multimap<std::string_view, const Endpoint*> endpoints_by_topic_;  // those of endpoints_
+  std::unordered_multimap<std::string_view, const Endpoint*> endpoints_by_topic_;  // points into endpoints_
 };
 
 }  // namespace rmw_fastrtps

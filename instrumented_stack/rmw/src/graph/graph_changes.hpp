@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the changes of the graph, for any number of threads that wait for one.
+// Counts the changes of the graph. Any number of threads can wait for a change.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ class GraphChanges {
     changed_.notify_all();
   }
 
-  // Nobody waits any more, now or later.
+  // Ends all waits, current and later ones.
   void end() {
     {
       const std::lock_guard lock(mutex_);
@@ -28,8 +28,8 @@ class GraphChanges {
     changed_.notify_all();
   }
 
-  // Until the number is another than `seen`, which gets it, or end(). False when the time is over; a negative one never
-  // is.
+  // Waits until the number differs from `seen`, which then gets it, or until end(). Returns false when the time is
+  // over; a negative timeout never ends.
   bool wait(std::uint64_t& seen, std::chrono::nanoseconds timeout) {
     std::unique_lock lock(mutex_);
     const auto is_over = [&] { return ended_ || number_ != seen; };

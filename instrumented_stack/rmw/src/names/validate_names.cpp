@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules for names, as in ROS 2's rmw: what DDS can carry and what other tools expect.
+// The rules for names, as in ROS 2's rmw: names that DDS can carry and other tools expect.
 #include <cctype>
 #include <cstring>
 #include <string_view>
@@ -52,7 +52,7 @@ Verdict check_full_topic_name(std::string_view name) {
   return {RMW_TOPIC_VALID, 0};
 }
 
-// A namespace has the form of a topic name, or is the root; the codes of the two are the same numbers.
+// A namespace has the form of a topic name, or is the root. Both use the same numbers for their codes.
 Verdict check_namespace(std::string_view name) {
   if (name == "/") {
     return {RMW_NAMESPACE_VALID, 0};

@@ -15,7 +15,7 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-// How many participants of one host a unicast announcement reaches.
+// A unicast announcement reaches this many participants of one host.
 constexpr std::uint32_t kLocalParticipants = 32;
 
 rtps::Locator_t peer_locator(const std::string& host) {
@@ -35,7 +35,7 @@ void restrict_to_localhost(fdds::DomainParticipantQos& qos) {
   builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
   builtin.initialPeersList.push_back(peer_locator("127.0.0.1"));
   if (qos.transport().user_transports.empty()) {
-    // A peer without a port stands for the first participants of the host, by default only four of them.
+    // A peer without a port stands for the first participants of the host. By default that would be only four.
     qos.transport().use_builtin_transports = false;
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->maxInitialPeersRange = kLocalParticipants;
@@ -61,7 +61,7 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
       return;
     default:
       if (options.static_peers_count != 0 && builtin.initialPeersList.empty()) {
-        // Explicit peers replace the multicast group that is otherwise announced to.
+        // Explicit peers replace the multicast group to which Fast DDS announces by default.
         rtps::Locator_t multicast(qos.wire_protocol().port.getMulticastPort(domain_id));
         rtps::IPLocator::setIPv4(multicast, "239.255.0.1");
         builtin.initialPeersList.push_back(multicast);

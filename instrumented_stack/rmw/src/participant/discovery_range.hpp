@@ -9,7 +9,7 @@
 
 namespace rmw_fastrtps {
 
-// Throws std::runtime_error for a peer whose name has no IPv4 address.
+// Throws std::runtime_error if the name of a peer has no IPv4 address.
 void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t domain_id,
                          eprosima::fastdds::dds::DomainParticipantQos& qos);
 

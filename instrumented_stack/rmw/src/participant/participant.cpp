@@ -32,8 +32,8 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-// What ROS 2 tells of an endpoint's type to others, so that they can see whether they mean the same definition. Nothing
-// for a type of which only the name is known.
+// The type hash that ROS 2 announces for an endpoint, so that others can see whether they use the same definition.
+// Empty if only the name of the type is known.
 std::vector<rtps::octet> type_hash_user_data(const message_type_support_callbacks_t& type) {
   if (*type.type_hash_ == '\0') {
     return {};
@@ -42,7 +42,7 @@ std::vector<rtps::octet> type_hash_user_data(const message_type_support_callback
   return {text.begin(), text.end()};
 }
 
-// The value of `<key>=…;` in the user data that participants and endpoints announce; empty without it.
+// The value of `<key>=…;` in the user data that participants and endpoints announce; empty if the key is missing.
 std::string value_in(const std::vector<rtps::octet>& user_data, const std::string& key_name) {
   const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
   const std::string prefix = key_name + "=";
@@ -80,16 +80,16 @@ struct Siblings {
 };
 
 Siblings& siblings() {
-  // Never destroyed: a context may outlive the static objects of this library.
+  // Never destroyed, because a context may outlive the static objects of this library.
   static auto* siblings = new Siblings;
   return *siblings;
 }
 
-// Makes a further participant of the process look like one of another process on this host.
+// Makes a further participant of the process look as if it belonged to another process on this host.
 //
-// Fast DDS takes two participants for neighbours in one process when the first eight bytes of their GUIDs are equal
-// (two of the vendor, two of the host, four of the process), and then lets them write into each other's memory. Release
-// 2.9 does so even after the other is gone, until it hears of its end (mended later by its pull request 5034).
+// Fast DDS compares the first eight bytes of two GUIDs: two of the vendor, two of the host, four of the process. If
+// they are equal, it assumes that both participants are in one process and lets them write into each other's memory.
+// Release 2.9 does so even after one is gone, until the other hears of its end (fixed later by its pull request 5034).
 void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, rtps::GuidPrefix_t& prefix) {
   prefix = first;
   const auto differ = [&](std::size_t byte) {
@@ -102,7 +102,7 @@ void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, r
   differ(kParticipant);
 }
 
-// A participant that others do not see yet. Null on errors.
+// Creates a participant that others do not see yet. Returns null on errors.
 fdds::DomainParticipant* create_disabled_participant(std::uint32_t domain_id, const fdds::DomainParticipantQos& qos,
                                                      fdds::DomainParticipantListener& listener) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
@@ -116,7 +116,7 @@ fdds::DomainParticipant* create_disabled_participant(std::uint32_t domain_id, co
   return participant;
 }
 
-// Null on errors.
+// Returns null on errors.
 fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::DomainParticipantQos qos,
                                             bool may_choose_ports, fdds::DomainParticipantListener& listener) {
   auto* participant = create_disabled_participant(domain_id, qos, listener);
@@ -191,16 +191,16 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   fdds::DomainParticipantQos qos = factory->get_default_participant_qos();
   const auto domain_id =
       options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : static_cast<std::uint32_t>(options.domain_id);
-  // A profile may have chosen others.
+  // A profile may have chosen other transports.
   const bool has_default_transports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
   configure_discovery(options.discovery_options, domain_id, qos);
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
   const std::string user_data = "enclave=" + enclave + ";";
-  // With the terminating null, as rmw_fastrtps_cpp sends it.
+  // Includes the terminating null, as rmw_fastrtps_cpp sends it.
   qos.user_data().data_vec(std::vector<rtps::octet>(user_data.c_str(), user_data.c_str() + user_data.size() + 1));
   qos.name(enclave);
   if (!qos_from_xml_) {
-    // Announcements of many endpoints outgrow the initial size.
+    // The announcements of many endpoints exceed the initial size.
     qos.wire_protocol().builtin.readerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.wire_protocol().builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   }
@@ -226,7 +226,7 @@ Participant::~Participant() {
     std::lock_guard lock(siblings().mutex);
     std::erase(siblings().prefixes, participant_->guid().guidPrefix);
   }
-  // No callback may come while, or after, the participant is taken apart.
+  // No callback may run while, or after, the participant is taken apart.
   participant_->set_listener(nullptr);
   participant_->delete_publisher(publisher_);
   participant_->delete_subscriber(subscriber_);
@@ -234,7 +234,7 @@ Participant::~Participant() {
 }
 
 void Participant::announce_again() {
-  // Fast DDS announces changes at once. With or without the terminating null, the user data say the same.
+  // Fast DDS announces changes at once. The user data mean the same with and without the terminating null.
   fdds::DomainParticipantQos qos = participant_->get_qos();
   std::vector<rtps::octet> user_data = qos.user_data().data_vec();
   if (!user_data.empty() && user_data.back() == '\0') {
@@ -280,8 +280,8 @@ void Participant::release_topic(fdds::Topic& topic) {
   const std::string type_name = topic.get_type_name();
   topics_.erase(found);
   participant_->delete_topic(&topic);
-  // The library with the type support may be unloaded after the last one. To ask Fast DDS each time, which would refuse
-  // while a topic uses the type, is to have it go through all endpoints.
+  // The library with the type support may be unloaded after the last topic of the type. Fast DDS refuses to unregister
+  // a type that a topic uses, but it goes through all endpoints to find out. So count the topics here.
   const auto topics = topics_of_type_.find(type_name);
   if (--topics->second == 0) {
     topics_of_type_.erase(topics);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The DDS participant of a context, with its topics, and what discovery tells it.
+// The DDS participant of a context, with its topics. It passes on what discovery reports.
 #pragma once
 
 #include <map>
@@ -23,35 +23,35 @@ class Topic;
 
 namespace rmw_fastrtps {
 
-// Constructor and functions throw std::runtime_error. Not thread safe; every endpoint must be deleted before.
+// Constructor and functions throw std::runtime_error. Not thread safe; delete every endpoint before.
 //
-// Environment, as in rmw_fastrtps_cpp: FASTRTPS_DEFAULT_PROFILES_FILE names a file of XML profiles, of which the
-// default ones and those named like a topic apply; with RMW_FASTRTPS_USE_QOS_FROM_XML=1 they also decide about memory,
-// data sharing and publish mode; RMW_FASTRTPS_PUBLICATION_MODE is SYNCHRONOUS (default), ASYNCHRONOUS or AUTO (as in
-// the profile).
+// Environment, as in rmw_fastrtps_cpp: FASTRTPS_DEFAULT_PROFILES_FILE names a file of XML profiles. Its default
+// profiles and those named like a topic apply. With RMW_FASTRTPS_USE_QOS_FROM_XML=1 they also decide memory, data
+// sharing and publish mode. RMW_FASTRTPS_PUBLICATION_MODE is SYNCHRONOUS (default), ASYNCHRONOUS or AUTO (as in the
+// profile).
 class Participant {
  public:
-  // Finds go to `graph`, which must outlive the participant.
+  // Reports what it discovers to `graph`, which must outlive the participant.
   Participant(const rmw_init_options_t& options, GraphCache& graph);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
-  // Those to whom announce_again() may be news, when it is time for it.
+  // The participants that may not know this one yet; says when announce_again() is due.
   UnansweredParticipants& unanswered() { return unanswered_; }
-  // Tells all participants of this one once more. Not from a listener of Fast DDS.
+  // Announces this participant to all others once more. Must not be called from a listener of Fast DDS.
   void announce_again();
 
   const Gid& gid() const { return gid_; }
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
-  // Topics are shared by all endpoints on them. Release as often as acquired.
+  // All endpoints on a topic share it. Release it as often as you acquired it.
   eprosima::fastdds::dds::Topic& acquire_topic(const std::string& dds_name,
                                                const message_type_support_callbacks_t& callbacks);
   void release_topic(eprosima::fastdds::dds::Topic& topic);
 
-  // What an endpoint is created with, before the ROS profile is applied.
+  // The QoS for creating an endpoint, before the ROS profile is applied.
   eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name,
                                                    const message_type_support_callbacks_t& type) const;
   eprosima::fastdds::dds::DataReaderQos reader_qos(const std::string& topic_name,

@@ -13,7 +13,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 enum class Kind : rtps::octet { kUnicast = 'U', kMulticast = 'M' };
 
-// As Fast DDS writes them: the kind, then the two bytes of the host that GUIDs have, too.
+// Fast DDS writes these locators like this: the kind, then the two bytes of the host that are also in GUIDs.
 rtps::Locator_t shared_memory(Kind kind, std::uint32_t port, const rtps::GuidPrefix_t& prefix) {
   rtps::Locator_t locator(LOCATOR_KIND_SHM, port);
   locator.address[0] = static_cast<rtps::octet>(kind);
@@ -22,7 +22,7 @@ rtps::Locator_t shared_memory(Kind kind, std::uint32_t port, const rtps::GuidPre
   return locator;
 }
 
-// Above all ports of UDP, which other processes use in shared memory, too.
+// Higher than all UDP ports, because other processes use those numbers in shared memory, too.
 std::uint32_t random_port() {
   std::random_device random;
   return std::uniform_int_distribution<std::uint32_t>(0x10000, 0x7fffffff)(random);
@@ -32,7 +32,7 @@ std::uint32_t random_port() {
 
 void choose_shared_memory_ports(std::uint32_t domain_id, const rtps::GuidPrefix_t& prefix,
                                 fdds::DomainParticipantQos& qos) {
-  const rtps::Locator_t udp;  // of every network, at the port that Fast DDS finds for it
+  const rtps::Locator_t udp;  // any network; Fast DDS finds the port
   auto& wire = qos.wire_protocol();
   auto& builtin = wire.builtin;
   if (builtin.metatrafficUnicastLocatorList.empty() && builtin.metatrafficMulticastLocatorList.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ports in shared memory that no process has had before.
+// Ports in shared memory that no earlier process used.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace rmw_fastrtps {
 
-// Gives a participant random ports in shared memory, where `qos` leaves the choice to Fast DDS. Everything else stays
-// as Fast DDS chooses it; the UDP ports are the well-known ones. `prefix` is that of any participant of this host.
+// Gives a participant random ports in shared memory if `qos` leaves the choice to Fast DDS. Fast DDS chooses the rest
+// as usual; the UDP ports are the well-known ones. `prefix` is that of any participant of this host.
 //
-// Fast DDS numbers the ports of shared memory like those of UDP, so a process in the place of one that was killed has
-// the same. It unlinks what its predecessor has left and makes the ports anew, but release 2.9 does not tell those who
-// have the old memory mapped (its pull request 4728 does): they go on writing there until a watchdog finds that nobody
-// reads. Discovery took 3 to 5 s that way, and messages of best effort were lost.
+// Fast DDS numbers shared memory ports like UDP ports. So a process that replaces a killed one gets the same ports. It
+// unlinks its predecessor's ports and makes new ones. But release 2.9 does not tell processes that have the old memory
+// mapped (its pull request 4728 does). They go on writing there until a watchdog finds that nobody reads. That delayed
+// discovery by 3 to 5 s and lost best-effort messages.
 void choose_shared_memory_ports(std::uint32_t domain_id, const eprosima::fastrtps::rtps::GuidPrefix_t& prefix,
                                 eprosima::fastdds::dds::DomainParticipantQos& qos);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Participants that were discovered and may not have discovered us.
+// Participants that we discovered and that may not have discovered us.
 //
-// Fast DDS 2.9 announces a participant before it listens: who is quick to answer a new one is not heard. As nobody
-// answers the same participant twice, the newcomer would learn of the others at their next periodic announcement, up to
-// 3 s later. It has heard of us when it tells its endpoints, which it does without delay; as long as it does not, we
-// announce ourselves again.
+// Fast DDS 2.9 announces a participant before it listens. So it misses a quick answer to its announcement. A
+// participant is answered only once: the newcomer would discover the others only at their next periodic announcement,
+// up to 3 s later. A newcomer that has heard of us announces its endpoints without delay. Until it does, we repeat our
+// announcement.
 #pragma once
 
 #include <chrono>
@@ -23,18 +23,18 @@ class UnansweredParticipants {
   using TimePoint = std::chrono::steady_clock::time_point;
   using Duration = std::chrono::steady_clock::duration;
 
-  // Patience with a new participant; doubled for each announcement, of which there are at most kAnnouncements, up to
-  // the next periodic one. Who then is still silent has no endpoints.
+  // How long to wait for a new participant. The time doubles with each announcement. After kAnnouncements of them comes
+  // the next periodic one. A participant that is still silent then has no endpoints.
   static constexpr Duration kPatience = std::chrono::milliseconds(100);
   static constexpr int kAnnouncements = 5;
 
   void discovered(const Gid& participant, TimePoint now);
-  // It has told an endpoint, or has gone. `gid` is the participant's or that of any of its endpoints.
+  // It has announced an endpoint, or is gone. `gid` is the participant's or that of any of its endpoints.
   void settled(const Gid& gid);
 
-  // When to announce next, if nothing changes.
+  // The time of the next announcement, if nothing changes.
   std::optional<TimePoint> next() const;
-  // Whether to announce now; each time is told once.
+  // Whether to announce now. Returns true once for each time.
   bool take_due(TimePoint now);
 
   // Triggered when next() may have become earlier.

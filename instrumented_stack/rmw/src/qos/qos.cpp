@@ -106,7 +106,7 @@ void apply(const rmw_qos_profile_t& profile, Qos& qos) {
   }
 }
 
-// What endpoints announce, and know of themselves.
+// The profile from the policies that endpoints announce, and that they know of themselves.
 rmw_qos_profile_t profile_from(const fdds::ReliabilityQosPolicy& reliability,
                                const fdds::DurabilityQosPolicy& durability, const fdds::LivelinessQosPolicy& liveliness,
                                const fdds::DeadlineQosPolicy& deadline) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr rmw_time_t kUnspecified = RMW_DURATION_UNSPECIFIED;
 
-// Collects sentences, errors before warnings in the text.
+// Collects sentences; the text has errors before warnings.
 struct Findings {
   std::string errors;
   std::string warnings;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Questions about the graph, answered from the cache.
+// Answers questions about the graph from the cache.
 #include <new>
 #include <string>
 #include <string_view>

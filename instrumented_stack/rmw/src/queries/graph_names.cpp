@@ -12,7 +12,7 @@ namespace rmw_fastrtps {
 
 namespace {
 
-// The DDS topics that have a name in ROS, by that name.
+// The DDS topics that have a ROS name, by that name.
 GraphCache::Topics ros_names(const GraphCache::Topics& dds_names,
                              std::optional<std::string> (*demangled_name)(std::string_view),
                              std::string (*demangled_type)(std::string_view)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the graph on their way to those who asked: from DDS to ROS, and into C structures.
+// Converts names of the graph from DDS to ROS, and into C structures for the caller.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace rmw_fastrtps {
 
-// The DDS topics that are ROS topics, or belong to services, by their names and types in ROS.
+// The DDS topics that are ROS topics or belong to services, with their ROS names and types.
 GraphCache::Topics ros_topics(const GraphCache::Topics& dds_topics);
 GraphCache::Topics ros_services(const GraphCache::Topics& dds_topics);
 

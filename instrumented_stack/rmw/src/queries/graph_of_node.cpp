@@ -14,7 +14,7 @@ using rmw_fastrtps::GraphCache;
 
 using ToRos = GraphCache::Topics (*)(const GraphCache::Topics&);
 
-// What the node has of a kind, of which `to_ros` takes what is asked for. Null: all of it, with the names of DDS.
+// The node's topics of a kind. `to_ros` selects and renames them; if it is null, all of them keep their DDS names.
 rmw_ret_t names_of_node(const rmw_node_t* node, rcutils_allocator_t* allocator, const char* node_name,
                         const char* node_namespace, GraphCache::Kind kind, ToRos to_ros,
                         rmw_names_and_types_t* result) try {
@@ -34,8 +34,8 @@ rmw_ret_t names_of_node(const rmw_node_t* node, rcutils_allocator_t* allocator, 
   return RMW_RET_BAD_ALLOC;
 }
 
-// A service reads `rq/…Request` and writes `rr/…Reply`, a client the other way round: by the topics that it reads, it
-// is the one or the other.
+// A service reads `rq/…Request` and writes `rr/…Reply`; a client does the opposite. So the topics that a node reads
+// tell services from clients.
 template <char kPrefix>
 GraphCache::Topics services_with(const GraphCache::Topics& dds_topics) {
   GraphCache::Topics result;

@@ -40,7 +40,7 @@ struct Client final : ServiceChannel {
 
   rmw_client_t handle{};
   GuardCondition& graph_changed;
-  // Matched endpoints of services.
+  // Matched endpoints that belong to services.
   std::atomic<int32_t> response_writers{0};
   std::atomic<int32_t> request_readers{0};
 };
@@ -111,7 +111,7 @@ rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* requ
   IncomingMessage incoming{ros_response, nullptr};
   fdds::SampleInfo sample;
   bool valid = false;
-  // Invalid samples tell of the end of a service, not of a response.
+  // An invalid sample announces the end of a service. It is no response.
   while (!valid && owned.take_next(&incoming, sample)) {
     valid = sample.valid_data;
   }
@@ -154,7 +154,7 @@ rmw_ret_t rmw_service_server_is_available(const rmw_node_t* node, const rmw_clie
   RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(is_available, RMW_RET_INVALID_ARGUMENT);
   const Client& owned = client_of(*client);
-  // Different numbers: a service is matched by half, or is about to go.
+  // Different numbers: a service is only half matched, or is about to go.
   const int32_t readers = owned.request_readers;
   *is_available = readers > 0 && readers == owned.response_writers;
   return RMW_RET_OK;

@@ -26,7 +26,7 @@ using rmw_fastrtps::Waitable;
 
 namespace {
 
-// How long a response waits for discovery to find the reader of a client whose request is here already.
+// A response waits this long for discovery to find the reader of a client whose request has already arrived.
 constexpr std::chrono::milliseconds kDiscoveryPatience{100};
 
 struct Service final : ServiceChannel {
@@ -96,7 +96,7 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
   *taken = false;
   IncomingMessage incoming{ros_request, nullptr};
   fdds::SampleInfo sample;
-  // Invalid samples tell of the end of a client, not of a request.
+  // An invalid sample announces the end of a client. It is no request.
   while (!*taken && owned.take_next(&incoming, sample)) {
     *taken = sample.valid_data;
   }
@@ -104,7 +104,7 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
   if (*taken) {
     const auto writer = rmw_fastrtps::to_gid(sample.sample_identity.writer_guid());
     const rtps::GUID_t& reader_guid = sample.related_sample_identity.writer_guid();
-    // A client that names no reader of its own (not one of ROS 2) is known by its writer.
+    // A client that names no reader of its own (it is not a ROS 2 client) is identified by its writer.
     const auto client = reader_guid == rtps::GUID_t::unknown() ? writer : rmw_fastrtps::to_gid(reader_guid);
     std::copy(client.begin(), client.end(), id.writer_guid);
     id.sequence_number = sample.sample_identity.sequence_number().to64long();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two topics of a service as one end sees them: a reader of what comes, a writer of what goes.
+// The two topics of a service as one end sees them: a reader for incoming messages, a writer for outgoing ones.
 #pragma once
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -16,13 +16,13 @@ namespace rmw_fastrtps {
 
 class Participant;
 
-// Services and clients derive from it for their reactions to matched endpoints. Listeners are called between open() and
-// close(), so neither is left to constructor and destructor.
+// Services and clients derive from it to react to matched endpoints. Listeners are called between open() and close().
+// That is why constructor and destructor do not open and close.
 class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds::DataWriterListener {
  public:
   enum class End { kService, kClient };
 
-  // Enters the two endpoints into the graph of the node, too. The caller holds the lock of the node's context. Throws
+  // Also enters the two endpoints into the graph of the node. The caller holds the lock of the node's context. Throws
   // std::runtime_error, and is then closed.
   void open(End end, const rmw_node_t* node, const rosidl_service_type_support_t& type_support,
             const std::string& service_name, const rmw_qos_profile_t& profile);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clients that a service has heard of: whether a response to one would arrive.
+// The clients that a service knows: whether a response to one would arrive.
 #pragma once
 
 #include <chrono>
@@ -12,15 +12,15 @@
 
 namespace rmw_fastrtps {
 
-// A client has two endpoints, of which discovery tells in any order: a request can come before its reader of responses
-// is matched, and a response to a reader that is not matched would be lost. Thread safe.
+// A client has two endpoints, which discovery reports in any order. A request can come before the client's response
+// reader is matched, and a response to an unmatched reader would be lost. Thread safe.
 class ServiceClients {
  public:
   enum class Presence { kMatched, kUnmatched, kGone };
 
-  // A request came from `writer`, to be answered to `reader`.
+  // A request came from `writer`; its response goes to `reader`.
   void request_taken(const Gid& reader, const Gid& writer);
-  // What discovery tells.
+  // Reports from discovery.
   void reader_matched(const Gid& reader);
   void reader_unmatched(const Gid& reader);
   void writer_unmatched(const Gid& writer);
@@ -32,7 +32,7 @@ class ServiceClients {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::set<Gid> matched_readers_;
-  std::map<Gid, Gid> writers_;  // by the reader of the same client
+  std::map<Gid, Gid> writers_;  // key: the reader of the same client
 };
 
 }  // namespace rmw_fastrtps

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between the GUID of Fast DDS and ours.
+// Converts between the GUID of Fast DDS and ours.
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>

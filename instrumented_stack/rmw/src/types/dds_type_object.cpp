@@ -19,7 +19,7 @@ namespace rmw_fastrtps {
 
 namespace {
 
-// A type_id of type_description_interfaces/msg/FieldType is one of these plus what there is many of.
+// A type_id of type_description_interfaces/msg/FieldType is one of these, plus an offset for arrays and sequences.
 enum Element : unsigned {
   kNested = 1,
   kInt8,
@@ -42,7 +42,7 @@ enum Element : unsigned {
 enum Many : unsigned { kOne, kArray, kBoundedSequence, kUnboundedSequence };
 constexpr unsigned kManyFactor = 48;
 
-// Fast DDS takes 0 for its own small defaults.
+// 0 would mean Fast DDS's own small defaults.
 constexpr std::uint32_t kUnbounded = std::numeric_limits<std::int32_t>::max();
 
 // std_msgs/msg/Header → std_msgs::msg::dds_::Header_
@@ -135,7 +135,7 @@ void register_struct(const rosidl_type_description_t& description) {
       register_struct(*description.fields[i].nested_type);
     }
   }
-  // In both forms: filters read the complete one, the sequence of such a struct is found by the minimal one.
+  // Registers both forms: filters read the complete one, and a sequence of such structs is found by the minimal one.
   const types::DynamicType_ptr type = struct_of(description);
   for (const bool complete : {false, true}) {
     types::TypeObject object;

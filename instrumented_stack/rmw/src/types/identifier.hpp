@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks handles as made by this implementation; compared by address.
+// Marks the handles that this implementation made. It is compared by address.
 #pragma once
 
 namespace rmw_fastrtps {
@@ -8,7 +8,7 @@ extern const char* const kIdentifier;
 
 }  // namespace rmw_fastrtps
 
-// Leaves a message and returns from the calling function when a handle is null or of another implementation.
+// Leaves a message and returns from the calling function if a handle is null or belongs to another implementation.
 #define RMW_CHECK_HANDLE(handle, error_return)                                         \
   do {                                                                                 \
     if ((handle) == nullptr) {                                                         \

@@ -20,7 +20,7 @@ using eprosima::fastrtps::rtps::SerializedPayload_t;
 
 constexpr std::uint32_t kEncapsulationSize = 4;
 
-// Bytes written with the encapsulation header, 0 if the buffer is too small.
+// The number of bytes written with the encapsulation header; 0 if the buffer is too small.
 [[gnu::hot]] std::uint32_t to_cdr(const message_type_support_callbacks_t& callbacks, const void* message, void* buffer,
                                   std::size_t capacity) {
   FastBuffer memory(static_cast<char*>(buffer), capacity);
@@ -35,7 +35,7 @@ constexpr std::uint32_t kEncapsulationSize = 4;
 
 [[gnu::hot]] bool from_cdr(const message_type_support_callbacks_t& callbacks, const void* buffer, std::size_t length,
                            void* message) {
-  // Fast CDR has one buffer type for both directions; reading does not write.
+  // Fast CDR has one buffer type for both directions. Reading does not write to it.
   FastBuffer memory(static_cast<char*>(const_cast<void*>(buffer)), length);
   Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
   try {
@@ -63,7 +63,7 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks) : ca
   const std::size_t size = callbacks.max_serialized_size(bounds);
   is_bounded_ = bounds != ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
   is_plain_ = bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
-  // Submessages of RTPS are aligned to four bytes; a plain message in memory may end with padding.
+  // Submessages of RTPS are aligned to four bytes. A plain message in memory may end with padding.
   const std::uint32_t alignment = is_plain_ ? 8 : 4;
   const std::uint32_t rounded = (static_cast<std::uint32_t>(size) + alignment - 1) / alignment * alignment;
   m_typeSize = kEncapsulationSize + rounded;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How Fast DDS serializes ROS messages: an adapter from its TopicDataType to the type support callbacks.
+// Serializes ROS messages for Fast DDS: an adapter from its TopicDataType to the type support callbacks.
 #pragma once
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
@@ -31,10 +31,11 @@ class MessageType final : public eprosima::fastdds::dds::TopicDataType {
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override;
   std::function<uint32_t()> getSerializedSizeProvider(void* data) override;
   bool is_bounded() const override { return is_bounded_; }
-  // Whether messages can be made where they are sent from: a write may then be given such a message as `data`.
+  // Whether messages can be created in the memory that they are sent from. A write may then take such a message as
+  // `data`.
   bool is_plain() const override { return is_plain_; }
 
-  // Samples are never made by Fast DDS: takes always bring their own memory.
+  // Fast DDS never creates samples: takes always bring their own memory.
   void* createData() override { return nullptr; }
   void deleteData(void*) override {}
 
@@ -53,7 +54,7 @@ bool is_plain(const message_type_support_callbacks_t& callbacks);
 // `std_msgs::msg::dds_::String_`
 std::string dds_type_name(const message_type_support_callbacks_t& callbacks);
 
-// The callbacks of a type support. Throws std::runtime_error if it is of another kind.
+// The callbacks of a type support. Throws std::runtime_error if the type support is of another kind.
 const message_type_support_callbacks_t& callbacks_of(const rosidl_message_type_support_t* type_support);
 
 }  // namespace rmw_fastrtps
