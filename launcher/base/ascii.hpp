@@ -7,7 +7,7 @@
 
 namespace launch {
 
-// Without the blanks at both ends.
+// The text without the blanks at both ends.
 inline std::string_view trim(std::string_view text, std::string_view blanks = " \t\n\r") {
   const std::size_t first = text.find_first_not_of(blanks);
   return first == std::string_view::npos ? std::string_view()

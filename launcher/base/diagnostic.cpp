@@ -14,7 +14,7 @@ namespace launch {
 
 namespace {
 
-// A file that includes itself has a chain of hundreds.
+// The include chain shows at most this many files: a file that includes itself has a chain of hundreds.
 constexpr int kShownIncludes = 8;
 
 // A character cell of the shown line.
@@ -28,7 +28,7 @@ constexpr std::size_t kTabWidth = 4;
 constexpr std::size_t kMaximumWidth = 100;       // columns of source text shown
 constexpr std::size_t kContextBeforeCaret = 40;  // columns kept before the caret when a line is cut
 constexpr std::string_view kEllipsis = "...";
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD, for bytes that are no UTF-8
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD, for bytes that are not UTF-8
 
 struct Style {
   std::string_view place, severity, message, gutter, caret, help, reset;
@@ -44,7 +44,7 @@ Style style_of(Severity severity, bool colour) {
           "\x1b[0m"};
 }
 
-// Columns that a terminal gives to a character; the blocks are those of Unicode's East Asian Width "W" and "F".
+// The number of columns that a terminal uses for a character. The ranges are Unicode's East Asian Width "W" and "F".
 std::size_t display_width(char32_t c) {
   if (c >= 0x300 && c <= 0x36F) {
     return 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The variables of a process's environment.
 //
-// Copies share their variables until one of them is changed: a launch keeps the environment of each of its scopes and
-// processes, nearly all of which are alike. Not for several threads at once, not even by copies.
+// Copies share their variables until one copy is changed, because a launch keeps the environment of each of its scopes
+// and processes, and nearly all of them are alike. Not thread-safe: even two copies must not be used by two threads at
+// once.
 #pragma once
 
 #include <initializer_list>
@@ -40,7 +41,7 @@ class Environment {
 
   std::string& operator[](const std::string& name) { return own()[name]; }
   void insert_or_assign(const std::string& name, std::string value) { own().insert_or_assign(name, std::move(value)); }
-  // Unless there is one of that name.
+  // Adds the variable unless there is one of that name.
   void emplace(const std::string& name, std::string value) {
     if (!contains(name)) {
       own().emplace(name, std::move(value));
@@ -59,7 +60,8 @@ class Environment {
     return variables_ != other.variables_ && variables() < other.variables();
   }
 
-  // The variables to be changed at once: a later copy of this environment would share the changes.
+  // The variables of this environment alone. They must be changed at once: a later copy of this environment would share
+  // the changes.
   Variables& own() {
     if (variables_ == nullptr) {
       variables_ = std::make_shared<Variables>();

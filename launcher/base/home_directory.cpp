@@ -11,7 +11,8 @@
 namespace launch {
 namespace {
 
-// An entry with a long list of members or a network directory may need more; getpwuid_r says so by ERANGE.
+// The size to try first. An entry with a long list of members or a network directory may need more: getpwuid_r then
+// returns ERANGE.
 constexpr std::size_t kUsualEntry = 1024;  // bytes
 constexpr std::size_t kLongestEntry = 1024 * 1024;
 

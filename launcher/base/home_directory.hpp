@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The home directory of the user, and what ROS 2 keeps in it.
 //
-// Each function takes the environment that counts: that of a launch is not that of the launcher, because <set_env> may
-// have changed it. A variable that is set to "" counts as not set, as in rcutils. For several threads at once.
+// Each function takes an environment, because the environment of a launch differs from the launcher's own when
+// <set_env> has changed it. A variable that is set to "" counts as not set, as in rcutils. Several threads may call
+// these functions at once.
 #pragma once
 
 #include <map>
@@ -13,7 +14,7 @@ namespace launch {
 // $HOME of `environment`, else the directory that the password database has for the user of this process, else "/".
 // Never "" and never a directory that everybody can write to, such as /tmp.
 std::string home_directory(const std::map<std::string, std::string>& environment);
-// With the environment of this process.
+// The same with the environment of this process.
 std::string home_directory();
 
 // `path` with its first "~" replaced when it is "~" or begins with "~/". "~name" stays: rcutils does not know other

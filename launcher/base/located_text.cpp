@@ -40,7 +40,7 @@ SourceRange LocatedText::range(std::size_t position, std::size_t length) const {
   if (!range_) {
     return {};
   }
-  // Where byte `at` of the text stands: the raw bytes of itself, or of the whole run it was decoded from.
+  // The raw bytes of the file for byte `at` of the text: its own byte, or the whole run that it was decoded from.
   const auto place = [this](std::size_t at) -> std::pair<std::uint32_t, std::uint32_t> {
     if (at >= text_.size()) {
       return {range_.end, range_.end};

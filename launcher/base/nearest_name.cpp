@@ -35,7 +35,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  // A third of the name may differ: enough for a slip of the fingers, too little for an unrelated word.
+  // A third of the name may differ: enough for a typing error, too little for an unrelated word.
   const std::size_t allowed = std::max<std::size_t>(1, name.size() / 3);
   const std::string wanted = lower(name);
   const std::string* nearest = nullptr;

@@ -8,9 +8,9 @@
 
 namespace launch {
 
-// The candidate with the fewest slips of the fingers between it and `name`: letters that are wrong, missing, too many
-// or swapped with their neighbours; capitals do not count. "" when none is near enough to be meant. The first of
-// several equally near ones.
+// The candidate with the fewest typing errors between it and `name`: letters that are wrong, missing, too many or
+// swapped with their neighbours. Capitals do not count. When several are equally near, the first one is returned. ""
+// when none is near enough.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace launch

@@ -6,8 +6,8 @@
 
 namespace launch {
 
-// A copy of the variables as they are now. Of a name that stands twice the first one counts, as for getenv(3); a text
-// without "=" is no variable. No other thread may change the environment meanwhile.
+// A copy of the variables as they are now. When a name appears twice, the first entry counts, as for getenv(3); an
+// entry without "=" is skipped. No other thread may change the environment meanwhile.
 Environment own_environment();
 
 }  // namespace launch

@@ -15,8 +15,8 @@ namespace launch {
 // /proc cannot be read, so that own_prefix() + "/share" is an absolute path in any case.
 std::string own_prefix();
 
-// The path of `name` in this program's lib/launch, where the programs and libraries are that nobody starts by hand. It
-// is not checked that there is such a file.
+// The path of `name` in this program's lib/launch, which holds the programs and libraries that nobody starts by hand.
+// The function does not check that the file exists.
 std::string own_library_file(std::string_view name);
 
 }  // namespace launch

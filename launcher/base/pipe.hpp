@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pipe whose ends are closed in every program that this process starts, but for the copies that a child is given.
+// A pipe whose ends are close-on-exec: a program that this process starts has only the copies that it is given.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct Pipe {
 // Throws std::system_error.
 Pipe make_pipe();
 
-// Waits for the end of what comes from a pipe or a file and returns it. It ends when the last writer has closed its
-// end: the own copy has to be closed before.
+// Reads a pipe or a file to its end and returns the text. A pipe ends when the last writer has closed its end, so the
+// caller has to close its own copy of the write end before.
 std::string read_to_end(const UniqueFd& fd);
 
 }  // namespace launch

@@ -14,14 +14,14 @@
 namespace launch {
 namespace {
 
-// A process that was killed while it wrote may have left some behind.
+// How many names to try. A process that was killed while it wrote may have left some files behind.
 constexpr int kMostNames = 100;
 
 [[noreturn]] void throw_error(int error) {
   throw std::system_error(error, std::generic_category());
 }
 
-// A new file beside `name`. Sets `name` to its own.
+// Makes a new file beside `name` and sets `name` to the name of the new file.
 UniqueFd create_beside(const UniqueFd& directory, std::string& name) {
   const std::string begin = "." + name + "." + std::to_string(::getpid()) + ".";
   for (int i = 0; i < kMostNames; ++i) {
@@ -37,7 +37,7 @@ UniqueFd create_beside(const UniqueFd& directory, std::string& name) {
   throw_error(EEXIST);
 }
 
-// The number of the error, 0 for none.
+// Returns the error number, 0 for none.
 int write_all(UniqueFd file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(file.get(), text.data(), text.size());
@@ -47,7 +47,7 @@ int write_all(UniqueFd file, std::string_view text) {
       return errno;
     }
   }
-  // Some file systems, such as NFS, tell only now that the text has no room.
+  // Some file systems, such as NFS, report only on close that there is no room.
   return ::close(file.release()) == 0 ? 0 : errno;
 }
 
@@ -65,7 +65,7 @@ UniqueFd open_or_make(const UniqueFd& directory, const char* name) {
   }
   UniqueFd opened(::openat(directory.get(), name, kDirectory));
   if (!opened && errno == ENOENT) {
-    // Another process may be faster.
+    // Another process may have made the directory meanwhile.
     if (::mkdirat(directory.get(), name, 0777) != 0 && errno != EEXIST) {
       throw_error(errno);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a file as a whole at a place that others can guess.
 //
-// Somebody else may have put a link there, so that a program of root's writes through it into a file of root's. The
-// text therefore goes into a new file beside the place, which is then renamed: a link at either place is never
-// followed. Readers see the file as it was before or the whole new one, also when two processes write it at once.
+// Somebody else may have put a link at the place, and a program that root runs would write through it into a file of
+// root's. The text therefore goes into a new file beside the place, which is then renamed. A link is never followed at
+// either name. Readers see the old file or the whole new one, even when two processes write it at once.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ void replace_file(const std::string& path, std::string_view text);
 // The same for the file `name` in an open directory.
 void replace_file(const UniqueFd& directory, const std::string& name, std::string_view text);
 
-// Opens a directory, for replace_file(); what does not exist of it is made. On the way to it a link is followed only if
-// this user or root owns it. Throws std::system_error.
+// Opens a directory for replace_file() and makes the parts of the path that do not exist. A link on the way is followed
+// only if this user or root owns it. Throws std::system_error.
 UniqueFd open_or_make_directory(const std::string& path);
 
 }  // namespace launch

@@ -61,7 +61,7 @@ std::string to_string(const SourceRange& range);
 class LocatedText {
  public:
   LocatedText() = default;
-  // Text that stands in the file as it is (or comes from no file).
+  // Text that is in the file exactly as it is here (or comes from no file).
   explicit LocatedText(std::string text, SourceRange range = {});
 
   // Appends decoded bytes that came from [raw_begin, raw_end) of the file.
@@ -73,8 +73,9 @@ class LocatedText {
   SourceRange range(std::size_t position, std::size_t length) const;
 
  private:
-  // Decoded bytes from `decoded` on stand in the file from `raw` on, up to the next anchor. `verbatim` is false where
-  // one decoded run stands for a longer or shorter raw run (an entity, an escape). No anchors: all of it is verbatim.
+  // Decoded bytes from `decoded` on come from the file's bytes from `raw` on, up to the next anchor. `verbatim` is
+  // false where one decoded run stands for a longer or shorter raw run (an entity, an escape). Without anchors all of
+  // the text is verbatim.
   struct Anchor {
     std::uint32_t decoded;
     std::uint32_t raw_begin;

@@ -8,10 +8,10 @@
 //   });
 //   const int status = wait_for(pid);
 //
-// What is left out stays as it is in this process: descriptors, environment, directory, process group, signals. Threads
-// do no harm: posix_spawn stops the calling thread alone until the program runs, where fork(2) would copy a process in
-// which other threads may hold locks. The child shares the memory until then, so a start costs the same in a large
-// process as in a small one.
+// Everything that is left out stays as in this process: descriptors, environment, directory, process group, signals.
+// Threads do no harm: posix_spawn stops only the calling thread until the program runs, whereas fork(2) would copy a
+// process in which other threads may hold locks. The child shares the memory until then, so a start costs the same in a
+// large process as in a small one.
 #pragma once
 
 #include <sys/types.h>
@@ -24,36 +24,36 @@
 
 namespace launch {
 
-// In place of a descriptor of this process.
+// Stands in place of a descriptor of this process for /dev/null.
 constexpr int kDevNull = -2;
 
 // A descriptor that the child gets.
 struct ChildDescriptor {
   int number;  // in the child
-  // The descriptor of this process that it is a copy of, close-on-exec or not, or kDevNull. It is greater than the
-  // numbers of the descriptors before it in the list, which would be in its place otherwise.
+  // The descriptor of this process to copy, close-on-exec or not, or kDevNull. It must be greater than the numbers of
+  // the descriptors before it in the list: one of them would have replaced it otherwise.
   int source;
 };
 
 enum class ChildGroup {
   kOurs,
-  kOwn,        // a process group that it leads: a Ctrl-C on the terminal is not for it
-  kOwnSession  // has no terminal either, so a hang-up of the terminal does not reach it
+  kOwn,        // the child leads a new process group, so a Ctrl-C on the terminal does not reach it
+  kOwnSession  // it also has no terminal, so a hang-up of the terminal does not reach it
 };
 
 enum class ChildSignals {
   kInherited,
   kNoneBlocked,
   kFresh,      // none blocked and none ignored, as a program expects it
-  kAllBlocked  // until it has chosen which ones it ignores
+  kAllBlocked  // until the child has chosen which signals it ignores
 };
 
 struct ChildProgram {
-  std::string program;            // a path; a name that is looked for in PATH with `search_path`
-  std::vector<std::string> argv;  // the name by which the program is called comes first
+  std::string program;            // a path, or with `search_path` a name to look for in PATH
+  std::vector<std::string> argv;  // the first word is the name by which the program is called
   bool search_path = false;
-  const std::map<std::string, std::string>* environment = nullptr;  // nullptr: that of this process
-  std::string directory;                                            // "": that of this process
+  const std::map<std::string, std::string>* environment = nullptr;  // nullptr: the environment of this process
+  std::string directory;                                            // "": the directory of this process
   std::vector<ChildDescriptor> descriptors;
   bool only_standard_descriptors = false;  // closes all others from 3 on, even those that are not close-on-exec
   ChildGroup group = ChildGroup::kOurs;
@@ -67,14 +67,14 @@ class SpawnError : public std::system_error {
   SpawnError(int error, const std::string& program);
 };
 
-// Its process number. When this returns the new program runs already: errors of exec, too, are thrown as SpawnError.
-// The caller waits for the process.
+// Returns the process id. The new program already runs then, so errors of exec are thrown as SpawnError, too. The
+// caller waits for the process.
 pid_t spawn(const ChildProgram& child);
 
 // Waits until the process has ended and reaps it. Its status is to be read with WIFEXITED and others, see waitpid(2).
 int wait_for(pid_t pid);
 
-// Waits until the process has ended, for `limit` at most; false when it still runs then. A child is not reaped yet.
+// Waits at most `limit` for the end of the process; false when it still runs then. Does not reap a child.
 bool ends_within(pid_t pid, std::chrono::milliseconds limit);
 
 }  // namespace launch

@@ -14,7 +14,8 @@ struct Sequence {
   std::size_t length;
 };
 
-// The character, or the maximal part that is none, at the start of non-empty `bytes` (Unicode 15, table 3-7).
+// The character at the start of non-empty `bytes`, or the maximal part there that is no character (Unicode 15, table
+// 3-7).
 Sequence first_sequence(std::string_view bytes) {
   const auto at = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
   const std::uint8_t lead = at(0);

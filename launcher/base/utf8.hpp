@@ -21,11 +21,12 @@ void append_utf8(std::string& text, char32_t character);
 
 bool is_utf8(std::string_view bytes);
 
-// Appends the bytes with U+FFFD for each part that is not UTF-8: one for each longest start of a character that does
-// not go on (Unicode 15, section 3.9, "substitution of maximal subparts"). Python's errors="replace" does the same.
+// Appends the bytes with U+FFFD in place of each part that is not UTF-8. Such a part is the longest start of a
+// character that does not go on (Unicode 15, section 3.9, "substitution of maximal subparts"). Python's
+// errors="replace" does the same.
 void append_as_utf8(std::string& to, std::string_view bytes);
 
-// How many bytes at the end are the start of a character whose rest may still come (0 to 3).
+// Number of bytes at the end that begin a character whose rest may still come (0 to 3).
 std::size_t incomplete_utf8_suffix(std::string_view bytes);
 
 }  // namespace launch
