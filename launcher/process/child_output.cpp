@@ -47,7 +47,7 @@ const OutputTargets& ChildOutput::targets(const Stream& stream) const {
 }
 
 void ChildOutput::read(Stream& stream, std::size_t limit) {
-  std::array<char, kReadSize> buffer;  // not initialised: 64 KiB for each line of a child would be felt
+  std::array<char, kReadSize> buffer;  // not initialised: clearing 64 KiB for each line would take noticeable time
   for (std::size_t total = 0; total < limit;) {
     const ssize_t size = ::read(stream.fd.get(), buffer.data(), buffer.size());
     if (size > 0) {
@@ -57,7 +57,7 @@ void ChildOutput::read(Stream& stream, std::size_t limit) {
     } else if (size < 0 && errno == EAGAIN) {
       return;
     } else if (size == 0 || errno != EINTR) {
-      close(stream);  // the end, which is an error (EIO) for a pseudo-terminal
+      close(stream);  // end of the stream; a pseudo-terminal reports it as the error EIO
       return;
     }
   }

@@ -15,7 +15,7 @@ namespace launch {
 
 class ChildOutput {
  public:
-  // Whose output it is. The references must stay valid.
+  // The process that writes the output. The references must stay valid.
   struct Owner {
     ProcessId id;
     const std::string& label;
@@ -29,9 +29,9 @@ class ChildOutput {
   void follow(Process& process, EventLoop::Callback on_end);
   bool is_open() const { return streams_[0].fd || streams_[1].fd; }
 
-  // Reads what is there. Bounded, because descendants of an ended child may go on writing.
+  // Reads what is there, up to a bound, because descendants of an ended child may go on writing.
   void drain();
-  // Stops following; a begun line is written.
+  // Stops following, and writes a line that has begun.
   void close();
 
  private:

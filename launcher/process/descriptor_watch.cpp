@@ -13,7 +13,7 @@ namespace launch {
 namespace {
 
 constexpr int kBatch = 64;
-// An exit is told once. EPOLLONESHOT keeps the registration, so that it can be armed again.
+// An exit is reported once. EPOLLONESHOT keeps the registration, so that it can be armed again.
 constexpr std::uint32_t kReadable = EPOLLIN;
 constexpr std::uint32_t kExit = EPOLLIN | EPOLLONESHOT;
 
@@ -29,7 +29,7 @@ class DescriptorWatch::Registration : public std::enable_shared_from_this<Regist
       : epoll_(std::move(epoll)), fd_(fd), events_(events), callback_(std::move(callback)) {
     change(EPOLL_CTL_ADD);
   }
-  // No later callback, also when the descriptor is already in a batch.
+  // No callback comes after this, even if the descriptor is already in a batch.
   void cancel() {
     cancelled_ = true;
     ::epoll_ctl(epoll_->get(), EPOLL_CTL_DEL, fd_, nullptr);
@@ -94,7 +94,7 @@ void DescriptorWatch::run_batch(const std::function<void(const EventLoop::Callba
     }
     fail_to_watch("cannot wait for descriptors");
   }
-  // Owned before the first callback, which may cancel any of them.
+  // The batch owns them before the first callback, which may cancel any of them.
   std::vector<std::shared_ptr<Registration>> ready;
   ready.reserve(static_cast<std::size_t>(count));
   for (const bool exits : {false, true}) {

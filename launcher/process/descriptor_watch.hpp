@@ -2,9 +2,9 @@
 // Readiness of many descriptors, batch by batch: one epoll(7) instance that stands in the event loop as one source.
 //
 // sd-event dispatches one source for each epoll_wait(), asks for all ready descriptors each time, and keeps no order
-// among those found at once. With hundreds of children that end together this was a third of the cost of stopping
-// them. Here a batch is asked for at once, the kernel keeps the turn (a descriptor that stays ready goes to the end of
-// its queue), and exits come after the output found with them.
+// among descriptors that it finds at once. With hundreds of children that end together this was a third of the cost of
+// stopping them. Here one call fetches a whole batch, the kernel keeps the turn (a descriptor that stays ready goes to
+// the end of its queue), and exits come after the output found with them.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ class DescriptorWatch {
   EventLoop::SourcePtr on_readable(int fd, EventLoop::Callback callback);
   EventLoop::SourcePtr on_exit(int pidfd, EventLoop::Callback callback);
 
-  // Calls back for a bounded number of ready descriptors, until `stop` returns true after a callback; what was not
-  // called then is found again by the next batch.
+  // Calls back for a bounded number of ready descriptors, and stops when `stop` returns true after a callback. The next
+  // batch finds the descriptors that were left.
   void run_batch(const std::function<void(const EventLoop::Callback&)>& call, const std::function<bool()>& stop);
 
  private:

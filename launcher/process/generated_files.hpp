@@ -15,8 +15,8 @@ class GeneratedFiles {
   GeneratedFiles(const GeneratedFiles&) = delete;
   GeneratedFiles& operator=(const GeneratedFiles&) = delete;
 
-  // Writes the files of `spec` and puts their paths into its argv. The directory is made on first need in
-  // $XDG_RUNTIME_DIR, $TMPDIR or /tmp, the first that works. Throws std::system_error.
+  // Writes the files of `spec` and puts their paths into its argv. The directory is made on first need, in the first of
+  // $XDG_RUNTIME_DIR, $TMPDIR and /tmp that works. Throws std::system_error.
   void write(ProcessSpec& spec, ProcessId id);
 
  private:

@@ -32,7 +32,7 @@ std::string run_name() {
   return fmt::format("{}-{:06}-{}-{}", date.data(), since_epoch.count() % 1'000'000, host.data(), ::getpid());
 }
 
-// Replaces the link in one step, so that nobody ever finds it missing. Returns a warning, or "".
+// Replaces the link in one step, so that it is never missing. Returns a warning, or "".
 std::string renew_latest(const fs::path& base, const std::string& name) {
   const fs::path latest = base / "latest";
   std::error_code error;

@@ -46,15 +46,15 @@ LevelStyle style(LogLevel level) {
   return {"INFO", ""};
 }
 
-// "1700000000.1234567 ", as launch.log has it in front of each line.
+// The start of each line in launch.log: "1700000000.1234567 ".
 std::string time_stamp() {
   timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
   return fmt::format("{}.{:07} ", now.tv_sec, now.tv_nsec / 100);
 }
 
-// Writes everything, as on a blocking descriptor even if it is not one: others share the terminal and may have made it
-// non-blocking. Returns 0 or the error number.
+// Writes everything, even if the descriptor is non-blocking: other programs share the terminal and may have made it so.
+// Returns 0 or the error number.
 int write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd, bytes.data(), bytes.size());
@@ -73,7 +73,7 @@ int write_all(int fd, std::string_view bytes) {
 }  // namespace
 
 struct OutputRouter::Impl {
-  // One log file. An error is told once; later lines are tried again, since a full disk may get room.
+  // One log file. Only its first error is reported; later lines are tried again, since a full disk may get room.
   struct LogFile {
     std::string path;
     UniqueFd fd;
@@ -119,7 +119,7 @@ struct OutputRouter::Impl {
 };
 
 OutputRouter::OutputRouter(Options options) : impl_(std::make_unique<Impl>(std::move(options))) {
-  // Else the end of `launch ... | head` would kill the launcher before it has ended its processes.
+  // Otherwise the end of `launch ... | head` would kill the launcher before it has ended its processes.
   struct sigaction action {};
   if (::sigaction(SIGPIPE, nullptr, &action) == 0 && action.sa_handler == SIG_DFL) {
     action.sa_handler = SIG_IGN;
@@ -152,7 +152,7 @@ void OutputRouter::write(ProcessId process, const std::string& label, OutputStre
     }
     return;
   }
-  // A line end is never part of a longer character, so whole lines can be checked apart from what follows.
+  // A line end is never part of a longer character, so whole lines can be checked without the bytes after them.
   if (stream.rest.empty()) {
     impl_->write_lines(process, child, stream, label, which, targets, bytes.substr(0, last_end));
   } else {
@@ -253,7 +253,7 @@ void OutputRouter::Impl::observe(ProcessId process, OutputStream which, std::str
     more = end != std::string_view::npos;
     std::string_view line = text.substr(0, end);
     if (line.ends_with('\r')) {
-      line.remove_suffix(1);  // a pseudo-terminal ends lines so
+      line.remove_suffix(1);  // a pseudo-terminal ends lines with "\r\n"
     }
     line_observer(process, which, line);
     text.remove_prefix(more ? end + 1 : text.size());

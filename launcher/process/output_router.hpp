@@ -28,8 +28,8 @@ struct LogDirectory {
 };
 
 // Single-threaded. Lines are handed to the kernel before a call returns, all lines of one write() with one system call
-// for each destination. A screen that blocks (a paused terminal) blocks the caller; one that is gone is given up, while
-// the logs go on. Ignores SIGPIPE in this process unless a handler is installed.
+// for each destination. A screen that blocks (a paused terminal) blocks the caller. A screen that is gone gets no more
+// lines, while the logs go on. Ignores SIGPIPE in this process unless a handler is installed.
 class OutputRouter {
  public:
   struct Options {
@@ -42,15 +42,15 @@ class OutputRouter {
   explicit OutputRouter(Options options);
   ~OutputRouter();
 
-  // Bytes read from a child. Complete lines are written at once; a rest waits for its end or for close_stream().
-  // Invalid UTF-8 becomes U+FFFD. Never blocks the caller for a slow screen longer than a write does.
+  // Takes bytes read from a child. Complete lines are written at once; a rest waits for its end or for close_stream().
+  // Invalid UTF-8 becomes U+FFFD. A slow screen blocks the caller only as long as the write itself takes.
   void write(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets,
              std::string_view bytes);
   // The stream has ended: writes the rest as a line.
   void close_stream(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets);
 
-  // Called for each line before it is written, whatever its targets; invalid UTF-8 is U+FFFD in it, too. A line that is
-  // very long comes in parts. Null: nobody.
+  // Called for each line before it is written, whatever its targets. Invalid UTF-8 is U+FFFD here, too. A very long
+  // line comes in parts. Null: no observer.
   using LineObserver = std::function<void(ProcessId process, OutputStream stream, std::string_view line)>;
   void observe_lines(LineObserver observer);
 

@@ -35,7 +35,7 @@ namespace {
   throw std::system_error(errno, std::system_category(), what);
 }
 
-// For the output of a child: two ends of a pipe or of a pseudo-terminal, both close-on-exec.
+// The channel for the output of a child: two ends of a pipe or of a pseudo-terminal, both close-on-exec.
 struct Channel {
   UniqueFd parent;
   UniqueFd child;
@@ -78,7 +78,7 @@ std::vector<std::string> command_line(const ProcessSpec& spec) {
   return {"/bin/sh", "-c", line};
 }
 
-// What launch-exec has to say before it becomes the program: nothing, when all went well.
+// Reads what launch-exec reports before it becomes the program: nothing, when all went well.
 std::optional<LaunchExecFailure> read_failure(const UniqueFd& pipe) {
   LaunchExecFailure failure{};
   ssize_t size = 0;
@@ -107,7 +107,7 @@ class PosixProcessRunner final : public ProcessRunner {
 PosixProcessRunner::PosixProcessRunner(std::string exec_program) : exec_program_(std::move(exec_program)) {
   for (int fd = 0; fd <= 2; ++fd) {
     if (::fcntl(fd, F_GETFD) < 0) {
-      // Takes the lowest free number. Without this a pipe could get it, and be overwritten by the redirections.
+      // open() takes the lowest free number. Without this a pipe could get it, and be overwritten by the redirections.
       static_cast<void>(::open("/dev/null", O_RDWR));
     }
   }
@@ -205,7 +205,7 @@ void PosixProcessRunner::signal_group(const Process& process, int signal) {
 ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
   siginfo_t info{};
   ProcessExit exit;
-  // The system call itself: only it gives the resource usage of just this process.
+  // Calls the kernel directly: only its waitid gives the resource usage of just this process.
   while (::syscall(SYS_waitid, P_PIDFD, process.pidfd.get(), &info, WEXITED | flags, &exit.usage) != 0) {
     if (errno != EINTR) {
       fail("cannot wait for a process");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a supervised process is asked to end, and what is left of it when it has.
+// How a supervised process is asked to end, and what happens afterwards to what is left of it.
 #include <signal.h>
 
 #include <utility>
@@ -61,7 +61,7 @@ void Supervision::end_unasked(Supervised& process) {
   process.output.drain();
   const bool again = respawns(process);
   if (again) {
-    // A wrapper has died and its program lives on: two of it would be worse than none for a moment.
+    // A wrapper has died and its program lives on. Two copies of the program would be worse than none for a moment.
     runner.signal_group(process.process, SIGKILL);
     process.output.close();
   }
@@ -89,7 +89,7 @@ void Supervision::end_signalled(Supervised& process) {
     }
     return;
   }
-  // Before the process is reaped: until then no stranger's group can have its number.
+  // Before the process is reaped: until then no other group can have its number.
   runner.signal_group(process.process, SIGKILL);
   process.unreaped = false;
   const ProcessExit exit = runner.reap(process.process);

@@ -28,7 +28,7 @@ class ProcessRunner {
   virtual ProcessExit reap(const Process& process) = 0;
 };
 
-// ../lib/launch/launch-exec, seen from the directory of this program.
+// ../lib/launch/launch-exec, relative to the directory of this program.
 std::string default_exec_program();
 
 // posix_spawn(3) and pidfds. Prepares the launcher itself: SIGCHLD gets its default disposition (else children would be
@@ -37,8 +37,8 @@ std::string default_exec_program();
 // instructions can still see the raised one, unless its spec has a limit of its own. Any descriptor of the launcher but
 // the standard ones is marked close-on-exec before each start.
 //
-// A process with limits is started by way of `exec_program`, launch-exec, which applies them to itself and then becomes
-// the program; spawn() returns when it has, and throws when a limit is refused.
+// A process with limits is started through `exec_program`, launch-exec, which applies the limits to itself and then
+// becomes the program. spawn() returns when that has happened, and throws when a limit is refused.
 std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program = default_exec_program());
 
 }  // namespace launch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What to run, fully evaluated; what runs; how it ended. Three types, because they have three lives.
+// What to run, fully evaluated; what runs; how it ended. Three types, because they live for different times.
 #pragma once
 
 #include <sys/resource.h>
@@ -50,8 +50,8 @@ struct RespawnPolicy {
   Duration max_delay = std::chrono::seconds(60);
 };
 
-// Text that the process reads from a file of its own: written before the first spawn into the run's private directory,
-// its path put in place of argv[argument], removed when the launch ends.
+// Text that the process reads from a file of its own. The file is written before the first spawn into the run's private
+// directory, its path is put in place of argv[argument], and it is removed when the launch ends.
 struct GeneratedFile {
   std::size_t argument = 0;
   std::string name;  // file name hint, "talker-params.yaml"
@@ -61,7 +61,7 @@ struct GeneratedFile {
 // Configuration: plain data, all substitutions performed. `launch --dry-run` prints exactly this.
 struct ProcessSpec {
   std::string name;                      // label without its number; the supervisor appends "-N"
-  std::vector<std::string> other_names;  // by which it may be spoken of besides, such as that of its ROS node
+  std::vector<std::string> other_names;  // further names for it, such as the name of its ROS node
   std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
   Environment environment;        // complete, not a difference
   std::string working_directory;  // empty: the launcher's
@@ -71,7 +71,7 @@ struct ProcessSpec {
   ResourceLimits limits;
   RespawnPolicy respawn;
   bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
-  bool required = false;          // for observers: and how it ended is how the launch ended
+  bool required = false;          // for observers: the launch ends as this process did
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;

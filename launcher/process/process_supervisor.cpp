@@ -149,7 +149,7 @@ bool Supervision::respawns(const Supervised& process) const {
   return policy.enabled && (policy.max_retries < 0 || process.retries < policy.max_retries);
 }
 
-// The run is over; what comes next?
+// The run is over: decides what comes next.
 void Supervision::conclude(Supervised& process) {
   if (!process.unreaped) {
     process.process = Process{};
@@ -195,7 +195,7 @@ ProcessSupervisor::~ProcessSupervisor() {
       }
     }
   } catch (const std::exception&) {
-    // All have been signalled as far as it goes; there is no one left to tell.
+    // All processes have been signalled as far as possible, and a destructor can't report the error.
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Owns the state of every process of a launch, from the request to start it to its last exit.
 //
-// A process is a row of the State x Event table in process_supervisor.cpp. Whoever wants to know (console, logs, launch
-// events) observes transitions. The work per event does not depend on the number of processes.
+// A process is a row of the State x Event table in process_supervisor.cpp. The console, the logs and the launch events
+// observe transitions. The work per event does not depend on the number of processes.
 //
 // A process is supervised together with its group, so descendants count too unless they leave the group:
 // - Signals go to the group. When a process that was signalled exits before its descendants have closed its output,
@@ -10,7 +10,7 @@
 // - When a process exits on its own, ProcessDone follows at once. Descendants that hold its output open go on, and
 //   their output is shown; they get SIGINT at shutdown and SIGKILL when the supervisor is destroyed. A respawn kills
 //   them first.
-// - Descendants that have closed the output are killed with a signalled process, and are no concern of ours else.
+// - Descendants that have closed the output are killed with a signalled process, and otherwise left alone.
 #pragma once
 
 #include <cstddef>
@@ -44,13 +44,13 @@ class ProcessSupervisor {
   // Called for every event, in the order of registration. Observers may call start(), shutdown() and signal().
   void observe(Observer observer);
 
-  // Takes a process over and starts it now. A failing start is an event (then ProcessExited is not sent, but respawn
-  // applies as to an exit with code 127, but not sooner than kFailedStartDelay), not an exception. Called by an
-  // observer, it starts the process after the event that is being observed. After shutdown() new requests are ignored:
+  // Takes a process over and starts it now. A failing start is an event, not an exception: ProcessExited is not sent
+  // then, and respawn applies as to an exit with code 127, but not sooner than kFailedStartDelay. When an observer
+  // calls this, the process starts after the event that is being observed. After shutdown() new requests are ignored:
   // returns 0.
   ProcessId start(ProcessSpec spec);
 
-  // What the next start() will return, unless an observer starts one before.
+  // The number that the next start() will return, unless an observer starts a process before.
   ProcessId next_id() const;
 
   // Called for every line of every process, before the router writes it and before the exit of its process is told.
@@ -70,8 +70,8 @@ class ProcessSupervisor {
   // Ends one process as shutdown() ends all of them: it does not respawn, whatever its policy says.
   void stop(ProcessId id);
 
-  // Ends one process in the same way and starts it again at once; starts it when it is done. The retries of its respawn
-  // policy are counted anew. Ignored after shutdown().
+  // Ends one process in the same way and starts it again at once. A process that is done is just started. The retries
+  // of its respawn policy are counted anew. Ignored after shutdown().
   void restart(ProcessId id);
 
   // Sends SIGKILL to everything that is alive, now. Respawns go on unless shutdown() was called before.

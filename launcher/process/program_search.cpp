@@ -41,8 +41,8 @@ std::string find_program(const ProcessSpec& spec) {
     if (directory.empty()) {
       directory = ".";
     }
-    // The child changes its directory before it executes the program, so this path has to hold there, while the check
-    // has to be made from here.
+    // The child changes its directory before it executes the program. The path has to be right from there, but the
+    // check has to be made from here.
     const std::string there = directory + "/" + name;
     const bool from_here = there.front() == '/' || spec.working_directory.empty();
     const std::string here = from_here ? there : spec.working_directory + "/" + there;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<std::pair<int, const char*>, 5> kPolicies{
     {{SCHED_OTHER, "other"}, {SCHED_BATCH, "batch"}, {SCHED_IDLE, "idle"}, {SCHED_FIFO, "fifo"}, {SCHED_RR, "rr"}}};
 
-// How somebody who is not root gets the right to something that pam_limits gives.
+// Tells a user who is not root how to get a right that pam_limits gives.
 std::string how_to_permit(const char* item, long value) {
   return fmt::format(
       "add the line `{} - {} {}` to a file in /etc/security/limits.d and log in again, or give the launcher "

@@ -13,7 +13,7 @@ struct ResourceLimits {
   std::optional<int> niceness;              // -20 … 19
   std::optional<int> policy;                // SCHED_OTHER, SCHED_BATCH, SCHED_IDLE, SCHED_FIFO, SCHED_RR
   int priority = 0;                         // 1 … 99 with SCHED_FIFO and SCHED_RR
-  std::vector<int> cpus;                    // that it may run on; empty: all that the launcher may
+  std::vector<int> cpus;                    // that it may run on; empty: all those of the launcher
   std::optional<std::uint64_t> memory;      // bytes of private memory (RLIMIT_DATA)
   std::optional<std::uint64_t> open_files;  // descriptors (RLIMIT_NOFILE)
 
@@ -30,11 +30,11 @@ std::optional<int> scheduling_policy(const std::string& name);
 // "0,2-3".
 std::string cpu_list(const std::vector<int>& cpus);
 
-// The program launch-exec applies them to itself before it becomes the program of the process. Its arguments, up to the
-// one that names the program.
+// The arguments of launch-exec up to the one that names the program. The program launch-exec applies the limits to
+// itself before it becomes the program of the process.
 std::vector<std::string> launch_exec_arguments(const ResourceLimits& limits);
 
-// What to tell the user when one could not be applied. `step` is launch-exec's (exec/launch_exec_protocol.hpp).
+// The message for the user when a limit could not be applied. `step` is launch-exec's (exec/launch_exec_protocol.hpp).
 std::string limit_failure(char step, int error, const ResourceLimits& limits);
 
 }  // namespace launch

@@ -10,11 +10,11 @@ class RespawnDelay {
  public:
   // The delay before the next start, after a run of this length (0 for a start that failed).
   Duration next(const RespawnPolicy& policy, Duration ran_for);
-  // The series begins anew.
+  // Begins the series anew.
   void reset() { next_ = Duration{0}; }
 
  private:
-  Duration next_{0};  // 0: that of the policy
+  Duration next_{0};  // 0: the delay of the policy
 };
 
 }  // namespace launch

@@ -25,8 +25,8 @@
 namespace launch {
 namespace {
 
-// Signals overtake everything. All other sources share one priority, in which sd-event takes the source first that has
-// waited longest: a child that floods its output can't starve timers or posts, as it could with a ranking.
+// Signals go before everything else. All other sources share one priority, so sd-event takes the source that has waited
+// longest: a child that floods its output can't starve timers or posts, as it could with different priorities.
 constexpr std::int64_t kSignalPriority = SD_EVENT_PRIORITY_IMPORTANT;
 
 constexpr std::uint64_t kTimerAccuracyMicroseconds = 100;
@@ -90,7 +90,7 @@ class SdEventLoop final : public EventLoop {
   static int signalled(sd_event_source* source, const signalfd_siginfo* info, void* data);
   static int posted(sd_event_source* source, int fd, std::uint32_t events, void* data);
 
-  // The border between sd-event's C frames and callbacks that may throw: run() throws it again.
+  // Keeps exceptions of callbacks out of sd-event's C frames; run() throws them again.
   template <typename Function>
   void guard(Function&& function) noexcept {
     try {
@@ -198,7 +198,7 @@ void SdEventLoop::post(Callback callback) {
     posts_.push_back(std::move(callback));
   }
   if (first) {
-    // Can only fail when the counter is full, and then the loop is going to wake up anyway.
+    // This can only fail when the counter is full, and then the loop is going to wake up anyway.
     static_cast<void>(eventfd_write(post_fd_.get(), 1));
   }
 }

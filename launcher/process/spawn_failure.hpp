@@ -10,7 +10,7 @@
 
 namespace launch {
 
-// `error` is the error number that starting `program` for `spec` gave. Looks at the file system to find the reason.
+// `error` is the error number of the failed start of `program` for `spec`. Looks at the file system to find the reason.
 std::system_error spawn_failure(int error, const ProcessSpec& spec, const std::string& program);
 
 }  // namespace launch

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inside of the supervisor: what it keeps of each process, and what happens to one. For process_supervisor.cpp,
-// which has the table of states and events, and process_end.cpp alone.
+// The inside of the supervisor: what it keeps of each process, and what happens to one. Only for
+// process_supervisor.cpp, which has the table of states and events, and for process_end.cpp.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace launch {
 
 enum class SupervisionEvent { kStart, kExit, kOutputClosed, kTimeout, kSignal, kShutdown, kKill, kStop, kRestart };
 
-// What was asked for a run, and counts at its end before the respawn policy.
+// What was asked for during a run. At the end of the run it counts before the respawn policy.
 enum class SupervisionRequest { kNone, kStop, kRestart };
 
 // One process of a supervisor, over all its runs.
@@ -40,7 +40,7 @@ struct Supervised {
   SupervisionRequest request = SupervisionRequest::kNone;
   RespawnDelay respawn_delay;
 
-  // Of the current or last run.
+  // The current or last run.
   Process process;
   bool unreaped = false;  // `process` names a process, alive or a zombie, so its group may be signalled
   bool exited = false;    // a zombie, kept because descendants hold its output open

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch-exec: applies scheduling and limits to itself, then becomes another program.
 //
-// Between its start and its first instruction a program can already have read its limits and made its threads, so they
-// have to be there before. posix_spawn(3) has no attributes for most of them. Linked statically: nothing is preloaded
-// into it, and it takes half a millisecond.
+// A program may read its limits and make its threads before its first own instruction, so the limits have to be set
+// before it starts. posix_spawn(3) has no attributes for most of them. This program is linked statically: nothing is
+// preloaded into it, and it takes half a millisecond.
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -20,7 +20,7 @@ using namespace launch;
 
 [[noreturn]] void fail(char step, int error) {
   const LaunchExecFailure failure{step, error};
-  // Who doesn't listen any more isn't told.
+  // A failing write means that the launcher no longer reads, so nobody needs the report.
   static_cast<void>(!::write(kLaunchExecError, &failure, sizeof failure));
   ::_exit(127);
 }
@@ -31,7 +31,7 @@ void check(char step, int result) {
   }
 }
 
-// Lowers or raises the soft limit; the hard one only when it must follow.
+// Sets the soft limit and the hard limit.
 int set_limit(int resource, rlim_t value) {
   rlimit limit{};
   ::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit);

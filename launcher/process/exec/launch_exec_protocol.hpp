@@ -3,8 +3,8 @@
 //
 //   launch-exec STEP… - PROGRAM ARGV0 ARG…
 //
-// Each STEP is a letter and its value. What fails is written to descriptor kLaunchExecError as one LaunchExecFailure;
-// the descriptor is closed without a word when PROGRAM begins.
+// Each STEP is a letter and its value. When a step fails, launch-exec writes one LaunchExecFailure to descriptor
+// kLaunchExecError. When PROGRAM begins, the descriptor is closed without any data.
 #pragma once
 
 namespace launch {

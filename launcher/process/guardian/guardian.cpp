@@ -23,7 +23,7 @@ void send_record(int socket, GuardianRecord::Kind kind, std::int32_t id, const s
   msghdr message{};
   message.msg_iov = const_cast<iovec*>(parts.data());
   message.msg_iovlen = parts.size();
-  // Not waiting: a helper that hangs must not stop the launcher.
+  // Does not wait: a helper that hangs must not stop the launcher.
   static_cast<void>(::sendmsg(socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
@@ -41,7 +41,8 @@ Guardian::Guardian(const std::string& program, Duration grace) {
       .program = program,
       .argv = {"launch-guardian", std::to_string(std::chrono::ceil<std::chrono::milliseconds>(grace).count())},
       .directory = "/",
-      // Whoever reads the launcher's output through a pipe must not wait for the helper.
+      // The helper does not keep the launcher's output open: a reader at the end of a pipe would wait for the helper,
+      // too.
       .descriptors = {{STDIN_FILENO, other.get()}, {STDOUT_FILENO, kDevNull}},
       .group = ChildGroup::kOwnSession,
       .signals = ChildSignals::kAllBlocked,
@@ -89,7 +90,7 @@ Process GuardedProcessRunner::spawn(const ProcessSpec& spec) {
 }
 
 ProcessExit GuardedProcessRunner::reap(const Process& process) {
-  // Before the process is reaped: afterwards the number may belong to somebody else.
+  // Detaches before the process is reaped: afterwards another process may get its number.
   guardian_.detach(process.pid);
   return runner_.reap(process);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sees to it that no process survives the launcher, whatever ends the launcher: also kill -9.
+// Makes sure that no process survives the launcher, whatever ends the launcher, even kill -9.
 #pragma once
 
 #include <sys/types.h>
@@ -13,9 +13,9 @@
 
 namespace launch {
 
-// Owns the helper process launch-guardian, which has a session of its own, so that Ctrl-C does not reach it. Groups
-// that are attached when this object, or the whole launcher, goes get SIGTERM, and SIGKILL after the grace period; then
-// the clean-up commands run.
+// Owns the helper process launch-guardian, which has a session of its own, so that Ctrl-C does not reach it. When this
+// object or the whole launcher goes away, the groups that are attached get SIGTERM, and SIGKILL after the grace period.
+// Then the clean-up commands run.
 class Guardian {
  public:
   static constexpr Duration kGrace = std::chrono::seconds(5);
@@ -26,19 +26,20 @@ class Guardian {
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
 
-  // One system call each. Without effect when the helper itself was killed: the launch goes on without it.
+  // Each takes one system call. They have no effect when the helper itself was killed: the launch goes on without it.
   void attach(pid_t group);
   void detach(pid_t group);
 
-  // A command, with the path of its program, to run when the launcher has gone and the attached groups have ended. The
-  // number that it returns takes the command back. Commands run in the opposite order, each for ten seconds at most.
+  // Adds a command, with the path of its program, that runs when the launcher has gone and the attached groups have
+  // ended. The number that it returns takes the command back. Commands run in the opposite order, each for ten seconds
+  // at most.
   std::int32_t add_clean_up(const std::vector<std::string>& command);
   void remove_clean_up(std::int32_t number);
 
-  // Of the helper.
+  // The process number of the helper.
   pid_t pid() const { return pid_; }
 
-  // ../lib/launch/launch-guardian, seen from the directory of this program.
+  // ../lib/launch/launch-guardian, relative to the directory of this program.
   static std::string default_program();
 
  private:

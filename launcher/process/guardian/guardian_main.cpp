@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch-guardian GRACE_MILLISECONDS: ends what a launcher leaves behind when it is killed.
 //
-// Standard input is a socket to the launcher, which tells of each process group that it starts and of each that it has
-// ended. When the launcher disappears, also by kill -9, the socket closes. Groups still known then get SIGTERM, and
-// SIGKILL when their leader has ended or the grace period is over. After that the clean-up commands run that the
-// launcher named and did not take back, the last one first.
+// Standard input is a socket to the launcher, which reports each process group that it starts and each group that it
+// has ended. The socket closes when the launcher disappears, also by kill -9. Groups still known then get SIGTERM, and
+// SIGKILL when their leader has ended or the grace period is over. After that the clean-up commands run, the last one
+// first, except those that the launcher took back.
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -34,10 +34,10 @@ using Clock = std::chrono::steady_clock;
 using launch::GuardianRecord;
 using launch::UniqueFd;
 
-// A command that hangs must not keep this program, and who waits for it, for ever.
+// A command that hangs must not block this program, and everything that waits for it, for ever.
 constexpr std::chrono::milliseconds kCleanUpLimit = std::chrono::seconds(10);
 
-// What the launcher has left when it has gone.
+// What the launcher has left behind when it has gone.
 struct Remains {
   std::set<pid_t> groups;
   std::map<std::int32_t, std::vector<std::string>> clean_ups;
@@ -66,7 +66,7 @@ Remains follow_launcher(int socket) {
     std::memcpy(&record, message.data(), sizeof record);
     switch (record.kind) {
       case GuardianRecord::Kind::kAttach:
-        if (record.id > 1) {  // kill(2) would take it for everybody
+        if (record.id > 1) {  // kill(2) would take a smaller number for all processes
           remains.groups.insert(record.id);
         }
         break;
@@ -107,7 +107,7 @@ void end_groups(std::set<pid_t> groups, std::chrono::milliseconds grace) {
     }
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
       if (descriptors[i].fd >= 0 && descriptors[i].revents != 0) {
-        // Descendants that outlive the leader go at once, before the number of the group can get a new meaning.
+        // Descendants that outlive the leader are killed at once, before the number of the group can be reused.
         ::kill(-leaders[i], SIGKILL);
         groups.erase(leaders[i]);
         descriptors[i].fd = -1;
@@ -126,7 +126,7 @@ void clean_up(const std::vector<std::string>& command) {
   }
   pid_t pid = -1;
   try {
-    // The signals that are ignored here would be ignored there, too.
+    // The command would inherit the signals that this program ignores.
     pid = launch::spawn({.program = command.front(), .argv = command, .signals = launch::ChildSignals::kFresh});
   } catch (const std::system_error& error) {
     fmt::print(stderr, "launch-guardian: cannot run {}: {}\n", command.front(), error.code().message());
@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
   }
   sigset_t none;
   sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);  // it was started with all of them blocked
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);  // the launcher starts this program with all signals blocked
   const Remains remains = follow_launcher(STDIN_FILENO);
   if (const std::size_t count = remains.groups.size(); count != 0) {
     fmt::print(stderr, "launch-guardian: the launcher has gone and left {} process group{}: ending {}\n", count,
