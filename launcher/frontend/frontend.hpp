@@ -29,10 +29,6 @@ class YamlSyntaxError : public LaunchError {
   using LaunchError::LaunchError;
 };
 
-// Whether a whole text is, as YAML, one plain scalar that stands for itself: true for the usual words, numbers and
-// templates, so that no parser has to look at them; false also for texts that only a parser can tell about.
-bool is_plain_scalar(std::string_view text);  // plain_scalar.cpp
-
 // Types a whole text as YAML 1.1 flow or block content: a scalar or a list (parameter values: "[1, 2]", "- 1").
 // Throws YamlSyntaxError when it isn't valid YAML, LaunchError for a mapping.
 Value yaml11_value(const LocatedText& text);  // yaml11.cpp

@@ -3,6 +3,7 @@
 // follow YAML 1.2 and differ in octal, sexagesimal and exponent forms.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -256,6 +257,27 @@ double float_value(std::string_view text) {
   return sign * value;
 }
 
+bool is_letter_or_digit(char c) {
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// True for the usual words, numbers and templates, in which YAML finds no indicator: they are plain scalars that stand
+// for themselves, so no parser needs to look at them. False says nothing.
+bool is_surely_plain(std::string_view text) {
+  constexpr std::string_view kBegins = "_/$";
+  constexpr std::string_view kSigns = "+-.";  // of numbers, but not of "- item", "---" and "..."
+  constexpr std::string_view kInside = " _-./+$()=;~'\"\\,<>";
+  if (text.empty() || text.back() == ' ') {
+    return false;
+  }
+  const bool begins =
+      is_letter_or_digit(text.front()) || kBegins.find(text.front()) != std::string_view::npos ||
+      (kSigns.find(text.front()) != std::string_view::npos && text.size() > 1 && is_letter_or_digit(text[1]));
+  return begins && std::all_of(text.begin() + 1, text.end(), [&](char c) {
+           return is_letter_or_digit(c) || kInside.find(c) != std::string_view::npos;
+         });
+}
+
 Value to_value(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::kMapping) {
     throw LaunchError("expected a scalar or a list, found a mapping", node.where, "quote a text that has ': ' in it");
@@ -338,7 +360,7 @@ Scalar yaml11_scalar(LocatedText text) {
 }
 
 Value yaml11_value(const LocatedText& text) {
-  if (is_plain_scalar(text.text())) {
+  if (is_surely_plain(text.text())) {
     return {yaml11_scalar(text), text.range()};
   }
   std::vector<Diagnostic> errors;

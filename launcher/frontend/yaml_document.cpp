@@ -2,22 +2,17 @@
 #include "launcher/frontend/yaml_document.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/parser.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
-#include <sstream>
 #include <utility>
 
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/input_text.hpp"
-#include "launcher/frontend/simple_yaml.hpp"
+#include "launcher/frontend/yaml_events.hpp"
+#include "launcher/frontend/yaml_merge_keys.hpp"
 #include "launcher/frontend/yaml_scalar_place.hpp"
-#include "launcher/frontend/yaml_syntax_error.hpp"
 
 namespace launch {
 
@@ -26,46 +21,98 @@ namespace {
 // Aliases of aliases can make a short text stand for a huge tree.
 constexpr std::size_t kMaximumNodes = 1'000'000;
 
+constexpr std::size_t kUsualKeys = 4;  // of a mapping: what is reserved
+
 constexpr std::string_view kStandardTag = "tag:yaml.org,2002:";
 
-// Builds the tree from yaml-cpp's events.
-class TreeBuilder : public YAML::EventHandler {
+// Builds the tree from the events, each node in its place: moving nodes costs more than building them.
+class TreeBuilder {
  public:
-  TreeBuilder(const LocatedText& source, std::size_t offset, std::vector<Diagnostic>& errors)
-      : source_(source), offset_(offset), errors_(errors) {}
+  TreeBuilder(const LocatedText& source, const YamlEvents& events, std::vector<Diagnostic>& errors,
+              const YamlListReader& list)
+      : source_(source), events_(events), errors_(errors), list_reader_(list) {}
 
-  YamlNode take_root() { return std::move(root_); }
-
-  // Where the innermost '[' or '{' that is still open stands.
-  std::optional<std::size_t> open_bracket() const {
-    return open_.empty() || !open_.back().is_flow ? std::nullopt : std::optional(open_.back().begin);
+  // As far as the events go.
+  YamlNode build() {
+    if (events_.list.empty()) {
+      root_.where = source_.range(0, 0);
+      root_.scalar.type = Scalar::Type::kNull;
+    } else {
+      node(root_);
+    }
+    return std::move(root_);
   }
 
-  void OnDocumentStart(const YAML::Mark&) override {}
-  void OnDocumentEnd() override {}
-
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const std::size_t at = position(mark);
+ private:
+  struct Anchored {
     YamlNode node;
-    const std::string_view text = std::string_view(source_.text()).substr(at);
+    std::size_t size;
+  };
+
+  bool at_end() const { return next_ == events_.list.size() || events_.list[next_].kind == YamlEvent::Kind::kEnd; }
+  void skip_end() { next_ += next_ == events_.list.size() ? 0 : 1; }
+
+  // `key` is the one whose value the node is, if that is in a mapping without brackets; `is_list` tells that the list
+  // reader wants its items.
+  void node(YamlNode& node, const YamlNode* key = nullptr, bool is_list = false) {
+    const YamlEvent& event = events_.list[next_++];
+    const std::size_t nodes_before = nodes_++;
+    switch (event.kind) {
+      case YamlEvent::Kind::kNull:
+        null(node, event, key);
+        break;
+      case YamlEvent::Kind::kScalar:
+        scalar(node, event);
+        break;
+      case YamlEvent::Kind::kAlias:
+        alias(node, event);
+        return;
+      case YamlEvent::Kind::kSequence:
+        sequence(node, event, is_list);
+        break;
+      case YamlEvent::Kind::kMapping:
+        mapping(node, event);
+        break;
+      case YamlEvent::Kind::kEnd:
+        return;
+    }
+    if (event.anchor != 0) {
+      anchors_[event.anchor] = {node, nodes_ - nodes_before};
+    }
+  }
+
+  void null(YamlNode& node, const YamlEvent& event, const YamlNode* key) {
+    const std::string_view text = std::string_view(source_.text()).substr(event.at);
+    node.scalar.type = Scalar::Type::kNull;
     for (const std::string_view word : {"~", "null", "Null", "NULL"}) {
       const std::string_view behind = text.substr(std::min(word.size(), text.size()));
       if (text.starts_with(word) &&
           (behind.empty() || std::string_view(" \t\r\n,]}").find(behind.front()) != std::string_view::npos)) {
-        node.scalar.text = LocatedText(std::string(word), source_.range(at, word.size()));
+        node.scalar.text = LocatedText(std::string(word), source_.range(event.at, word.size()));
+        node.where = node.scalar.text.range();
+        return;
       }
     }
-    node.where = node.scalar.text.text().empty() ? source_.range(at, 0) : node.scalar.text.range();
-    node.scalar.type = Scalar::Type::kNull;
-    check_colon(node);
-    add(std::move(node), anchor);
+    node.where = source_.range(event.at, 0);
+    check_colon(key);
   }
 
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override {
-    YamlNode node;
-    scalar_begin_ = position(mark);
-    auto [text, end, closed] = locate_yaml_scalar(source_, scalar_begin_, value);
+  // yaml-cpp takes a line without a colon for a key without a value.
+  void check_colon(const YamlNode* key) const {
+    if (key == nullptr || key->kind != YamlNode::Kind::kScalar) {
+      return;
+    }
+    const std::string_view text = source_.text();
+    const bool explicit_key = text.substr(0, scalar_begin_).ends_with("? ");
+    const std::size_t next = text.find_first_not_of(' ', scalar_end_);
+    if (!explicit_key && (next == std::string_view::npos || text[next] != ':')) {
+      throw LaunchError("expected 'KEY: VALUE'", key->where, "a ':' with a space after it is missing");
+    }
+  }
+
+  void scalar(YamlNode& node, const YamlEvent& event) {
+    auto [text, end, closed] = locate_yaml_scalar(source_, event.at, events_.text(event));
+    scalar_begin_ = event.at;
     scalar_end_ = end;
     if (!closed) {
       const SourceRange begin = text.range();
@@ -73,190 +120,79 @@ class TreeBuilder : public YAML::EventHandler {
                         "add the missing quote");
     }
     node.where = text.range();
-    node.is_plain = tag == "?";
+    node.is_plain = event.is_plain;
+    node.scalar.text = std::move(text);
     if (node.is_plain) {
-      node.scalar = yaml11_scalar(std::move(text));
+      set_yaml11_type(node.scalar);
     } else {
-      node.scalar = tagged_scalar(tag, std::move(text));
+      apply_tag(events_.tag(event), node.scalar);
     }
-    add(std::move(node), anchor);
   }
 
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const auto found = anchors_.find(anchor);
+  void apply_tag(std::string_view tag, Scalar& scalar) {
+    if (tag != "!" && tag != fmt::format("{}str", kStandardTag)) {
+      set_yaml11_type(scalar);
+      if (tag == fmt::format("{}{}", kStandardTag, type_name(scalar.type))) {
+        return;
+      }
+      errors_.push_back({Severity::kError, fmt::format("the tag '{}' does not fit this text", tag), scalar.text.range(),
+                         "remove the tag"});
+    }
+    scalar.type = Scalar::Type::kString;
+  }
+
+  void alias(YamlNode& node, const YamlEvent& event) {
+    const auto found = anchors_.find(event.anchor);
     if (found == anchors_.end()) {
-      throw LaunchError("the alias stands inside the node that it refers to", source_.range(position(mark), 1));
+      throw LaunchError("the alias stands inside the node that it refers to", source_.range(event.at, 1));
     }
     nodes_ += found->second.size;
     if (nodes_ > kMaximumNodes) {
       throw LaunchError(fmt::format("the aliases expand to more than {} nodes", kMaximumNodes),
-                        source_.range(position(mark), 1));
+                        source_.range(event.at, 1));
     }
-    scalar_begin_ = position(mark);
+    scalar_begin_ = event.at;
     scalar_end_ = std::min(source_.text().find_first_of(" :", scalar_begin_), source_.text().size());
-    add(YamlNode(found->second.node), YAML::NullAnchor);
+    node = found->second.node;
   }
 
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value style) override {
-    open(YamlNode::Kind::kSequence, mark, anchor, style);
-  }
-  void OnSequenceEnd() override { close(); }
-
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value style) override {
-    open(YamlNode::Kind::kMapping, mark, anchor, style);
-  }
-  void OnMapEnd() override {
-    merge(open_.back().node);
-    close();
-  }
-
- private:
-  struct Open {
-    YamlNode node;
-    YAML::anchor_t anchor;
-    std::size_t nodes_before;
-    std::size_t begin;
-    bool is_flow;
-    std::optional<YamlNode> key;
-  };
-  struct Anchored {
-    YamlNode node;
-    std::size_t size;
-  };
-
-  std::size_t position(const YAML::Mark& mark) const {
-    return std::min(static_cast<std::size_t>(std::max(mark.pos, 0)) + offset_, source_.text().size());
-  }
-
-  void open(YamlNode::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
-    YamlNode node;
-    node.kind = kind;
-    node.where = source_.range(position(mark), 1);
-    open_.push_back({std::move(node), anchor, nodes_, position(mark), style == YAML::EmitterStyle::Flow, std::nullopt});
-  }
-
-  // yaml-cpp takes a line without a colon for a key without a value.
-  void check_colon(const YamlNode& value) const {
-    if (!value.scalar.text.text().empty() || open_.empty() || open_.back().is_flow || !open_.back().key ||
-        open_.back().key->kind != YamlNode::Kind::kScalar) {
-      return;
-    }
-    const std::string_view text = source_.text();
-    const bool explicit_key = text.substr(0, scalar_begin_).ends_with("? ");
-    const std::size_t next = text.find_first_not_of(' ', scalar_end_);
-    if (!explicit_key && (next == std::string_view::npos || text[next] != ':')) {
-      throw LaunchError("expected 'KEY: VALUE'", open_.back().key->where, "a ':' with a space after it is missing");
-    }
-  }
-
-  void close() {
-    Open done = std::move(open_.back());
-    open_.pop_back();
-    add(std::move(done.node), done.anchor, nodes_ - done.nodes_before + 1);
-  }
-
-  void add(YamlNode node, YAML::anchor_t anchor, std::size_t size = 1) {
-    ++nodes_;
-    if (anchor != YAML::NullAnchor) {
-      anchors_[anchor] = {node, size};
-    }
-    if (open_.empty()) {
-      root_ = std::move(node);
-      return;
-    }
-    Open& parent = open_.back();
-    if (parent.node.kind == YamlNode::Kind::kSequence) {
-      parent.node.items.push_back(std::move(node));
-    } else if (!parent.key) {
-      parent.key = std::move(node);
-    } else {
-      parent.node.entries.push_back({std::move(*parent.key), std::move(node)});
-      parent.key.reset();
-    }
-  }
-
-  Scalar tagged_scalar(const std::string& tag, LocatedText text) {
-    Scalar scalar;
-    scalar.type = Scalar::Type::kString;
-    if (tag != "!" && tag != fmt::format("{}str", kStandardTag)) {
-      Scalar typed = yaml11_scalar(text);
-      if (tag == fmt::format("{}{}", kStandardTag, type_name(typed.type))) {
-        return typed;
-      }
-      errors_.push_back(
-          {Severity::kError, fmt::format("the tag '{}' does not fit this text", tag), text.range(), "remove the tag"});
-    }
-    scalar.text = std::move(text);
-    return scalar;
-  }
-
-  // Resolves the merge keys of a mapping and finds keys given twice. Keys of the mapping itself win over merged ones,
-  // earlier merged mappings over later ones.
-  void merge(YamlNode& mapping) {
-    std::vector<YamlEntry> own;
-    std::vector<YamlEntry> merged;
-    std::map<std::string, SourceRange, std::less<>> seen;
-    for (YamlEntry& entry : mapping.entries) {
-      const Scalar& key = entry.key.scalar;
-      const bool is_scalar = entry.key.kind == YamlNode::Kind::kScalar;
-      if (is_scalar && entry.key.is_plain && key.text.text() == "<<") {
-        add_merged(entry.value, merged);
-        continue;
-      }
-      if (is_scalar) {
-        const auto [first, is_new] = seen.emplace(key.text.text(), entry.key.where);
-        if (!is_new) {
-          const bool located = static_cast<bool>(first->second);
-          errors_.push_back({Severity::kError, fmt::format("duplicate key '{}'", key.text.text()), entry.key.where,
-                             located ? fmt::format("it was given first at {}", line_and_column(first->second)) : ""});
-          continue;
-        }
-      }
-      own.push_back(std::move(entry));
-    }
-    for (YamlEntry& entry : merged) {
-      if (entry.key.kind == YamlNode::Kind::kScalar &&
-          seen.emplace(entry.key.scalar.text.text(), entry.key.where).second) {
-        own.push_back(std::move(entry));
+  void sequence(YamlNode& list, const YamlEvent& event, bool is_list) {
+    list.kind = YamlNode::Kind::kSequence;
+    list.where = source_.range(event.at, 1);
+    while (!at_end()) {
+      node(list.items.emplace_back());
+      if (is_list) {
+        list_reader_.take(list.items.back());
+        list.items.pop_back();
       }
     }
-    mapping.entries = std::move(own);
+    skip_end();
   }
 
-  void add_merged(const YamlNode& value, std::vector<YamlEntry>& merged) {
-    if (value.kind == YamlNode::Kind::kMapping) {
-      merged.insert(merged.end(), value.entries.begin(), value.entries.end());
-      return;
+  void mapping(YamlNode& mapping, const YamlEvent& event) {
+    mapping.kind = YamlNode::Kind::kMapping;
+    mapping.where = source_.range(event.at, 1);
+    mapping.entries.reserve(kUsualKeys);
+    while (!at_end()) {
+      YamlEntry& entry = mapping.entries.emplace_back();
+      node(entry.key);
+      if (!at_end()) {
+        const bool is_list = list_reader_.take && &mapping == &root_ && mapping.entries.size() == 1 &&
+                             entry.key.scalar.text.text() == list_reader_.key;
+        node(entry.value, event.is_flow ? nullptr : &entry.key, is_list);
+      }
     }
-    const bool mappings = value.kind == YamlNode::Kind::kSequence &&
-                          std::all_of(value.items.begin(), value.items.end(),
-                                      [](const YamlNode& item) { return item.kind == YamlNode::Kind::kMapping; });
-    if (!mappings) {
-      errors_.push_back(
-          {Severity::kError,
-           fmt::format("the merge key '<<' needs a mapping or a list of mappings, found {}", describe(value)),
-           value.where,
-           {}});
-      return;
-    }
-    for (const YamlNode& item : value.items) {
-      merged.insert(merged.end(), item.entries.begin(), item.entries.end());
-    }
-  }
-
-  static std::string line_and_column(const SourceRange& where) {
-    const SourceFile::Position position = where.file->position(where.begin);
-    return fmt::format("line {}, column {}", position.line, position.column);
+    skip_end();
+    resolve_merge_keys(mapping, errors_);
   }
 
   const LocatedText& source_;
-  const std::size_t offset_;  // of yaml-cpp's positions, which don't count a byte order mark
+  const YamlEvents& events_;
   std::vector<Diagnostic>& errors_;
+  const YamlListReader& list_reader_;
+  std::size_t next_ = 0;  // event
   YamlNode root_;
-  std::vector<Open> open_;
-  std::map<YAML::anchor_t, Anchored> anchors_;
+  std::map<std::size_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
   // The scalar read last: the key, when the value of a key follows.
   std::size_t scalar_begin_ = 0;
@@ -280,39 +216,22 @@ std::string describe(const YamlNode& node) {
   return fmt::format("{} '{}'", type_name(node.scalar.type), node.scalar.text.text());
 }
 
-YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors) {
+YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors, const YamlListReader& list) {
   if (std::optional<Diagnostic> bad = find_bad_character(source)) {
     throw YamlSyntaxError(std::vector<Diagnostic>{std::move(*bad)});
   }
-  if (std::optional<YamlNode> simple = read_simple_yaml(source)) {
-    return std::move(*simple);
+  const YamlStream stream = read_yaml_events(source);
+  // What the tree finds at fault stands before the place where yaml-cpp gave up.
+  YamlNode root = TreeBuilder(source, stream.document, errors, list).build();
+  if (stream.error) {
+    throw YamlSyntaxError(std::vector<Diagnostic>{*stream.error});
   }
-  return read_any_yaml(source, errors);
-}
-
-YamlNode read_any_yaml(const LocatedText& source, std::vector<Diagnostic>& errors) {
-  const std::size_t offset = source.text().starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
-  TreeBuilder builder(source, offset, errors);
-  try {
-    std::istringstream stream(source.text());
-    YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) {
-      YamlNode nothing;
-      nothing.scalar.type = Scalar::Type::kNull;
-      nothing.where = source.range(0, 0);
-      return nothing;
-    }
+  if (!stream.second_document.list.empty()) {
     std::vector<Diagnostic> ignored;
-    TreeBuilder second(source, offset, ignored);
-    if (parser.HandleNextDocument(second)) {
-      throw LaunchError("a second YAML document", second.take_root().where, "a file holds one document: remove '---'");
-    }
-  } catch (const YAML::ParserException& error) {
-    const std::size_t at =
-        std::min(static_cast<std::size_t>(std::max(error.mark.pos, 0)) + offset, source.text().size());
-    throw YamlSyntaxError(std::vector<Diagnostic>{explain_yaml_error(error.msg, at, source, builder.open_bracket())});
+    throw LaunchError("a second YAML document", TreeBuilder(source, stream.second_document, ignored, {}).build().where,
+                      "a file holds one document: remove '---'");
   }
-  return builder.take_root();
+  return root;
 }
 
 }  // namespace launch

@@ -2,7 +2,9 @@
 // Reads YAML text into a plain tree, as PyYAML's safe loader does: YAML 1.1 types, aliases and merge keys resolved.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
@@ -33,10 +35,16 @@ struct YamlEntry {
 // "a list", "a mapping", "str 'text'", "null": what a message calls the node.
 std::string describe(const YamlNode& node);
 
-// Throws LaunchError for a syntax error. Other faults (duplicate keys) are added to `errors`.
-YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors);
+// The list that is the value of the document's first key, when that key is `key`. Each item is handed over as soon as
+// it is read, may be taken apart, and makes room for the next, so that a long list costs the memory of one item. In the
+// document the list is then empty.
+struct YamlListReader {
+  std::string_view key;
+  std::function<void(YamlNode& item)> take;
+};
 
-// The same by yaml-cpp, for any valid UTF-8; read_yaml() asks it for what is out of the ordinary (simple_yaml.hpp).
-YamlNode read_any_yaml(const LocatedText& source, std::vector<Diagnostic>& errors);
+// Throws LaunchError for a syntax error; what was handed over before does not count then. Other faults (duplicate keys)
+// are added to `errors`.
+YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors, const YamlListReader& list = {});
 
 }  // namespace launch

@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
 #include <utility>
 
 #include "launcher/frontend/frontend.hpp"
-#include "launcher/frontend/input_text.hpp"
-#include "launcher/frontend/simple_yaml.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 
 namespace launch {
@@ -19,35 +17,36 @@ using Kind = YamlNode::Kind;
 // Turns the YAML tree into entities. Goes on after an error, so that all of them are found.
 class EntityBuilder {
  public:
-  explicit EntityBuilder(std::vector<Diagnostic>& errors) : errors_(errors) {}
+  std::vector<Diagnostic> take_errors() { return std::move(errors_); }
 
-  // Takes the texts out of the document.
-  Entity root(YamlNode& document) {
+  // Takes the texts out of the document. `children` are those that were made before, of a list that was handed over.
+  Entity root(YamlNode& document, std::vector<Entity> children) {
     Entity entity;
     if (document.kind != Kind::kMapping) {
-      error(fmt::format("expected a mapping with the one key 'launch', found {}", describe(document)), document.where,
-            "a launch file begins with 'launch:'");
+      wrong_root(fmt::format("expected a mapping with the one key 'launch', found {}", describe(document)),
+                 document.where, "a launch file begins with 'launch:'");
       return entity;
     }
     if (document.entries.size() > 1) {
       const auto other = std::find_if(document.entries.begin(), document.entries.end(),
                                       [](const YamlEntry& entry) { return entry.key.scalar.text.text() != "launch"; });
-      error(fmt::format("expected only the root key 'launch', found {} keys", document.entries.size()),
-            other->key.where, "indent what belongs to 'launch'");
+      wrong_root(fmt::format("expected only the root key 'launch', found {} keys", document.entries.size()),
+                 other->key.where, "indent what belongs to 'launch'");
       return entity;
     }
     if (document.entries.empty()) {
-      error("expected the root key 'launch', found an empty mapping", document.where);
+      wrong_root("expected the root key 'launch', found an empty mapping", document.where);
       return entity;
     }
     auto& [key, value] = document.entries.front();
     if (!is_name(key) || key.scalar.text.text() != "launch") {
-      error(fmt::format("expected 'launch' as root tag, found '{}'", key.scalar.text.text()), key.where,
-            "a launch file begins with 'launch:'");
+      wrong_root(fmt::format("expected 'launch' as root tag, found '{}'", key.scalar.text.text()), key.where,
+                 "a launch file begins with 'launch:'");
       return entity;
     }
     entity.type_name = "launch";
     entity.where = key.where;
+    entity.children = std::move(children);
     if (value.is_null()) {
       error("'launch' holds no list of actions", key.where, "write `launch: []` for a launch file that does nothing");
     } else {
@@ -62,9 +61,9 @@ class EntityBuilder {
   // One item of a list of actions.
   void item_of_actions(YamlNode& item, std::vector<Entity>& result) {
     if (item.kind != Kind::kMapping || item.entries.empty()) {
-      error(
-          fmt::format("expected an action, found {}", item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
-          item.where, not_an_action_help(item));
+      error(fmt::format("expected an action, found {}",
+                        item.kind == Kind::kMapping ? "an empty mapping" : describe(item)),
+            item.where, not_an_action_help(item));
       return;
     }
     if (item.entries.size() > 1) {
@@ -80,6 +79,12 @@ class EntityBuilder {
  private:
   void error(std::string message, const SourceRange& where, std::string help = {}) {
     errors_.push_back({Severity::kError, std::move(message), where, std::move(help)});
+  }
+
+  // Nothing below a wrong root is judged.
+  void wrong_root(std::string message, const SourceRange& where, std::string help = {}) {
+    errors_.clear();
+    error(std::move(message), where, std::move(help));
   }
 
   // Tags and attribute names are texts; `on:` would be a boolean.
@@ -98,7 +103,7 @@ class EntityBuilder {
   }
 
   void actions(YamlNode& list, std::vector<Entity>& result) {
-    result.reserve(list.items.size());
+    result.reserve(result.size() + list.items.size());
     for (YamlNode& item : list.items) {
       item_of_actions(item, result);
     }
@@ -159,7 +164,7 @@ class EntityBuilder {
     }
   }
 
-  void attribute(Entity& entity, const YamlNode& key, YamlNode& value) {
+  void attribute(Entity& entity, YamlNode& key, YamlNode& value) {
     const std::string& name = key.scalar.text.text();
     if (name == "children") {
       entity.has_children_list = true;
@@ -184,7 +189,7 @@ class EntityBuilder {
     if (is_items) {
       structured_items(entity, key, value);
     } else {
-      entity.attributes.push_back({name, key.where, to_value(value)});
+      entity.attributes.push_back({name, std::move(key.where), to_value(value)});
     }
   }
 
@@ -223,40 +228,24 @@ class EntityBuilder {
     return {std::move(items), node.where};
   }
 
-  std::vector<Diagnostic>& errors_;
+  std::vector<Diagnostic> errors_;
 };
-
-// The usual launch file, each action made an entity as soon as it is read. Nothing for any other.
-std::optional<Entity> usual_root(const LocatedText& source, std::vector<Diagnostic>& errors) {
-  Entity root;
-  EntityBuilder builder(errors);
-  const std::optional<YamlNode> key =
-      read_simple_yaml_list(source, "launch", [&](YamlNode& item) { builder.item_of_actions(item, root.children); });
-  if (!key) {
-    errors.clear();
-    return std::nullopt;
-  }
-  root.type_name = "launch";
-  root.where = key->where;
-  return root;
-}
-
-Entity any_root(const LocatedText& source, std::vector<Diagnostic>& errors) {
-  YamlNode document = read_yaml(source, errors);
-  if (document.is_null()) {
-    throw LaunchError("the file is empty", source.range(0, 0), "a launch file begins with 'launch:'");
-  }
-  return EntityBuilder(errors).root(document);
-}
 
 }  // namespace
 
 Entity parse_yaml(const std::shared_ptr<const SourceFile>& file) {
   const auto size = static_cast<std::uint32_t>(file->text().size());
-  std::vector<Diagnostic> errors;
   const LocatedText source(file->text(), {file, 0, size});
-  std::optional<Entity> usual = find_bad_character(source) ? std::nullopt : usual_root(source, errors);
-  Entity root = usual ? *std::move(usual) : any_root(source, errors);
+  std::vector<Diagnostic> errors;
+  EntityBuilder builder;
+  std::vector<Entity> actions;
+  YamlNode document =
+      read_yaml(source, errors, {"launch", [&](YamlNode& item) { builder.item_of_actions(item, actions); }});
+  if (document.is_null()) {
+    throw LaunchError("the file is empty", source.range(0, 0), "a launch file begins with 'launch:'");
+  }
+  Entity root = builder.root(document, std::move(actions));
+  std::ranges::move(builder.take_errors(), std::back_inserter(errors));
   if (!errors.empty()) {
     std::stable_sort(errors.begin(), errors.end(), [](const Diagnostic& left, const Diagnostic& right) {
       return left.where.begin < right.where.begin;

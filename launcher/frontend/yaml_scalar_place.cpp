@@ -51,7 +51,14 @@ class ScalarLocator {
   // The next `size` bytes of the decoded text stand for the next `raw_size` bytes of the source.
   void take(std::size_t size, std::size_t raw_size) {
     const SourceRange range = source_.range(position_, raw_size);
-    result_.append(rest_.substr(0, size), range.begin, range.end);
+    if (size == raw_size && range.end - range.begin != size) {  // an entity of XML in it: each byte for itself
+      for (std::size_t i = 0; i < size; ++i) {
+        const SourceRange byte = source_.range(position_ + i, 1);
+        result_.append(rest_.substr(i, 1), byte.begin, byte.end);
+      }
+    } else {
+      result_.append(rest_.substr(0, size), range.begin, range.end);
+    }
     rest_.remove_prefix(size);
     position_ += raw_size;
   }
@@ -171,9 +178,22 @@ class ScalarLocator {
   LocatedText result_;
 };
 
+// Whether the text stands there as it is, as most do: plain and on one line.
+bool is_verbatim(std::string_view raw, std::string_view decoded) {
+  const char first = raw.empty() ? '"' : raw.front();
+  return first != '"' && first != '\'' && first != '|' && first != '>' && first != '!' && first != '&' &&
+         raw.starts_with(decoded);
+}
+
 }  // namespace
 
 YamlScalarPlace locate_yaml_scalar(const LocatedText& source, std::size_t begin, std::string_view decoded) {
+  if (is_verbatim(std::string_view(source.text()).substr(begin), decoded)) {
+    const SourceRange range = source.range(begin, decoded.size());
+    if (range.end - range.begin == decoded.size()) {  // no entity of XML in it
+      return {LocatedText(std::string(decoded), range), begin + decoded.size()};
+    }
+  }
   return ScalarLocator(source, begin, decoded).locate();
 }
 

@@ -116,6 +116,21 @@ TEST(Yaml11Value, ReadsScalarsAndLists) {
   EXPECT_TRUE(yaml11_value(LocatedText("[]")).list()->empty());
 }
 
+TEST(Yaml11Value, TakesPlainTextsAsTheyAre) {
+  for (const char* const text :
+       {"a", "two words", "x.y, z", "$(var x) s", "/a/b", "it's", "x=\"y\"", "_", "a#b", "c::d", "$(eval '1 + 2')"}) {
+    const Value value = yaml11_value(LocatedText(text));
+    EXPECT_EQ(value.scalar()->type, Scalar::Type::kString) << text;
+    EXPECT_EQ(value.scalar()->text.text(), text);
+  }
+  EXPECT_EQ(yaml11_value(LocatedText("-1.5")).scalar()->float_value, -1.5);
+  EXPECT_EQ(yaml11_value(LocatedText("+.5")).scalar()->type, Scalar::Type::kString);
+  EXPECT_EQ(yaml11_value(LocatedText(" a ")).scalar()->text.text(), "a");
+  EXPECT_EQ(yaml11_value(LocatedText("a\nb")).scalar()->text.text(), "a b");
+  EXPECT_EQ(yaml11_value(LocatedText("\"a\"")).scalar()->text.text(), "a");
+  EXPECT_EQ(yaml11_value(LocatedText("---")).scalar()->type, Scalar::Type::kNull);
+}
+
 TEST(Yaml11Value, RefusesMappingsAndInvalidYaml) {
   for (const char* text : {"{a: 1}", "a: b", "[{a: 1}]", "@x", "*x", "[1, 2", "'open"}) {
     EXPECT_THROW(yaml11_value(LocatedText(text)), LaunchError) << text;
