@@ -3,26 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "launcher/base/utf8.hpp"
 #include "launcher/frontend/xml_cursor.hpp"
-#include "launcher/frontend/xml_scanner.hpp"
 
 namespace launch {
 
 namespace {
 
-void unexpected_in_tag(XmlCursor& cursor, const XmlTag& tag, std::size_t tag_begin) {
+void unexpected_in_tag(XmlCursor& cursor, std::string_view tag, std::size_t tag_begin) {
   if (cursor.at("<")) {
-    cursor.error(fmt::format("the tag <{}> is not closed", tag.name), tag_begin, tag_begin + 1 + tag.name.size(),
+    cursor.error(fmt::format("the tag <{}> is not closed", tag), tag_begin, tag_begin + 1 + tag.size(),
                  fmt::format("add '>' or '/>' before the '<' on line {}", cursor.line(cursor.position)));
     return;
   }
   const CodePoint character = decode_utf8(cursor.rest());
-  cursor.error(fmt::format("unexpected '{}' in the tag <{}>", cursor.rest().substr(0, character.size), tag.name),
+  cursor.error(fmt::format("unexpected '{}' in the tag <{}>", cursor.rest().substr(0, character.size), tag),
                cursor.position, cursor.position + character.size, "expected an attribute, '>' or '/>'");
 }
 
@@ -37,12 +35,13 @@ bool skip_tag(XmlCursor& cursor) {
   return cursor.text[cursor.position - 2] == '/';
 }
 
-// Reads "= value" and adds the attribute. False when the tag can't be read on.
-bool read_attribute(XmlCursor& cursor, XmlTag& tag, std::string_view name, std::size_t begin) {
+// Finds "= value" and adds the attribute. False when the tag can't be read on.
+bool read_attribute(XmlCursor& cursor, std::string_view tag, std::size_t first_attribute, std::string_view name,
+                    std::size_t begin) {
   const std::size_t name_end = cursor.position;
   cursor.skip_blanks();
   if (!cursor.at("=")) {
-    cursor.error(fmt::format("the attribute '{}' of <{}> has no value", name, tag.name), begin, name_end,
+    cursor.error(fmt::format("the attribute '{}' of <{}> has no value", name, tag), begin, name_end,
                  fmt::format("write {}=\"...\"", name));
     return false;
   }
@@ -73,30 +72,29 @@ bool read_attribute(XmlCursor& cursor, XmlTag& tag, std::string_view name, std::
       return false;
     }
   }
-  LocatedText value = decode_xml_attribute(cursor, value_begin, value_end);
-  const bool empty = value_begin == value_end;
-  const auto same = std::find_if(tag.attributes.begin(), tag.attributes.end(),
-                                 [&](const Attribute& other) { return other.name == name; });
-  if (same != tag.attributes.end()) {
-    const SourceFile::Position first = cursor.file->position(same->name_where.begin);
-    cursor.error(fmt::format("duplicate attribute '{}' of <{}>", name, tag.name), begin, name_end,
+  check_xml_references(cursor, value_begin, value_end);
+  std::vector<XmlSpan>& names = cursor.markup.attribute_names;
+  const auto same = std::find_if(names.begin() + static_cast<std::ptrdiff_t>(first_attribute), names.end(),
+                                 [&](const XmlSpan& other) { return cursor.markup.view(other) == name; });
+  if (same != names.end()) {
+    const SourceFile::Position first = cursor.markup.file->position(same->begin);
+    cursor.error(fmt::format("duplicate attribute '{}' of <{}>", name, tag), begin, name_end,
                  fmt::format("it was given first at line {}, column {}", first.line, first.column));
   }
-  tag.attributes.push_back({std::string(name),
-                            cursor.range(begin, name_end),
-                            {Scalar{.text = std::move(value)}, empty ? cursor.range(value_begin - 1, value_end + 1)
-                                                                     : cursor.range(value_begin, value_end)}});
+  cursor.markup.is_doubtful |= name.find(':') != std::string_view::npos;
+  names.push_back(cursor.span(begin, name_end));
+  cursor.markup.attribute_values.push_back(cursor.span(value_begin, value_end));
   return true;
 }
 
 }  // namespace
 
-bool read_xml_attributes(XmlCursor& cursor, XmlTag& tag, std::size_t tag_begin) {
-  tag.attributes.reserve(2);  // as most tags have
+bool read_xml_attributes(XmlCursor& cursor, std::string_view tag, std::size_t tag_begin) {
+  const std::size_t first_attribute = cursor.markup.attribute_names.size();
   while (true) {
     const bool blank = cursor.skip_blanks();
     if (cursor.position >= cursor.text.size()) {
-      cursor.fatal(fmt::format("the tag <{}> is not closed", tag.name), tag_begin, tag_begin + 1 + tag.name.size(),
+      cursor.fatal(fmt::format("the tag <{}> is not closed", tag), tag_begin, tag_begin + 1 + tag.size(),
                    "add '>' or '/>' at its end");
       return false;
     }
@@ -116,10 +114,10 @@ bool read_xml_attributes(XmlCursor& cursor, XmlTag& tag, std::size_t tag_begin) 
     const std::string_view name = cursor.take_name();
     if (!blank) {
       cursor.error(fmt::format("no white space before the attribute '{}'", name), begin, cursor.position,
-                   tag.attributes.empty() ? "" : "is a quote missing before it?");
+                   cursor.markup.attribute_names.size() == first_attribute ? "" : "is a quote missing before it?");
       return skip_tag(cursor);
     }
-    if (!read_attribute(cursor, tag, name, begin)) {
+    if (!read_attribute(cursor, tag, first_attribute, name, begin)) {
       return cursor.stopped ? false : skip_tag(cursor);
     }
   }

@@ -13,7 +13,7 @@ constexpr std::size_t kMaximumErrors = 20;
 }  // namespace
 
 SourceRange XmlCursor::range(std::size_t begin, std::size_t end) const {
-  return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  return {markup.file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }
 
 bool XmlCursor::skip_blanks() {
@@ -36,8 +36,8 @@ std::string_view XmlCursor::take_name() {
 
 void XmlCursor::error(std::string message, std::size_t begin, std::size_t end, std::string help) {
   if (!stopped) {
-    errors.push_back({Severity::kError, std::move(message), range(begin, end), std::move(help)});
-    stopped = errors.size() >= kMaximumErrors;
+    markup.errors.push_back({Severity::kError, std::move(message), range(begin, end), std::move(help)});
+    stopped = markup.errors.size() >= kMaximumErrors;
   }
 }
 

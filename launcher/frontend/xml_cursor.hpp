@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A place in the text of an XML file, and what the parts of the scanner share: blanks, names, errors.
+// A place in the text of an XML file, and what those parts share that look for its markup: blanks, names, errors.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
-#include "launcher/base/diagnostic.hpp"
 #include "launcher/base/source.hpp"
+#include "launcher/frontend/xml_markup.hpp"
 
 namespace launch {
-
-struct XmlTag;
 
 inline constexpr std::string_view kXmlBlanks = " \t\r\n";
 
@@ -29,10 +25,14 @@ inline bool is_xml_name_character(char c) {
 }
 
 struct XmlCursor {
-  explicit XmlCursor(const std::shared_ptr<const SourceFile>& source) : file(source), text(source->text()) {}
+  explicit XmlCursor(const std::shared_ptr<const SourceFile>& file) : text(file->text()) { markup.file = file; }
+
+  XmlSpan span(std::size_t begin, std::size_t end) const {
+    return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
 
   SourceRange range(std::size_t begin, std::size_t end) const;
-  std::uint32_t line(std::size_t offset) const { return file->position(offset).line; }
+  std::uint32_t line(std::size_t offset) const { return markup.file->position(offset).line; }
   std::string_view rest() const { return text.substr(position); }
   bool at(std::string_view what) const { return rest().starts_with(what); }
 
@@ -41,30 +41,24 @@ struct XmlCursor {
   // Empty when no name stands here.
   std::string_view take_name();
 
-  // Adds an error. After too many the scan stops.
+  // Adds an error. After too many the reading stops.
   void error(std::string message, std::size_t begin, std::size_t end, std::string help = {});
-  // Adds an error that leaves no sense in what follows, and stops the scan.
+  // Adds an error that leaves no sense in what follows, and stops the reading.
   void fatal(std::string message, std::size_t begin, std::size_t end, std::string help = {});
 
-  std::shared_ptr<const SourceFile> file;
-  std::string_view text;
+  XmlMarkup markup;
+  std::string_view text;  // of the file
   std::size_t position = 0;
-  std::vector<Diagnostic> errors;
   bool stopped = false;
-  bool latin1 = false;       // the declaration says so
-  bool has_doctype = false;  // which might have declared entities
 };
 
-// Reads <?xml ... ?>, which stands at the cursor.
+// Reads <?xml ... ?>, which stands at the cursor. Goes on in a file made of this one when that is in ISO-8859-1.
 void read_xml_declaration(XmlCursor& cursor);
 
-// Reads the attributes of a start tag, up to its end; true when it ends with "/>". `tag_begin` is its "<".
-bool read_xml_attributes(XmlCursor& cursor, XmlTag& tag, std::size_t tag_begin);  // xml_attributes.cpp
+// Finds the attributes of a start tag, up to its end; true when it ends with "/>". `tag_begin` is its "<".
+bool read_xml_attributes(XmlCursor& cursor, std::string_view tag, std::size_t tag_begin);  // xml_attributes.cpp
 
-// Decodes the attribute value in [begin, end): entities, white space.
-LocatedText decode_xml_attribute(XmlCursor& cursor, std::size_t begin, std::size_t end);
-
-// What the reference at `begin` ("&" ...) stands for, and its size in the file.
-std::pair<std::string, std::size_t> decode_xml_reference(XmlCursor& cursor, std::size_t begin, std::size_t end);
+// Every '&' in [begin, end) must begin a reference that XML knows.
+void check_xml_references(XmlCursor& cursor, std::size_t begin, std::size_t end);  // xml_references.cpp
 
 }  // namespace launch

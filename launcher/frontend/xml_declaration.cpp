@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <utility>
 
+#include "launcher/base/utf8.hpp"
 #include "launcher/frontend/xml_cursor.hpp"
 
 namespace launch {
@@ -20,13 +23,28 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-void read_encoding(XmlCursor& cursor, std::size_t begin, std::size_t end) {
+// What stands before the cursor is ASCII.
+void go_on_in_utf8(XmlCursor& cursor) {
+  std::string text(cursor.text.substr(0, cursor.position));
+  for (const char byte : cursor.rest()) {
+    append_utf8(text, static_cast<unsigned char>(byte));
+  }
+  cursor.markup.file = std::make_shared<const SourceFile>(cursor.markup.file->path(), std::move(text),
+                                                          cursor.markup.file->included_from());
+  cursor.text = cursor.markup.file->text();
+}
+
+// True for ISO-8859-1.
+bool read_encoding(XmlCursor& cursor, std::size_t begin, std::size_t end) {
   const std::string name = lower(cursor.text.substr(begin, end - begin));
-  cursor.latin1 = name == "iso-8859-1" || name == "latin-1" || name == "latin1";
-  if (!cursor.latin1 && name != "utf-8" && name != "utf8" && name != "us-ascii" && name != "ascii") {
+  if (name == "iso-8859-1" || name == "latin-1" || name == "latin1") {
+    return true;
+  }
+  if (name != "utf-8" && name != "utf8" && name != "us-ascii" && name != "ascii") {
     cursor.error(fmt::format("the encoding '{}' is not supported", cursor.text.substr(begin, end - begin)), begin, end,
                  "save the file as UTF-8");
   }
+  return false;
 }
 
 }  // namespace
@@ -42,6 +60,7 @@ void read_xml_declaration(XmlCursor& cursor) {
   // Once each, in this order; only the version is required.
   constexpr std::array<std::string_view, 3> kNames = {"version", "encoding", "standalone"};
   std::size_t next = 0;
+  bool is_latin1 = false;
   while (cursor.skip_blanks(), cursor.position < end) {
     const std::size_t name_begin = cursor.position;
     const std::string_view name = cursor.take_name();
@@ -63,7 +82,7 @@ void read_xml_declaration(XmlCursor& cursor) {
       return;
     }
     if (name == "encoding") {
-      read_encoding(cursor, cursor.position + 1, close);
+      is_latin1 = read_encoding(cursor, cursor.position + 1, close);
     }
     next = static_cast<std::size_t>(known - kNames.begin()) + 1;
     cursor.position = close + 1;
@@ -73,6 +92,9 @@ void read_xml_declaration(XmlCursor& cursor) {
     return;
   }
   cursor.position = end + 2;
+  if (is_latin1) {
+    go_on_in_utf8(cursor);
+  }
 }
 
 }  // namespace launch

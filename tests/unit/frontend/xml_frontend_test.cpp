@@ -92,6 +92,24 @@ TEST(XmlFrontend, ChecksNestingDepthBeforeTheParserDoes) {
       LaunchError);
 }
 
+TEST(XmlFrontend, CountsEachLineEndInAValue) {
+  const Entity root = xml("<launch><log message='a\n\rb\r\nc\n\r\nd\re' name='$(x)'/></launch>");
+  EXPECT_EQ(text_of(root.children[0], "message"), "a  b c  d e");
+  const LocatedText& text = root.children[0].find("message")->value.scalar()->text;
+  EXPECT_EQ(raw(text.range(text.text().find('d'), 1)), "d");
+  EXPECT_EQ(raw(root.children[0].find("name")->value.where), "$(x)");
+}
+
+TEST(XmlFrontend, KeepsPlacesBehindWhatTheParserDoesNotSee) {
+  const Entity root =
+      xml("<?xml version='1.0' encoding='latin1'?><!DOCTYPE a [<!ENTITY b 'c>'>]><launch><?p <x a='>'?>"
+          "<!-- <log a='\xE4'/> --><log message='\xE4&#10;&lt;&#xE4;$(x)'/></launch>");
+  const LocatedText& text = root.children.at(0).find("message")->value.scalar()->text;
+  EXPECT_EQ(text.text(), "\xC3\xA4\n<\xC3\xA4$(x)");
+  EXPECT_EQ(raw(text.range(2, 1)), "&#10;");
+  EXPECT_EQ(raw(text.range(text.text().find('$'), 4)), "$(x)");
+}
+
 TEST(XmlFrontend, RefusesWhatExpatRefuses) {
   for (const char* text : {
            "<launch/><launch/>",
@@ -126,6 +144,11 @@ TEST(XmlFrontend, RefusesWhatExpatRefuses) {
            "<launch><1/></launch>",
            "<launch><a:b/></launch>",
            "<launch></ launch>",
+           "<launch/></launch>",
+           "<launch></launch></launch><log></log>",
+           "<launch/></launch><log>",
+           "<!-- nothing -->",
+           "<?xml version='1.0' encoding='latin1'?><launch>\x01</launch>",
            "<launch></launch x='1'>",
            "<![CDATA[ ]]><launch/>",
            "<launch><? pi ?></launch>",
