@@ -21,14 +21,14 @@ std::int64_t message_deadline = 0;
 
 namespace {
 
-// When the callbacks of this thread started, the innermost last; those nested deeper are not looked at.
+// When the callbacks of this thread started, the innermost last. Deeper nesting is ignored.
 struct Started {
   std::array<std::int64_t, 16> times;
   std::size_t depth;
 };
 thread_local constinit Started started{};
 
-// What this thread has taken last.
+// The last message that this thread has taken.
 struct Taken {
   const void* subscription;
   const void* message;

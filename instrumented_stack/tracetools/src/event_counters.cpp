@@ -41,7 +41,7 @@ std::uint64_t nanoseconds(clockid_t clock) {
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
 }
 
-// The first block that no living thread has; none for the threads beyond.
+// Takes the first block that no living thread uses. If all are in use, the thread gets none.
 std::size_t take_block() {
   for (std::size_t i = kSharedBlock + 1; i < kCounterBlocks; ++i) {
     if (!taken[i].exchange(true)) return i;
@@ -49,7 +49,7 @@ std::size_t take_block() {
   return kSharedBlock;
 }
 
-// Gives the block of a thread that ends to the next one, which counts on.
+// Releases the block when its thread ends. The next thread takes it and continues its counts.
 class ThreadBlock {
  public:
   ThreadBlock() : block_(take_block()) {
@@ -67,7 +67,7 @@ class ThreadBlock {
   std::size_t block_;
 };
 
-// Null where the file can't be had: counting is no reason to disturb a node.
+// Null if the file cannot be created: counting must not disturb a node.
 CounterFile* make_file(const char* directory) {
   const std::uint64_t begin = nanoseconds(CLOCK_MONOTONIC);
   char path[4096];
@@ -77,7 +77,7 @@ CounterFile* make_file(const char* directory) {
   }
   const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) return nullptr;
-  // Room is taken now: a page that can't be had later would be a SIGBUS.
+  // Allocates the file's space now. If a page were missing later, access would raise SIGBUS.
   void* memory = MAP_FAILED;
   if (posix_fallocate(descriptor, 0, sizeof(CounterFile)) == 0) {
     memory = mmap(nullptr, sizeof(CounterFile), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
@@ -106,7 +106,7 @@ void attach() {
   detail::counting = file != nullptr;
 }
 
-// The child of a fork is a process of its own, with a file of its own. Its only thread keeps the number of its block.
+// The child of a fork is a separate process and gets its own file. Its only thread keeps the number of its block.
 void attach_child() {
   const CounterFile* const of_parent = file;
   if (of_parent == nullptr) return;

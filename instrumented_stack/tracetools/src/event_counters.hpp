@@ -2,12 +2,12 @@
 #ifndef TRACETOOLS__EVENT_COUNTERS_HPP_
 #define TRACETOOLS__EVENT_COUNTERS_HPP_
 
-/// Counts the events that this process hands to LTTng, in memory that a launcher can look into. From outside it is seen
-/// how many events each process fires while it runs, and afterwards how many of them a trace has lost: LTTng itself
-/// counts losses for each buffer, and the processes of a user share their buffers.
+/// Counts the events that this process fires to LTTng, in memory that a launcher can read. So others can see how many
+/// events each process fires while it runs, and how many of them a trace has lost. LTTng itself counts losses only for
+/// each buffer, and the processes of a user share their buffers.
 ///
-/// With TRACETOOLS_EVENT_COUNTERS=DIRECTORY in the environment each process keeps a file DIRECTORY/PID-BEGIN, laid out
-/// as `CounterFile` says; without it nothing is counted. An event that no session records is not counted either.
+/// With TRACETOOLS_EVENT_COUNTERS=DIRECTORY in the environment each process keeps a file DIRECTORY/PID-BEGIN with the
+/// layout of `CounterFile`. Without it nothing is counted. An event that no session records is not counted either.
 
 #include <atomic>
 #include <cstddef>
@@ -25,7 +25,7 @@ enum class CountedEvent : std::size_t {
 #undef TRACETOOLS_COUNTED_EVENT
 
 inline constexpr std::size_t kCountedEvents = static_cast<std::size_t>(CountedEvent::kCount);
-/// Blocks of counters: each thread has one for itself, but for the first, which is for threads beyond the others.
+/// Blocks of counters. Each thread has its own. Threads that get none share the first block.
 inline constexpr std::size_t kCounterBlocks = 64;
 inline constexpr std::size_t kCountedNameSize = 64;  // bytes, zero-terminated
 
@@ -36,10 +36,10 @@ struct CounterFile {
   std::uint32_t blocks;
   std::uint64_t pid;
   std::uint64_t begin;                     // when this library was loaded
-  std::atomic<std::uint64_t> end;          // when the process ended in order; 0 before, and for ever when it was killed
-  std::atomic<std::uint64_t> cpu;          // ns of processor time that it had used then
-  std::atomic<std::uint64_t> blocks_used;  // the first so many may hold something
-  char process[kCountedNameSize];          // name of its program
+  std::atomic<std::uint64_t> end;          // when the process ended normally; 0 while it runs, and if it was killed
+  std::atomic<std::uint64_t> cpu;          // processor time used by then, in ns
+  std::atomic<std::uint64_t> blocks_used;  // only this many blocks, from the first on, may be in use
+  char process[kCountedNameSize];          // the name of its program
   char names[kCountedEvents][kCountedNameSize];  // "ros2:rcl_init"
   std::uint64_t counts[kCounterBlocks][kCountedEvents];
 };
@@ -49,12 +49,12 @@ void begin_counting() noexcept;
 
 namespace detail {
 extern std::atomic<bool> counting;
-// A library that is loaded with the program finds room for this where access is an instruction.
+// initial-exec: access is one instruction. The space is available because the library is loaded with the program.
 extern thread_local constinit std::uint64_t* own_block [[gnu::tls_model("initial-exec")]];
 void count_without_block(CountedEvent event) noexcept;
 }  // namespace detail
 
-/// One event more. About a nanosecond; any thread.
+/// Counts one more event. Takes about a nanosecond; any thread.
 inline void count(CountedEvent event) noexcept {
   if (!detail::counting.load(std::memory_order_relaxed)) return;
   if (std::uint64_t* const block = detail::own_block) {

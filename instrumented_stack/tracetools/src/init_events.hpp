@@ -22,7 +22,7 @@
 /// Which events begin and end which objects, and how their arguments are kept for a state dump.
 namespace tracetools {
 
-/// One empty type per event, to tell about it at compile time.
+/// One empty type per event, to describe it at compile time.
 namespace event {
 #define DECLARE_TAG(name, parameters, arguments) \
   struct name {};
@@ -31,12 +31,12 @@ TRACETOOLS_EXT_EVENTS(DECLARE_TAG)
 #undef DECLARE_TAG
 }  // namespace event
 
-/// An init event: the kind of the object that it belongs to, and which argument is that object's address.
+/// An init event: the kind of the object that it belongs to, and which argument is the address of that object.
 template <typename Event>
 struct Begins {
   static constexpr bool value = false;
 };
-/// The end of an object: its kind; the only argument is its address.
+/// The end of an object: its kind. The only argument is the address.
 template <typename Event>
 struct Ends {
   static constexpr bool value = false;
@@ -112,7 +112,7 @@ inline constexpr bool is_init_event = Begins<Event>::value || is_message_link<Ev
 template <typename Event>
 inline constexpr bool is_transition = std::is_same_v<Event, event::rcl_lifecycle_transition>;
 
-// The table says which events tell of a beginning and which of an end, BEGINS and ENDS of which object.
+// The table says which events begin or end an object; BEGINS and ENDS say which object.
 #define CHECK_EVENT(given, name, Struct, group, ...)                                                         \
   static_assert(is_init_event<event::name> == (std::string_view(#group) == "init"),                          \
                 #name " needs a row of BEGINS if it is in group init of event_table.h, and none otherwise"); \
@@ -122,11 +122,11 @@ TRACETOOLS_EVENT_TABLE(CHECK_EVENT, )
 TRACETOOLS_EXT_EVENT_TABLE(CHECK_EVENT, )
 #undef CHECK_EVENT
 
-/// Events that change what is kept.
+/// Whether an event changes the kept events.
 template <typename Event>
 inline constexpr bool is_noted = is_init_event<Event> || Ends<Event>::value || is_transition<Event>;
 
-/// An argument that outlives the call.
+/// A copy of an argument that outlives the call.
 template <typename Argument>
 struct Kept {
   explicit Kept(Argument argument) : value(argument) {}
@@ -148,7 +148,7 @@ struct Kept<const std::uint8_t*> {  // a gid
   std::array<std::uint8_t, 16> value;
 };
 
-/// Keeps a link between messages. A node may link several pairs: none takes the place of another.
+/// Keeps a link between messages. A node may link several pairs, so no link replaces another.
 inline void keep_message_link(void (*record)(const void**, std::size_t, const void**, std::size_t), const void** subs,
                               std::size_t num_subs, const void** pubs, std::size_t num_pubs) {
   std::vector<ObjectKey> objects;
@@ -162,7 +162,7 @@ inline void keep_message_link(void (*record)(const void**, std::size_t, const vo
                                });
 }
 
-/// Keeps the state that a state machine is in now: no init event tells it.
+/// Keeps the current state of a state machine, because no init event records it.
 inline void keep_lifecycle_state(const void* state_machine, const char* /*start_label*/, const char* goal_label) {
   ObjectState::instance().keep({{ObjectKind::kStateMachine, state_machine}}, "rcl_lifecycle_state",
                                [state_machine, label = Kept<const char*>(goal_label)] {
@@ -170,7 +170,7 @@ inline void keep_lifecycle_state(const void* state_machine, const char* /*start_
                                });
 }
 
-/// Keeps an init event and forgets an object that ends; does nothing about other events. `record` writes the event with
+/// Keeps an init event, and forgets an object that ends. Does nothing for other events. `record` writes the event with
 /// these arguments, if a session wants it.
 template <typename Event, typename Function, typename... Arguments>
 void note(const char* name, Function record, Arguments... arguments) {

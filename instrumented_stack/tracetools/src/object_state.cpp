@@ -47,7 +47,7 @@ void ObjectState::record_again() {
 void ObjectState::erase(InitEvents::iterator event) {
   for (const ObjectKey& object : event->objects) {
     const auto found = of_object_.find(object);
-    if (found == of_object_.end()) continue;  // an object that the event names twice
+    if (found == of_object_.end()) continue;  // the event names an object twice
     std::erase(found->second, event);
     if (found->second.empty()) of_object_.erase(found);
   }

@@ -9,15 +9,15 @@
 #include <unordered_map>
 #include <vector>
 
-/// The init events of every living object of this process, kept so that they can be recorded again for a session that
-/// starts late: a state dump. Without it the runtime events of such a session would speak of addresses that nothing in
-/// its trace explains.
+/// The init events of every living object of this process. They are kept so that they can be recorded again for a
+/// session that starts late: a state dump. Without it, the runtime events of such a session would contain addresses
+/// that nothing in its trace explains.
 ///
 /// An init event belongs to one or more objects and is forgotten at the end of any of them. Events are recorded again
-/// in the order in which they came, by the thread that asks. All functions may be called from any thread.
+/// in their original order, by the calling thread. All functions may be called from any thread.
 namespace tracetools {
 
-/// Objects of different kinds may have one address: a struct and its first member.
+/// Objects of different kinds may share an address: a struct and its first member.
 enum class ObjectKind {
   kContext,
   kNode,
@@ -45,21 +45,21 @@ struct ObjectKey {
 
 class ObjectState {
  public:
-  /// That of the process. It is never destroyed: threads may fire events until the very end.
+  /// The state of the process. It is never destroyed, because threads may fire events until the very end.
   static ObjectState& instance();
 
-  /// Keeps an init event of `objects`, at least one; `record` writes it once more. It takes the place of the event of
-  /// the same `name` about the same first object. Call it before recording the event, so that none is missed: an event
-  /// recorded twice around the start of a session is harmless.
+  /// Keeps an init event of `objects`, at least one; `record` writes it again. It replaces the event of the same `name`
+  /// about the same first object. Call it before recording the event, so that a new session does not miss it. If a
+  /// session starts meanwhile, the event is recorded twice, which is harmless.
   ///
-  /// `name` must live as long as the process; an event without name (null) takes no other's place.
+  /// `name` must live as long as the process. An event without a name (null) replaces no other.
   void keep(std::vector<ObjectKey> objects, const char* name, std::function<void()> record);
 
-  /// The object ends. Call it before recording that.
+  /// The object ends. Call this before recording the end.
   void forget(ObjectKey object);
 
-  /// Records all events again, between ros2_ext:state_dump_begin and state_dump_end; nothing if there are none. Objects
-  /// neither begin nor end meanwhile: who tries waits.
+  /// Records all events again, between ros2_ext:state_dump_begin and state_dump_end; does nothing if there are none.
+  /// Objects neither begin nor end meanwhile: threads that try must wait.
   void record_again();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The payload of every event of provider `ros2`, from tracetools/event_table.h.
  *
- * LTTng reads this file several times with different meanings of its macros, hence the unusual guards. */
+ * LTTng reads this file several times with different definitions of its macros, hence the unusual guards. */
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER ros2
 

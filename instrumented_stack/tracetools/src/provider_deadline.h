@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The payload of the events of provider `ros2_deadline`: what took longer than it may. About the unusual guards see
- * provider.h. */
+/* The payload of the events of provider `ros2_deadline`: callbacks and messages that missed their deadline. provider.h
+ * explains the unusual guards. */
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER ros2_deadline
 
@@ -23,7 +23,7 @@ LTTNG_UST_TRACEPOINT_EVENT(ros2_deadline, callback,
     lttng_ust_field_integer(int64_t, duration, duration_arg)
     lttng_ust_field_integer(int64_t, deadline, deadline_arg)))
 
-/* A message was taken and handed on to rcl that was published so long before. */
+/* A message was passed to rcl too long after it was published. */
 LTTNG_UST_TRACEPOINT_EVENT(ros2_deadline, message,
   LTTNG_UST_TP_ARGS(
     const void *, rmw_subscription_handle_arg,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The payload of every event of provider `ros2_ext`, from tracetools/event_table.h. About the unusual guards see
- * provider.h. */
+/* The payload of every event of provider `ros2_ext`, from tracetools/event_table.h. provider.h explains the
+ * unusual guards. */
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER ros2_ext
 

@@ -2,10 +2,10 @@
 #ifndef PROVIDER_FIELDS_H_
 #define PROVIDER_FIELDS_H_
 
-/* What LTTng records for a row of tracetools/event_table.h: TRACETOOLS_PROBE is the macro to hand to the table, with
- * the name of the provider.
+/* What LTTng records for a row of tracetools/event_table.h: pass the macro TRACETOOLS_PROBE to the table, with the
+ * name of the provider.
  *
- * The arguments have names of their own, because LTTng's macros would take an argument for the field of the same name.
+ * Arguments and fields have different names, because LTTng's macros would confuse an argument with its field.
  */
 
 #include <stddef.h>
@@ -13,7 +13,7 @@
 
 #include "tracetools/events.h"
 
-/* RMW_GID_STORAGE_SIZE, which this package must not include. */
+/* Equals RMW_GID_STORAGE_SIZE, whose header this package must not include. */
 #define TRACETOOLS_GID_SIZE 16
 
 /* clang-format off */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Opens the probes when libtracetools.so is loaded. They are a library of their own so that a process that opts out
-/// (TRACETOOLS_RUNTIME_DISABLE=1) gets neither lttng-ust nor its two threads.
+/// Opens the probes when libtracetools.so is loaded. The probes are a separate library, so that a process that opts out
+/// (TRACETOOLS_RUNTIME_DISABLE=1) loads neither lttng-ust nor its two threads.
 #include "provider_loader.hpp"
 
 #include <dlfcn.h>
@@ -24,8 +24,8 @@ bool environment_says_yes(const char* variable) {
   return value != nullptr && std::strcmp(value, "1") == 0;
 }
 
-// The provider stands beside this library. Not left to the run path: under a sanitizer it is that of the sanitizer's
-// library, which intercepts dlopen.
+// The provider is in the folder of this library. dlopen must not search the run path: under a sanitizer, the
+// sanitizer's library intercepts dlopen, and its own run path would be used.
 std::string provider_path() {
   Dl_info self;
   std::string folder;
@@ -42,7 +42,7 @@ bool is_verbose() {
   return environment_says_yes("TRACETOOLS_VERBOSE");
 }
 
-// Sessions that start later get the objects that live then.
+// Sessions that start later also record the objects that live then.
 void offer_state_dumps(void* provider) {
   const auto on_state_dump = reinterpret_cast<decltype(&tracetools_provider_on_state_dump)>(
       dlsym(provider, "tracetools_provider_on_state_dump"));
@@ -53,9 +53,9 @@ void offer_state_dumps(void* provider) {
   }
 }
 
-// Runs when the library is loaded, before main and before the static objects of whatever links it. There is no
-// counterpart: threads may fire events until the very end of the process, when closing the probes would pull the code
-// from under them.
+// Runs when the library is loaded, before main and before the static objects of libraries that link it. The probes are
+// never closed: threads may fire events until the very end of the process, and closing would remove the code under
+// them.
 [[gnu::constructor]] void open_provider() {
   if (environment_says_yes("TRACETOOLS_RUNTIME_DISABLE")) {
     if (is_verbose()) {
@@ -63,7 +63,7 @@ void offer_state_dumps(void* provider) {
     }
     return;
   }
-  // Global, for the tracepoints of this library look the probes' symbols up.
+  // RTLD_GLOBAL, because the tracepoints of this library look up the symbols of the probes.
   void* provider = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (provider == nullptr) {
     std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());

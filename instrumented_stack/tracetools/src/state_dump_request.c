@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* lttng-ust tells the state of a process (which files are loaded where) to each session that starts: the tracepoint
- * lttng_ust_statedump:start is the beginning of that. It has no public hook for the state of applications, but any
- * function can be attached to a tracepoint, and this one fires in every process, without thread or polling of ours.
+/* lttng-ust records the state of a process (which files are loaded where) for each session that starts. It begins with
+ * the tracepoint lttng_ust_statedump:start. It has no public hook for the state of applications. But any function can
+ * be attached to a tracepoint, and this one fires in every process, so we need no thread and no polling.
  *
- * The function that attaches is exported by liblttng-ust-tracepoint.so and called by liblttng-ust.so; it is in no
- * public header, hence looked up. Found in lttng-ust 2.13; without it there are no state dumps. */
+ * liblttng-ust-tracepoint.so exports the function that attaches, and liblttng-ust.so calls it. No public header
+ * declares it, so we look it up. lttng-ust 2.13 has it; without it there are no state dumps. */
 #include "state_dump_request.h"
 
 #include <dlfcn.h>
@@ -16,7 +16,7 @@ typedef int (*register_probe)(const char* provider, const char* event, void (*pr
 
 static void (*_Atomic dump_state)(void);
 
-/* Once for each session that starts. */
+/* Called once for each session that starts. */
 static void on_lttng_ust_statedump_start(void* data, void* session) {
   (void)data;
   (void)session;
@@ -29,7 +29,7 @@ int tracetools_provider_on_state_dump(void (*dump)(void)) {
     return -1;
   }
   atomic_store(&dump_state, dump);
-  /* The signature must be that of the tracepoint, letter by letter. */
+  /* The signature must equal the text in the tracepoint exactly. */
   return attach("lttng_ust_statedump", "start", (void (*)(void))on_lttng_ust_statedump_start, NULL,
                 "struct lttng_ust_session *, session");
 }

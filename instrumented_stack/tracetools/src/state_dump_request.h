@@ -6,10 +6,11 @@
 extern "C" {
 #endif
 
-/* Has `dump` called in a thread of lttng-ust whenever LTTng asks this process for its state: a session starts, or
- * somebody runs `lttng regenerate statedump`. Call it once. Returns 0, or not 0 when this lttng-ust offers no way.
+/* Makes a thread of lttng-ust call `dump` whenever LTTng asks this process for its state: when a session starts, or
+ * when a user runs `lttng regenerate statedump`. Call it once. Returns 0, or another value if this lttng-ust cannot do
+ * it.
  *
- * `dump` holds up the tracer's control of this process while it runs; it may fire tracepoints. */
+ * While `dump` runs, the tracer's control of this process waits. `dump` may fire tracepoints. */
 int tracetools_provider_on_state_dump(void (*dump)(void));
 
 #ifdef __cplusplus

@@ -3,7 +3,7 @@
 /// tracepoints. The probes that write the records are in libtracetools_provider.so: see provider_loader.cpp.
 #include "tracetools/tracetools.h"
 
-// Not every function hands on every parameter (rclcpp_publish), and none does when tracepoints are excluded.
+// Some functions do not pass on every parameter (rclcpp_publish). Without tracepoints none does.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #ifdef TRACETOOLS_TRACEPOINTS_EXCLUDED
@@ -37,7 +37,7 @@ bool ros_trace_runtime_status(void) {
 #include "provider_ext.h"
 #include "provider_loader.hpp"
 
-// Providers stand here literally because LTTng's macros paste the name before expanding it.
+// The provider must be written literally, because LTTng's macros paste the name before expanding it.
 #define RECORD_IF_ENABLED(name, ...)                                  \
   do {                                                                \
     if (lttng_ust_tracepoint_enabled(ros2, name)) {                   \
@@ -54,7 +54,7 @@ bool ros_trace_runtime_status(void) {
   } while (false)
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 
-// What is kept for a session that starts late: nothing where no session can start.
+// Keeps events for a session that starts late. Does nothing if no session can start.
 #define NOTE(record, name, ...)                                                                                        \
   if constexpr (tracetools::is_noted<tracetools::event::name>) {                                                       \
     if (tracetools::provider_is_loaded()) {                                                                            \
@@ -63,7 +63,7 @@ bool ros_trace_runtime_status(void) {
     }                                                                                                                  \
   }
 
-// What is watched whether a session records it or not.
+// Deadlines are watched whether or not a session records.
 namespace {
 template <typename Event>
 inline bool is_watched() {
@@ -97,8 +97,8 @@ inline void watch<tracetools::event::rcl_take>(const void* message) {
   tracetools::message_handed_on(message);
 }
 
-// The state of each tracepoint lies in a line of memory of its own, which has left the caches when a message comes: the
-// first on a message's way fetches those that follow, all at once.
+// The state of each tracepoint is in its own cache line, which has been evicted by the time a message comes. The first
+// tracepoint that a message passes prefetches the following ones, all at once.
 template <typename Event>
 inline void fetch_followers() {}
 template <>
@@ -119,8 +119,8 @@ inline void fetch_followers<tracetools::event::rclcpp_executor_get_next_ready>()
 #define IS_WANTED(name, enabled) \
   (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::provider_is_loaded())
 
-// Mostly nobody records. On the way of a message these functions are code that is no longer in the processor's caches,
-// so what finds out is a few instructions each, side by side, and what records stands apart.
+// Usually no session records, and the code of these functions is no longer in the processor's caches when a message
+// comes. So the check takes a few instructions in each, side by side, and the recording code is kept apart.
 #define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments, RECORD)                  \
   template <typename... Arguments>                                                               \
   [[gnu::noinline]] static void record_##prefix##_##name(Arguments... values) {                  \

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The functions of tracetools.h for tools that probe programs in user space: each event is an SDT note of this library
-/// (`readelf -n`), which perf, bpftrace and SystemTap see. A probe that nobody uses is one `nop`.
+/// The functions of tracetools.h for tools that probe programs in user space. Each event is an SDT note of this library
+/// (`readelf -n`), which perf, bpftrace and SystemTap see. An unused probe is one `nop`.
 ///
-/// The arguments of a probe are those of the C function. Sessions of such tools begin without the process knowing:
+/// The arguments of a probe are those of the C function. Such tools start sessions without the process noticing, so
 /// there is no state dump.
 #include "tracetools/tracetools.h"
 
-// A counter per probe that the tools raise while they use it: how the functions ..._enabled_... know.
+// A counter per probe, which the tools raise while they use it. The functions ..._enabled_... read it.
 #define _SDT_HAS_SEMAPHORES 1
 #define SDT_USE_VARIADIC
 #include <sys/sdt.h>
 
-// rclcpp_publish has a parameter that is not handed on.
+// rclcpp_publish has a parameter that is not recorded.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__

@@ -4,8 +4,8 @@
 
 /// The events of provider `ros2` as C sees them: the functions of tracetools.h are declared and defined from this list.
 ///
-/// A row is EVENT(name, (parameters of the C function), (arguments that are recorded)). It comes from event_table.h,
-/// which is where an event is added.
+/// A row is EVENT(name, (parameters of the C function), (arguments that are recorded)). Rows come from event_table.h;
+/// add an event there.
 
 #include "tracetools/event_table.h"
 
@@ -14,11 +14,11 @@
 #define TRACETOOLS_EVENT_IN_C(EVENT, name, Struct, group, ...) \
   EVENT(name, TRACETOOLS_PARAMETERS(__VA_ARGS__), TRACETOOLS_ARGUMENTS(__VA_ARGS__))
 
-/// From the fields of a row of the table, in parentheses.
+/// Expands the fields of a row of the table, in parentheses.
 #define TRACETOOLS_PARAMETERS(...) (TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_PARAMETER, __VA_ARGS__)))
 #define TRACETOOLS_ARGUMENTS(...) (TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_ARGUMENT, __VA_ARGS__)))
 
-/// Each field brings a comma before it; a list does without the first.
+/// Each field adds a comma before itself. A list drops the first comma.
 #define TRACETOOLS_LIST(...) TRACETOOLS_AFTER_FIRST_COMMA(__VA_ARGS__)
 #define TRACETOOLS_AFTER_FIRST_COMMA(nothing, ...) __VA_ARGS__
 

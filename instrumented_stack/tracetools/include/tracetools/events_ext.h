@@ -2,7 +2,7 @@
 #ifndef TRACETOOLS__EVENTS_EXT_H_
 #define TRACETOOLS__EVENTS_EXT_H_
 
-/// The events of provider `ros2_ext` as C sees them, in rows as in events.h: what ROS 2's tracetools does not record.
+/// The events of provider `ros2_ext` as C sees them, in rows as in events.h. ROS 2's tracetools does not record them.
 
 #include "tracetools/events.h"
 

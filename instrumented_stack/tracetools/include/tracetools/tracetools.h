@@ -6,18 +6,19 @@
 ///
 ///   TRACETOOLS_TRACEPOINT(rcl_take, message);
 ///
-/// When computing an argument is expensive, ask first and then record without asking again; asking twice could record
-/// an argument that was not prepared:
+/// If computing an argument is expensive, ask first, then record without asking again. Asking twice could record an
+/// argument that was not prepared:
 ///
 ///   if (TRACETOOLS_TRACEPOINT_ENABLED(rmw_publisher_init)) {
 ///     …
 ///     TRACETOOLS_DO_TRACEPOINT(rmw_publisher_init, handle, gid);
 ///   }
 ///
-/// The same with _EXT_ in the name for the events of provider `ros2_ext`: TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini,
-/// node).
+/// The events of provider `ros2_ext` have the same macros with _EXT_ in the name:
+/// TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini, node).
 ///
-/// A tracepoint that no session records costs a call, a load and a branch. All functions may be called from any thread.
+/// A tracepoint costs a call, a load and a branch if no session records it. All functions may be called from any
+/// thread.
 
 #include "tracetools/config.h"
 
@@ -53,12 +54,12 @@ extern "C" {
 /// Whether the library was built with tracepoints that can record (see TRACETOOLS_TRACEPOINTS_EXCLUDED).
 bool ros_trace_compile_status(void);
 
-/// Whether the provider is loaded in this process, so that events are recorded when a session asks for them.
-/// False with TRACETOOLS_RUNTIME_DISABLE=1 in the environment and when libtracetools_provider.so could not be opened.
+/// Whether the provider is loaded in this process, so that sessions can record events. False with
+/// TRACETOOLS_RUNTIME_DISABLE=1 in the environment, and if libtracetools_provider.so could not be opened.
 bool ros_trace_runtime_status(void);
 
-// Without a detour through the linker's table of procedures: where nobody records, each line of memory that a call
-// touches is a good part of its cost.
+// Calls bypass the procedure linkage table. While no session records, each cache line that a call touches is a large
+// part of its cost.
 #if defined(__has_attribute)
 #if __has_attribute(noplt)
 #define TRACETOOLS_CALLED_DIRECTLY __attribute__((noplt))
@@ -68,10 +69,10 @@ bool ros_trace_runtime_status(void);
 #define TRACETOOLS_CALLED_DIRECTLY
 #endif
 
-/// For each event: record it if it is wanted; whether it is wanted; record it without asking.
+/// Three functions for each event: record it if it is wanted; tell whether it is wanted; record it without asking.
 ///
-/// An event is wanted when a session records it. An init event is always wanted where tracing is enabled at run time:
-/// it is kept for sessions that start later (see object_state.hpp).
+/// An event is wanted if a session records it. An init event is always wanted if tracing is enabled at run time: it is
+/// kept for sessions that start later (see object_state.hpp).
 #define TRACETOOLS_DECLARE_FUNCTIONS(prefix, name, parameters)   \
   TRACETOOLS_CALLED_DIRECTLY void prefix##_##name parameters;    \
   TRACETOOLS_CALLED_DIRECTLY bool prefix##_enabled_##name(void); \

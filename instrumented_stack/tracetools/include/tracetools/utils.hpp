@@ -9,9 +9,9 @@
 
 /// Readable names of callables, for the event rclcpp_callback_register.
 ///
-/// Every function returns memory from malloc, to be freed by the caller, or null when there is no name: a function that
-/// the dynamic symbol table does not hold (static, or a stripped executable), one that was not mangled (extern "C"), or
-/// tracepoints that are disabled.
+/// Every function returns memory from malloc, which the caller must free. It returns null if there is no name: if the
+/// function is not in the dynamic symbol table (static, or a stripped executable), if its name is not mangled (extern
+/// "C"), or if tracepoints are disabled.
 namespace tracetools {
 
 #ifdef TRACETOOLS_DISABLED
@@ -37,7 +37,7 @@ char* get_symbol(const Callable&) {
 
 namespace detail {
 
-/// The demangled form of `mangled`, null if it is not a mangled name.
+/// The demangled form of `mangled`; null if it is not a mangled name.
 char* demangle_symbol(const char* mangled);
 
 /// The demangled name of the function at `address`.
@@ -45,7 +45,7 @@ char* get_symbol_funcptr(const void* address);
 
 }  // namespace detail
 
-/// The function's own name if `callable` holds a plain function, otherwise the type of what it holds.
+/// The name of the function if `callable` holds a plain function, otherwise the type of the callable it holds.
 template <typename Result, typename... Arguments>
 char* get_symbol(const std::function<Result(Arguments...)>& callable) {
   using Function = Result (*)(Arguments...);
@@ -55,7 +55,7 @@ char* get_symbol(const std::function<Result(Arguments...)>& callable) {
   return detail::demangle_symbol(callable.target_type().name());
 }
 
-/// The type of a lambda or another function object; it names the function that a lambda stands in.
+/// The type of a lambda or another function object. The type of a lambda names the function that contains it.
 template <typename Callable>
 char* get_symbol(const Callable& callable) {
   return detail::demangle_symbol(typeid(callable).name());

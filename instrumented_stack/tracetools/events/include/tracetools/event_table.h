@@ -6,17 +6,17 @@
 /// USDT, the structs and the decoder of trace_reader, the names that a trace session records, and the names in Python.
 ///
 /// A row is EVENT(given, name, Struct, group, field...):
-///   given   what the user of the table hands to every row, as it is
-///   name    of the event: `ros2:name` in a trace, ros_trace_name in C
+///   given   passed unchanged to every row by the user of the table
+///   name    the event's name: `ros2:name` in a trace, ros_trace_name in C
 ///   Struct  the name as a C++ type, for readers of traces
-///   group   what the event tells of; a session may drop a group as a whole when recording costs too much:
-///             init       a fact about an object that is told once: it stays
-///             end        the end of an object: it stays
-///             state      a change of state, or a note about the trace itself: it stays
-///             executor   what executors look for and take up
-///             buffers    what goes through the ring buffers of intra-process communication
-///             layers     publishing and taking as rclcpp and rcl see it
-///             messages   publishing and taking as rmw sees it, and within the process
+///   group   the subject of the event; a session may drop a whole group if recording costs too much:
+///             init       a fact about an object that is recorded once: never dropped
+///             end        the end of an object: never dropped
+///             state      a change of state, or a note about the trace itself: never dropped
+///             executor   what executors wait for and execute
+///             buffers    messages in the ring buffers of intra-process communication
+///             layers     publishing and taking in rclcpp and rcl
+///             messages   publishing and taking in rmw, and within the process
 ///             services   requests and responses
 ///             callbacks  beginning and end of callbacks
 ///   field   (type, name), in the order of the payload and of the C parameters; at least one, at most six
@@ -24,7 +24,7 @@
 /// Types of fields, with the C parameter and what LTTng records:
 ///   pointer         const void *       64 bits, displayed in hexadecimal
 ///   string          const char *       a text; null is recorded as "(null)"
-///   keyword_string  const char *       the same, for a name that C++ reserves: there it has a trailing underscore
+///   keyword_string  const char *       like string, for a name that C++ reserves: C++ adds an underscore to it
 ///   size            size_t             64 bits, unsigned
 ///   uint64, int64   uint64_t, int64_t  64 bits
 ///   boolean         bool               32 bits, 0 or 1
@@ -32,16 +32,16 @@
 ///   pointers        const void ** name, size_t num_name: a sequence of pointers, after its length
 ///   version         no parameter: the version of tracetools, a text
 ///   ignored         const void *       not recorded
-///   nothing         an event without fields has this one, without a name
+///   nothing         the one field, without a name, of an event without fields
 ///
 /// A "handle" is the address of the layer's own struct (rcl_node_t *, rmw_publisher_t *). A gid identifies a DDS
-/// endpoint. Times and periods are nanoseconds. README.md of tracetools tells how to add an event.
+/// endpoint. Times and periods are nanoseconds. README.md of tracetools explains how to add an event.
 
-/// The events of provider `ros2`. Names, fields, their order and types are those of tracetools of ros2_tracing 8.10:
-/// other tools rely on them.
+/// The events of provider `ros2`. Names, fields, their order and types are those of tracetools of ros2_tracing 8.10.
+/// Other tools rely on them.
 // clang-format off
 #define TRACETOOLS_EVENT_TABLE(EVENT, given) \
-  /* A context was initialised; tracetools adds its own version. */ \
+  /* A context was initialised. tracetools adds its own version. */ \
   EVENT(given, rcl_init, RclInit, init, (pointer, context_handle), (version, version)) \
   EVENT(given, rcl_node_init, RclNodeInit, init, \
     (pointer, node_handle), (pointer, rmw_handle), (string, node_name), (keyword_string, namespace)) \
@@ -106,7 +106,7 @@
   EVENT(given, rcl_lifecycle_transition, RclLifecycleTransition, state, \
     (pointer, state_machine), (string, start_label), (string, goal_label)) \
   \
-  /* Executors; a timeout of -1 ns waits for ever. */ \
+  /* Executors. A timeout of -1 ns means no limit. */ \
   EVENT(given, rclcpp_executor_get_next_ready, RclcppExecutorGetNextReady, executor, (nothing, )) \
   EVENT(given, rclcpp_executor_wait_for_work, RclcppExecutorWaitForWork, executor, (int64, timeout)) \
   EVENT(given, rclcpp_executor_execute, RclcppExecutorExecute, executor, (pointer, handle)) \
@@ -121,16 +121,16 @@
     (pointer, buffer), (uint64, index), (uint64, size)) \
   EVENT(given, rclcpp_ring_buffer_clear, RclcppRingBufferClear, buffers, (pointer, buffer)) \
   \
-  /* Which inputs cause which outputs of a node that caches messages: called once by user code with rcl handles. */ \
+  /* Which inputs cause which outputs of a node that caches messages: user code calls it once with rcl handles. */ \
   EVENT(given, message_link_periodic_async, MessageLinkPeriodicAsync, init, (pointers, subs), (pointers, pubs)) \
   EVENT(given, message_link_partial_sync, MessageLinkPartialSync, init, (pointers, subs), (pointers, pubs))
 
-/// The events of provider `ros2_ext`: what ROS 2's tracetools does not record. The provider is separate so that
-/// `ros2:*` stays what other tools expect; enable `ros2_ext:*` to get these.
+/// The events of provider `ros2_ext`: they are not in ROS 2's tracetools. The provider is separate, so that
+/// `ros2:*` stays what other tools expect. Enable `ros2_ext:*` to record them.
 #define TRACETOOLS_EXT_EVENT_TABLE(EVENT, given) \
-  /* The end of an object; from here on its address may name another one. Each ends what the init event of the */ \
-  /* same object began: rcl_publisher_fini what ros2:rcl_publisher_init began, rclcpp_callback_fini what */ \
-  /* ros2:rclcpp_callback_register began. */ \
+  /* The end of an object; another object may have its address afterwards. Each event ends an object that an init */ \
+  /* event began: rcl_publisher_fini belongs to ros2:rcl_publisher_init, rclcpp_callback_fini to */ \
+  /* ros2:rclcpp_callback_register. */ \
   EVENT(given, rcl_context_fini, RclContextFini, end, (pointer, context_handle)) \
   EVENT(given, rcl_node_fini, RclNodeFini, end, (pointer, node_handle)) \
   EVENT(given, rmw_publisher_fini, RmwPublisherFini, end, (pointer, rmw_publisher_handle)) \
@@ -148,29 +148,29 @@
   EVENT(given, rclcpp_ipb_fini, RclcppIpbFini, end, (pointer, ipb)) \
   EVENT(given, rclcpp_ring_buffer_fini, RclcppRingBufferFini, end, (pointer, buffer)) \
   \
-  /* A service of the middleware; gid is that of the reader of its requests. */ \
+  /* A service of the middleware. The gid is that of its request reader. */ \
   EVENT(given, rmw_service_init, RmwServiceInit, init, (pointer, rmw_service_handle), (gid, gid)) \
   \
-  /* Around what a client does with a response: it runs a callback, or makes a future ready. */ \
+  /* Before and after a client handles a response: it runs a callback, or makes a future ready. */ \
   EVENT(given, rclcpp_client_callback_start, RclcppClientCallbackStart, services, \
     (pointer, client_handle), (int64, sequence_number)) \
   EVENT(given, rclcpp_client_callback_end, RclcppClientCallbackEnd, services, \
     (pointer, client_handle), (int64, sequence_number)) \
   \
-  /* An executor turns to something that ros2:rclcpp_executor_execute does not tell of; handles are those of rcl. */ \
+  /* An executor executes an entity that ros2:rclcpp_executor_execute does not cover. Handles are those of rcl. */ \
   EVENT(given, rclcpp_executor_execute_service, RclcppExecutorExecuteService, executor, (pointer, service_handle)) \
   EVENT(given, rclcpp_executor_execute_client, RclcppExecutorExecuteClient, executor, (pointer, client_handle)) \
   EVENT(given, rclcpp_executor_execute_waitable, RclcppExecutorExecuteWaitable, executor, (pointer, waitable)) \
   \
-  /* Around the init events of objects that lived already when a session started: see object_state.hpp. */ \
+  /* Before and after the init events of objects that are older than the session: see object_state.hpp. */ \
   EVENT(given, state_dump_begin, StateDumpBegin, state, (uint64, events)) \
   EVENT(given, state_dump_end, StateDumpEnd, state, (uint64, events)) \
   \
-  /* In a state dump: the state that a lifecycle node is in. */ \
+  /* In a state dump: the current state of a lifecycle node. */ \
   EVENT(given, rcl_lifecycle_state, RclLifecycleState, state, (pointer, state_machine), (string, label))
 
-/// TRACETOOLS_EACH_FIELD(USE, field...): USE(type, name) for each field of a row, in their order. No blank stands
-/// between two of them, because LTTng compares the text of its arguments.
+/// TRACETOOLS_EACH_FIELD(USE, field...): USE(type, name) for each field of a row, in order. There are no blanks
+/// between them, because LTTng compares the text of its arguments.
 #define TRACETOOLS_EACH_FIELD(USE, ...) TRACETOOLS_EACH_PICK(__VA_ARGS__, 6, 5, 4, 3, 2, 1, )(USE, __VA_ARGS__)
 #define TRACETOOLS_EACH_PICK(_1, _2, _3, _4, _5, _6, count, ...) TRACETOOLS_EACH_##count
 #define TRACETOOLS_EACH_1(USE, field) USE field
