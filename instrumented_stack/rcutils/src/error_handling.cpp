@@ -11,7 +11,7 @@ namespace {
 thread_local bool is_set = false;
 thread_local rcutils_error_state_t state;
 
-// The name of the file is enough for a reader, and the same on every machine.
+// The file name is enough for a reader, and does not depend on the machine.
 const char* base_name(const char* path) {
   const char* slash = std::strrchr(path, '/');
   return slash == nullptr ? path : slash + 1;
@@ -52,7 +52,7 @@ void rcutils_set_error_state(const char* error_string, const char* file, size_t 
 }
 
 void rcutils_set_formatted_error_state(const char* file, size_t line_number, const char* format, ...) {
-  // Formatted aside: an argument may be the text of the error that is being replaced.
+  // Formatted into a separate buffer, because an argument may be the text of the error that is being replaced.
   char message[sizeof(state.message)];
   va_list args;
   va_start(args, format);

@@ -37,7 +37,7 @@ struct Logging {
   std::atomic<bool> initialized{false};
   std::atomic<int> default_level{RCUTILS_DEFAULT_LOGGER_DEFAULT_LEVEL};
   std::atomic<rcutils_logging_output_handler_t> handler{rcutils_logging_console_output_handler};
-  std::atomic<bool> has_levels{false};  // lets the usual case, no level but the default, go without the lock
+  std::atomic<bool> has_levels{false};  // avoids the lock in the usual case: only the default level is set
   std::map<std::string, int, std::less<>> levels;
   rcutils::LogLine line;
   FILE* stream = stderr;
@@ -50,7 +50,7 @@ Logging& logging() {
   return instance;
 }
 
-// The value of a variable that may be 0 or 1; `unset` if it is absent or empty, -1 after setting an error if wrong.
+// The value of a variable that may be 0 or 1. `unset` if it is absent or empty; -1, with the error set, if it is wrong.
 int read_switch(const char* variable, int unset) {
   const char* value = std::getenv(variable);
   if (value == nullptr || *value == '\0') {
@@ -240,7 +240,7 @@ void rcutils_log_internal(const rcutils_log_location_t* location, int severity, 
 namespace rcutils {
 namespace {
 
-// On the stack unless it is long. The arguments are left for the next handler.
+// Kept on the stack unless it is long. The arguments stay usable for the next handler.
 class Message {
  public:
   Message(const char* format, va_list* args) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that throw: of arguments (require_true), of states (check_true), and of what a programmer is sure of
-// (assert_true, which NDEBUG takes out).
+// Checks that throw: require_true for arguments, check_true for states, and assert_true for what a programmer is sure
+// of. NDEBUG removes assert_true.
 #pragma once
 
 #include <exception>

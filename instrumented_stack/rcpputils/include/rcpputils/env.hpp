@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Environment variables. Not thread safe against others that change them.
+// Environment variables. Not thread safe if another thread changes them.
 #pragma once
 
 #include <rcutils/env.h>
@@ -9,7 +9,7 @@
 
 namespace rcpputils {
 
-// Empty when it is not set. Throws std::runtime_error for a null name.
+// Empty if the variable is not set. Throws std::runtime_error for a null name.
 inline std::string get_env_var(const char* env_var) {
   const char* value = nullptr;
   if (const char* error = rcutils_get_env(env_var, &value)) {
@@ -18,7 +18,8 @@ inline std::string get_env_var(const char* env_var) {
   return value;
 }
 
-// Null unsets. True, or throws std::runtime_error for a name that is null, empty or has '='.
+// A null value unsets the variable. Returns true, or throws std::runtime_error if the name is null, empty or contains
+// '='.
 inline bool set_env_var(const char* env_var, const char* value) {
   if (!rcutils_set_env(env_var, value)) {
     throw std::runtime_error("failed to set an environment variable");

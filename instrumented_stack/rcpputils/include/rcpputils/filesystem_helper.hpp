@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rcpputils::fs, which ROS 2 has from before C++17: std::filesystem with the names of that time.
+// rcpputils::fs, which ROS 2 kept from the time before C++17: std::filesystem with older names.
 #pragma once
 
 #include <cstdint>
@@ -64,7 +64,7 @@ inline path temp_directory_path() {
 inline path current_path() {
   return std::filesystem::current_path();
 }
-// Whether it is there now.
+// Whether the directory exists afterwards.
 inline bool create_directories(const path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory.string(), error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The former place of get_env_var().
+// The former header of get_env_var().
 #pragma once
 
 #include "rcpputils/env.hpp"

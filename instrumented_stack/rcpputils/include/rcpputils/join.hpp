@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many values as one string.
+// Joins many values into one string.
 #pragma once
 
 #include <sstream>
@@ -7,7 +7,7 @@
 
 namespace rcpputils {
 
-// The elements as operator<< writes them, `delim` between them.
+// The elements, written with operator<< and separated by `delim`.
 template <typename CharT, typename ContainerT>
 std::basic_string<CharT> join(const ContainerT& container, const CharT* delim) {
   std::basic_ostringstream<CharT> joined;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process itself.
+// The current process.
 #pragma once
 
 #include <errno.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Something to be done when a scope is left.
+// Runs a function when a scope is left.
 //
 //   auto close = rcpputils::make_scope_exit([&] { file.close(); });
 //   …
-//   close.cancel();  // not after all
+// close.cancel();  // close() will not run
 #pragma once
 
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One string as several.
+// Splits a string into several.
 #pragma once
 
 #include <iterator>
@@ -9,8 +9,8 @@
 
 namespace rcpputils {
 
-// The parts between the delimiters; none for an empty string, and no empty one after a delimiter at the end.
-// `skip_empty` leaves out the empty ones.
+// The parts between the delimiters. An empty string has no parts, and a delimiter at the end starts no empty part.
+// `skip_empty` leaves out empty parts.
 template <class InsertIterator>
 void split(const std::string& input, char delim, InsertIterator& it, bool skip_empty = false) {
   std::istringstream stream(input);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clang's annotations of which mutex guards what; nothing with other compilers.
+// Clang's annotations of which mutex guards what. They are empty with other compilers.
 #pragma once
 
 #if defined(__clang__)

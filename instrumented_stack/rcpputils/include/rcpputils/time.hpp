@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Durations for functions that count in nanoseconds.
+// Converts durations for functions that count in nanoseconds.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace rcpputils {
 
-// Throws std::invalid_argument for a duration that nanoseconds cannot hold.
+// Throws std::invalid_argument if nanoseconds cannot hold the duration.
 template <typename RepT, typename RatioT>
 std::chrono::nanoseconds convert_to_nanoseconds(const std::chrono::duration<RepT, RatioT>& time) {
   const auto nanoseconds = std::chrono::duration_cast<std::chrono::duration<long double, std::nano>>(time).count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The allocator that rcl and rmw functions take, so that an application can decide where their memory comes from.
+// The allocator of rcl and rmw functions. It lets an application decide where their memory comes from.
 #pragma once
 
 #include <stdbool.h>
@@ -19,7 +19,7 @@ typedef struct rcutils_allocator_s {
 
 rcutils_allocator_t rcutils_get_zero_initialized_allocator(void);
 
-// malloc, free, realloc and calloc.
+// Uses malloc, free, realloc and calloc.
 rcutils_allocator_t rcutils_get_default_allocator(void);
 
 // True when every function is set.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of a command line that a program looks up one by one.
+// Options of a command line, looked up one by one.
 #pragma once
 
 #include <stdbool.h>
@@ -8,10 +8,10 @@
 extern "C" {
 #endif
 
-// Whether `option` is one of the words from `begin` to before `end`.
+// Whether `option` is one of the words in [begin, end).
 bool rcutils_cli_option_exist(char** begin, char** end, const char* option);
 
-// The word after `option`; null when there is none.
+// The word after `option`; null if there is none.
 char* rcutils_cli_get_option(char** begin, char** end, const char* option);
 
 #ifdef __cplusplus

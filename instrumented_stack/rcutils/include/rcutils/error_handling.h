@@ -30,10 +30,10 @@ typedef struct rcutils_error_string_s {
 
 bool rcutils_error_is_set(void);
 
-// The state of this thread, or null when no error is set.
+// The error state of this thread; null if no error is set.
 const rcutils_error_state_t* rcutils_get_error_state(void);
 
-// The text of this thread's error, `error not set` without one.
+// The text of this thread's error; `error not set` if there is none.
 rcutils_error_string_t rcutils_get_error_string(void);
 
 void rcutils_reset_error(void);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of log messages, for output handlers.
+// Formats log messages for output handlers.
 #pragma once
 
 #include <cstdarg>
@@ -9,8 +9,8 @@
 
 namespace rcutils {
 
-// The line that the console gets, without colours, with its newline. Takes what an output handler is called with;
-// `args` can be used again.
+// The line for the console, without colours, with its newline. Takes the arguments of an output handler; `args` can be
+// used again.
 std::string format_log_line(const rcutils_log_location_t* location, int severity, const char* name,
                             rcutils_time_point_value_t timestamp, const char* format, va_list* args);
 

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-// At most `limit` characters with the terminating zero. Null for a null format, an invalid allocator, or without
-// memory.
+// At most `limit` characters, including the terminating zero. Null if the format is null, the allocator invalid, or
+// memory runs out.
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

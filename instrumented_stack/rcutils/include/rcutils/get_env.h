@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The former place of rcutils_get_env().
+// The former header of rcutils_get_env().
 #pragma once
 
 #include "rcutils/env.h"

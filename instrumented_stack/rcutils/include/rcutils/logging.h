@@ -10,9 +10,9 @@
 //     severity name message function_name file_name line_number time time_as_nanoseconds date_time_with_ms
 //   RCUTILS_COLORIZED_OUTPUT       0 or 1; by default colours only on a terminal
 //   RCUTILS_LOGGING_USE_STDOUT     1 writes to stdout instead of stderr
-//   RCUTILS_LOGGING_BUFFERED_STREAM  1 buffers the stream by lines, 0 not at all; by default it is left as it is
+// RCUTILS_LOGGING_BUFFERED_STREAM  1 buffers the stream by lines, 0 not at all; the default leaves it as it is
 //
-// Every function is thread safe; the output handler is called under no lock.
+// Every function is thread safe. The output handler is called without a lock held.
 #pragma once
 
 #include <stdarg.h>
@@ -51,11 +51,11 @@ typedef void (*rcutils_logging_output_handler_t)(const rcutils_log_location_t* l
                                                  rcutils_time_point_value_t timestamp, const char* format,
                                                  va_list* args);
 
-// Reads the environment. Called implicitly by the first logging function; calling it again does nothing.
-// RCUTILS_RET_INVALID_ARGUMENT when a variable has a value that it may not have; logging then works with defaults.
+// Reads the environment. The first logging function calls it; further calls do nothing. Returns
+// RCUTILS_RET_INVALID_ARGUMENT if a variable has an invalid value; logging then works with defaults.
 rcutils_ret_t rcutils_logging_initialize(void);
 
-// Forgets levels and settings, and puts the console output handler back.
+// Forgets levels and settings, and restores the console output handler.
 rcutils_ret_t rcutils_logging_shutdown(void);
 
 rcutils_logging_output_handler_t rcutils_logging_get_output_handler(void);
@@ -66,30 +66,30 @@ int rcutils_logging_get_default_logger_level(void);
 // UNSET restores RCUTILS_DEFAULT_LOGGER_DEFAULT_LEVEL.
 void rcutils_logging_set_default_logger_level(int level);
 
-// The level set for exactly this name, UNSET when there is none; -1 on error. The empty name is the default logger.
+// The level set for exactly this name, UNSET if there is none, -1 on error. The empty name is the default logger.
 int rcutils_logging_get_logger_level(const char* name);
 
 rcutils_ret_t rcutils_logging_set_logger_level(const char* name, int level);
 
-// The level of the nearest ancestor that has one, else the default level.
+// The level of the nearest ancestor that has one; else the default level.
 int rcutils_logging_get_logger_effective_level(const char* name);
 
 bool rcutils_logging_logger_is_enabled_for(const char* name, int severity);
 
-// `debug`, `INFO`… in any case. RCUTILS_RET_LOGGING_SEVERITY_STRING_INVALID for another word.
+// Accepts `debug`, `INFO`… in any case. Returns RCUTILS_RET_LOGGING_SEVERITY_STRING_INVALID for another word.
 rcutils_ret_t rcutils_logging_severity_level_from_string(const char* severity_string, rcutils_allocator_t allocator,
                                                          int* severity);
 
-// `DEBUG`, `INFO`…, null for a number that is no severity.
+// `DEBUG`, `INFO`…; null if the number is not a severity.
 const char* rcutils_logging_severity_name(int severity);
 
-// Hands a message to the output handler when the logger is enabled for the severity.
+// Passes a message to the output handler if the logger is enabled for the severity.
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 void rcutils_log(const rcutils_log_location_t* location, int severity, const char* name, const char* format, ...);
 
-// The same without looking at the level: for macros that have checked it already.
+// Like rcutils_log(), but does not check the level: for macros that have already checked it.
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif

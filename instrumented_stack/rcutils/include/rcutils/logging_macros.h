@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// RCUTILS_LOG_{DEBUG,INFO,WARN,ERROR,FATAL}: one log line, in the manner of printf, from C or C++.
+// RCUTILS_LOG_{DEBUG,INFO,WARN,ERROR,FATAL}: write one log line, like printf, from C or C++.
 //
 //   RCUTILS_LOG_INFO("got %d", 3);
 //   RCUTILS_LOG_INFO_NAMED("my_logger", "got %d", 3);
 //
-// Each also with a condition, which together with the level decides whether the line is written and its arguments are
-// evaluated:
+// Each also exists with a condition. Level and condition together decide whether the line is written and its arguments
+// are evaluated:
 //   _ONCE(…)                           the first time only
 //   _EXPRESSION(expression, …)         if the expression is true
 //   _FUNCTION(function, …)             if function() is true
 //   _SKIPFIRST(…)                      from the second time on
 //   _THROTTLE(time_function, duration_ms, …)   if duration_ms have passed since the last line; time_function is
-//     rcutils_steady_time_now or the like
+//   rcutils_steady_time_now or a similar function
 //   _SKIPFIRST_THROTTLE(time_function, duration_ms, …)
-// and each of these with _NAMED, which takes the name of the logger before the format. A condition with a memory counts
-// only lines that the level lets pass, per place in the source. The memory is not synchronised: in a race a line is
-// lost or doubled.
+// Each of these also exists with _NAMED, which takes the name of the logger before the format. Conditions with a memory
+// have one for each place in the source, and only count lines that the level lets pass. The memory is not synchronised:
+// a race can lose or double a line.
 #pragma once
 
 #include "rcutils/logging.h"
 #include "rcutils/time.h"
 
-// `before` declares the memory, `condition` is evaluated when the level lets the line pass.
+// `before` declares the memory. `condition` is evaluated if the level lets the line pass.
 #define RCUTILS_LOG_IF_(severity, before, condition, name, ...)                           \
   do {                                                                                    \
     static rcutils_log_location_t rcutils_log_location_ = {__func__, __FILE__, __LINE__}; \
@@ -42,7 +42,7 @@
 extern "C" {
 #endif
 
-// Whether a throttled line is due. A clock that cannot be read, or that jumped back, counts as elapsed.
+// Whether a throttled line is due. It is due if the clock cannot be read or has jumped back.
 static inline bool rcutils_log_throttle_due_(rcutils_ret_t (*time_function)(rcutils_time_point_value_t*),
                                              double duration_ms, int* started, rcutils_time_point_value_t* last) {
   rcutils_time_point_value_t now = 0;

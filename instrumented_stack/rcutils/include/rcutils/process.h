@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process itself.
+// The current process.
 #pragma once
 
 #include "rcutils/allocator.h"
@@ -10,7 +10,7 @@ extern "C" {
 
 int rcutils_get_pid(void);
 
-// The name of the executable without its folder; to be given back to the allocator. Null without memory.
+// The name of the executable without its folder; null if memory runs out. The caller frees it with the allocator.
 char* rcutils_get_executable_name(rcutils_allocator_t allocator);
 
 #ifdef __cplusplus

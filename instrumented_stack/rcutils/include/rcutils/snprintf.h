@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// snprintf that may be asked for the length alone.
+// snprintf that can also return only the length.
 #pragma once
 
 #include <stdarg.h>
@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-// As snprintf; with a null buffer of size 0 the number of characters that are needed. -1 and EINVAL for a null format
-// or for a null buffer of another size.
+// Like snprintf. With a null buffer of size 0 it returns the number of characters needed. Returns -1 with EINVAL for a
+// null format, or for a null buffer of another size.
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

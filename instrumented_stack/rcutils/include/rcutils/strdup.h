@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies of strings in memory from an allocator; to be given back to it.
+// Copies of strings in memory from an allocator, which must also free them.
 #pragma once
 
 #include <stddef.h>
@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-// Null for a null string, an invalid allocator, or without memory.
+// Null if the string is null, the allocator invalid, or memory runs out.
 char* rcutils_strdup(const char* str, rcutils_allocator_t allocator);
-// At most `string_length` characters.
+// Copies at most `string_length` characters.
 char* rcutils_strndup(const char* str, size_t string_length, rcutils_allocator_t allocator);
 
 #ifdef __cplusplus

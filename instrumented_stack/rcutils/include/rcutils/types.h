@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types that others pass around.
+// Includes the headers of all types.
 #pragma once
 
 #include "rcutils/types/rcutils_ret.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What marks a library's own symbols in ROS 2. Here every symbol is visible.
+// The macros that mark a library's own symbols in ROS 2. Here every symbol is visible.
 #pragma once
 
 #define RCUTILS_EXPORT __attribute__((visibility("default")))

@@ -27,7 +27,7 @@ rcutils_ret_t rcutils_uint8_array_init(rcutils_uint8_array_t* array, size_t capa
 
 rcutils_ret_t rcutils_uint8_array_fini(rcutils_uint8_array_t* array);
 
-// Changes the capacity; a length beyond it is cut. `new_size` must not be 0.
+// Changes the capacity. A longer length is cut to it. `new_size` must not be 0.
 rcutils_ret_t rcutils_uint8_array_resize(rcutils_uint8_array_t* array, size_t new_size);
 
 #ifdef __cplusplus
