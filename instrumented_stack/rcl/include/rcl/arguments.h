@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parsing of the ROS part of a command line.
 //
-// Everything between `--ros-args` and `--` (or the end) belongs to ROS; both may occur several times. The flags:
+// Everything between `--ros-args` and `--` (or the end) belongs to ROS. Both may occur several times. The flags:
 //   -r, --remap [node:]FROM:=TO   -p, --param [node:]NAME:=VALUE   --params-file FILE   -e, --enclave PATH
 //   --log-level LEVEL | LOGGER:=LEVEL   --log-config-file FILE   --log-file-name PREFIX
 //   --enable-rosout-logs, --disable-rosout-logs, and the same for stdout and external-lib
-// Outside, the old form `FROM:=TO` is still taken as a remap rule, with a warning; the rest is left to the application.
+// Outside, the old form `FROM:=TO` is still a remap rule, with a warning. The rest is left to the application.
 #pragma once
 
 #include <stdbool.h>
@@ -41,23 +41,24 @@ typedef struct rcl_arguments_s {
 
 rcl_arguments_t rcl_get_zero_initialized_arguments(void);
 
-// Parses; `argv` may be null when `argc` is 0. A wrong ROS argument gives RCL_RET_INVALID_ROS_ARGS and an error message
-// that names the argument and what is wrong with it; a flag that is not known inside `--ros-args` is kept and can be
-// asked for with rcl_arguments_get_count_unparsed_ros().
+// Parses the arguments; `argv` may be null if `argc` is 0. A wrong ROS argument returns RCL_RET_INVALID_ROS_ARGS and an
+// error message that names the argument and the problem. An unknown flag inside `--ros-args` is kept; ask for it with
+// rcl_arguments_get_count_unparsed_ros().
 rcl_ret_t rcl_parse_arguments(int argc, const char* const* argv, rcl_allocator_t allocator,
                               rcl_arguments_t* args_output);
 
-// Arguments outside the ROS sections, the program name included: indices into argv. Free the array with the allocator.
+// Indices into argv of the arguments outside the ROS sections, including the program name. Free the array with the
+// allocator.
 int rcl_arguments_get_count_unparsed(const rcl_arguments_t* args);
 rcl_ret_t rcl_arguments_get_unparsed(const rcl_arguments_t* args, rcl_allocator_t allocator,
                                      int** output_unparsed_indices);
 
-// Arguments inside the ROS sections that no flag explains.
+// Arguments inside the ROS sections that belong to no known flag.
 int rcl_arguments_get_count_unparsed_ros(const rcl_arguments_t* args);
 rcl_ret_t rcl_arguments_get_unparsed_ros(const rcl_arguments_t* args, rcl_allocator_t allocator,
                                          int** output_unparsed_ros_indices);
 
-// The command line without its ROS sections; the strings are those of argv. Free the array with the allocator.
+// The command line without its ROS sections. The strings are those of argv. Free the array with the allocator.
 rcl_ret_t rcl_remove_ros_arguments(const char* const* argv, const rcl_arguments_t* args, rcl_allocator_t allocator,
                                    int* nonros_argc, const char*** nonros_argv);
 

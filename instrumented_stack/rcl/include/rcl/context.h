@@ -20,7 +20,7 @@ typedef struct rcl_context_impl_s rcl_context_impl_t;
 typedef struct rcl_context_s {
   rcl_arguments_t global_arguments;
   rcl_context_impl_t* impl;
-  // 0 while not valid. Read and written atomically: rcl_shutdown() may run beside any query.
+  // 0 while the context is not valid. Read and written atomically, because rcl_shutdown() may run during any query.
   uint64_t instance_id_storage;
 } rcl_context_t;
 
@@ -31,7 +31,7 @@ rcl_ret_t rcl_context_fini(rcl_context_t* context);
 
 const rcl_init_options_t* rcl_context_get_init_options(const rcl_context_t* context);
 
-// Differs for every rcl_init() of the process; 0 when the context is not valid.
+// Differs for every rcl_init() of the process; 0 if the context is not valid.
 rcl_context_instance_id_t rcl_context_get_instance_id(const rcl_context_t* context);
 rcl_ret_t rcl_context_get_domain_id(rcl_context_t* context, size_t* domain_id);
 

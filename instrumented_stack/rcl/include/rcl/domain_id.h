@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ROS_DOMAIN_ID.
+// Reads ROS_DOMAIN_ID.
 #pragma once
 
 #include <stddef.h>
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-// RCL_DEFAULT_DOMAIN_ID is left alone when the variable is not set. RCL_RET_ERROR when it is no number.
+// Leaves RCL_DEFAULT_DOMAIN_ID alone if the variable is not set. Returns RCL_RET_ERROR if it is not a number.
 rcl_ret_t rcl_get_default_domain_id(size_t* domain_id);
 
 #ifdef __cplusplus

@@ -38,20 +38,20 @@ typedef struct rcl_event_s {
 
 rcl_event_t rcl_get_zero_initialized_event(void);
 
-// The publisher or subscription must outlive the event. RCL_RET_UNSUPPORTED for types that the middleware does not
-// know.
+// The publisher or subscription must outlive the event. Returns RCL_RET_UNSUPPORTED for types that the middleware does
+// not know.
 rcl_ret_t rcl_publisher_event_init(rcl_event_t* event, const rcl_publisher_t* publisher,
                                    rcl_publisher_event_type_t event_type);
 rcl_ret_t rcl_subscription_event_init(rcl_event_t* event, const rcl_subscription_t* subscription,
                                       rcl_subscription_event_type_t event_type);
 rcl_ret_t rcl_event_fini(rcl_event_t* event);
 
-// Copies the status (rmw/event.h tells its type) into `event_info` and sets its changes back.
+// Copies the status (rmw/event.h has the types) into `event_info` and sets its changes back to 0.
 rcl_ret_t rcl_take_event(const rcl_event_t* event, void* event_info);
 rmw_event_t* rcl_event_get_rmw_handle(const rcl_event_t* event);
 bool rcl_event_is_valid(const rcl_event_t* event);
 
-// Null ends the calls: none is going on any more when this returns.
+// Null ends the calls: none is running any more when this returns.
 rcl_ret_t rcl_event_set_callback(const rcl_event_t* event, rcl_event_callback_t callback, const void* user_data);
 
 #ifdef __cplusplus

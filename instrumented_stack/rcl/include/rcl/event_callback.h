@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How rcl tells of messages, requests, responses, events and timer resets: see rmw/event_callback_type.h.
+// How rcl reports messages, requests, responses, events and timer resets: see rmw/event_callback_type.h.
 #pragma once
 
 #include "rmw/event_callback_type.h"

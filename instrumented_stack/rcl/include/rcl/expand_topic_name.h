@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a name as written in a program to a full name.
+// Turns a name as written in a program into a full name.
 #pragma once
 
 #include "rcl/allocator.h"
@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-// `chatter` → `/ns/chatter`, `~/x` → `/ns/node/x`, `{node}` → node name, `{ns}` and `{namespace}` → namespace.
-// RCL_RET_TOPIC_NAME_INVALID, RCL_RET_UNKNOWN_SUBSTITUTION. Free the output with `allocator`.
+// `chatter` → `/ns/chatter`, `~/x` → `/ns/node/x`, `{node}` → node name, `{ns}` and `{namespace}` → namespace. Returns
+// RCL_RET_TOPIC_NAME_INVALID or RCL_RET_UNKNOWN_SUBSTITUTION on errors. Free the output with `allocator`.
 rcl_ret_t rcl_expand_topic_name(const char* input_topic_name, const char* node_name, const char* node_namespace,
                                 rcl_allocator_t allocator, char** output_topic_name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes, topics, services and endpoints that are known in the whole system.
+// The known nodes, topics, services and endpoints of the whole system.
 #pragma once
 
 #include "rcl/client.h"
@@ -23,7 +23,7 @@ typedef rmw_topic_endpoint_info_array_t rcl_topic_endpoint_info_array_t;
 
 rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t* names_and_types);
 
-// Full topic name; no remapping is applied.
+// Takes the full topic name; no remapping is applied.
 rcl_ret_t rcl_count_publishers(const rcl_node_t* node, const char* topic_name, size_t* count);
 rcl_ret_t rcl_count_subscribers(const rcl_node_t* node, const char* topic_name, size_t* count);
 
@@ -33,13 +33,13 @@ rcl_ret_t rcl_get_node_names(const rcl_node_t* node, rcl_allocator_t allocator, 
 rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator, bool no_demangle,
                                         rcl_names_and_types_t* topic_names_and_types);
 
-// Full service name; no remapping is applied.
+// Takes the full service name; no remapping is applied.
 rcl_ret_t rcl_count_services(const rcl_node_t* node, const char* service_name, size_t* count);
 rcl_ret_t rcl_count_clients(const rcl_node_t* node, const char* service_name, size_t* count);
 rcl_ret_t rcl_get_service_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
                                           rcl_names_and_types_t* service_names_and_types);
 
-// What one node has. RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
+// The endpoints of one node. Returns RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
 rcl_ret_t rcl_get_publisher_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
                                                     bool no_demangle, const char* node_name, const char* node_namespace,
                                                     rcl_names_and_types_t* topic_names_and_types);
@@ -54,14 +54,14 @@ rcl_ret_t rcl_get_client_names_and_types_by_node(const rcl_node_t* node, rcl_all
                                                  const char* node_name, const char* node_namespace,
                                                  rcl_names_and_types_t* service_names_and_types);
 
-// Full topic name; with `no_mangle` as DDS has it. The array must be zero initialized.
+// Takes the full topic name; with `no_mangle` the name is that of DDS. The array must be zero initialized.
 rcl_ret_t rcl_get_publishers_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator, const char* topic_name,
                                            bool no_mangle, rcl_topic_endpoint_info_array_t* publishers_info);
 rcl_ret_t rcl_get_subscriptions_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator,
                                               const char* topic_name, bool no_mangle,
                                               rcl_topic_endpoint_info_array_t* subscriptions_info);
 
-// Whether a request of the client would be answered. Changes trigger the graph guard condition.
+// Whether a service would answer a request of the client. Changes trigger the graph guard condition.
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rcl_init() is given beside the command line.
+// The options of rcl_init() besides the command line.
 #pragma once
 
 #include "rcl/allocator.h"
@@ -23,7 +23,7 @@ rcl_ret_t rcl_init_options_init(rcl_init_options_t* init_options, rcl_allocator_
 rcl_ret_t rcl_init_options_copy(const rcl_init_options_t* src, rcl_init_options_t* dst);
 rcl_ret_t rcl_init_options_fini(rcl_init_options_t* init_options);
 
-// RCL_DEFAULT_DOMAIN_ID lets ROS_DOMAIN_ID decide.
+// RCL_DEFAULT_DOMAIN_ID means that ROS_DOMAIN_ID decides.
 rcl_ret_t rcl_init_options_get_domain_id(const rcl_init_options_t* init_options, size_t* domain_id);
 rcl_ret_t rcl_init_options_set_domain_id(rcl_init_options_t* init_options, size_t domain_id);
 

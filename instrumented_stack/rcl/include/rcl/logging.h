@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Logging of a process as its ROS arguments want it: levels, console, log file and /rosout.
+// Sets up the logging of a process from its ROS arguments: levels, console, log file and /rosout.
 #pragma once
 
 #include "rcl/allocator.h"
@@ -11,11 +11,11 @@
 extern "C" {
 #endif
 
-// Applies `--log-level` and the enable/disable flags, and installs the output handler that feeds the console, the log
+// Applies `--log-level` and the enable/disable flags. Installs the output handler that writes to the console, the log
 // file of the process and /rosout.
 rcl_ret_t rcl_logging_configure(const rcl_arguments_t* global_args, const rcl_allocator_t* allocator);
 
-// The same with another handler, which may call rcl_logging_multiple_output_handler().
+// Like rcl_logging_configure(), with another handler. It may call rcl_logging_multiple_output_handler().
 rcl_ret_t rcl_logging_configure_with_output_handler(const rcl_arguments_t* global_args,
                                                     const rcl_allocator_t* allocator,
                                                     rcutils_logging_output_handler_t output_handler);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of a node's logger on /rosout.
+// Publishes the messages of a node's logger on /rosout.
 //
-// A message of logger `ns.node` or `ns.node.child` is published by the node `/ns/node`.
+// The node `/ns/node` publishes messages of the loggers `ns.node` and `ns.node.child`.
 #pragma once
 
 #include "rcl/node.h"
@@ -12,12 +12,12 @@
 extern "C" {
 #endif
 
-// Creates and removes the node's publisher on /rosout; rcl_node_init() and rcl_node_fini() call these. RCL_RET_OK also
-// when the node, or another one with the same logger name, has one already.
+// Create and remove the node's publisher on /rosout; rcl_node_init() and rcl_node_fini() call them. They also return
+// RCL_RET_OK if the node, or another one with the same logger name, already has a publisher.
 rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t* node);
 rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node);
 
-// Publishes on behalf of the node with the longest logger name that is `name` or an ancestor of it.
+// Publishes for the node with the longest logger name that is `name` or an ancestor of it.
 void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
                                        rcutils_time_point_value_t timestamp, const char* format, va_list* args);
 

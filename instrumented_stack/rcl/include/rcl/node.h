@@ -23,13 +23,13 @@ typedef struct rcl_node_s {
 
 rcl_node_t rcl_get_zero_initialized_node(void);
 
-// Creates the node; name and namespace are remapped, a relative namespace gets a leading slash. Fires rcl_node_init,
-// then creates the publisher on /rosout if `options` and the arguments of the process have it enabled.
-// RCL_RET_NODE_INVALID_NAME, RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NOT_INIT, RCL_RET_ALREADY_INIT.
+// Creates the node. Name and namespace are remapped, and a relative namespace gets a leading slash. Fires
+// rcl_node_init, then creates the publisher on /rosout if `options` and the process arguments enable it. Returns
+// RCL_RET_NODE_INVALID_NAME, RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NOT_INIT or RCL_RET_ALREADY_INIT on errors.
 rcl_ret_t rcl_node_init(rcl_node_t* node, const char* name, const char* namespace_, rcl_context_t* context,
                         const rcl_node_options_t* options);
 
-// Also removes the node's /rosout publisher. Publishers and subscriptions must be gone before.
+// Also removes the node's /rosout publisher. Publishers and subscriptions must be destroyed before.
 rcl_ret_t rcl_node_fini(rcl_node_t* node);
 
 bool rcl_node_is_valid(const rcl_node_t* node);
@@ -46,8 +46,8 @@ const rcl_guard_condition_t* rcl_node_get_graph_guard_condition(const rcl_node_t
 // `ns.node`, without the leading slash.
 const char* rcl_node_get_logger_name(const rcl_node_t* node);
 
-// Expands and remaps a topic or service name as publishers and services of this node would, unless `only_expand`.
-// Free the output with `allocator`.
+// Expands and remaps a topic or service name, as publishers and services of this node do. `only_expand` skips the
+// remapping. Free the output with `allocator`.
 rcl_ret_t rcl_node_resolve_name(const rcl_node_t* node, const char* input_name, rcl_allocator_t allocator,
                                 bool is_service, bool only_expand, char** output_name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node is created with beside its name.
+// The options for creating a node besides its name.
 #pragma once
 
 #include <stdbool.h>
@@ -15,7 +15,7 @@ extern "C" {
 
 typedef struct rcl_node_options_s {
   rcl_allocator_t allocator;
-  bool use_global_arguments;  // also apply the arguments of the context; the node's own come first
+  bool use_global_arguments;  // also apply the arguments of the context, after the node's own
   rcl_arguments_t arguments;
   bool enable_rosout;
   rmw_qos_profile_t rosout_qos;

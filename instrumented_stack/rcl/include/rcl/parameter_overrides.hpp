@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter values given on a command line and in parameter files, and the ones that apply to a node.
+// Parameter values from command line and parameter files, and the selection for a node.
 //
 // Values are kept per node pattern (`/**`, `/ns/*`, `/ns/node`, or a bare node name from `-p node:name:=value`), in
-// order of first appearance over all `-p` and `--params-file`. A repeated pattern and name replaces the value at its
-// old place.
+// order of first appearance over all `-p` and `--params-file`. A repeated pattern and name replaces the value in its
+// old position.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace rcl {
 using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
                                     std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
 
-// Whether a node pattern stands for the node of this fully qualified name.
+// Whether a node pattern matches the node with this fully qualified name.
 bool node_pattern_matches(std::string_view pattern, std::string_view fully_qualified_name);
 
 class ParameterOverrides {
@@ -30,16 +30,18 @@ class ParameterOverrides {
 
   void set(std::string_view node_pattern, std::string_view name, ParameterValue value);
 
-  // Reads a parameter file over the present values. Throws std::invalid_argument with `FILE:LINE: what is wrong`.
+  // Reads a parameter file; its values replace present ones. Throws std::invalid_argument with `FILE:LINE: what is
+  // wrong`.
   void load_file(const std::string& path);
 
   // Sets the value of `-p name:=text`, typed as a YAML document. Throws std::invalid_argument.
   void set_from_text(std::string_view node_pattern, std::string_view name, std::string_view text);
 
-  // Adds all of `other` on top.
+  // Adds all values of `other`, which replace present ones.
   void merge(const ParameterOverrides& other);
 
-  // The values for a node by its fully qualified name: every matching pattern in order, later ones winning.
+  // The values for a node by its fully qualified name: those of all matching patterns in order; later ones replace
+  // earlier ones.
   std::map<std::string, ParameterValue> for_node(std::string_view fully_qualified_name) const;
 
   bool empty() const { return patterns_.empty(); }
@@ -51,7 +53,7 @@ class ParameterOverrides {
   std::vector<std::pair<std::string, Values>> patterns_;
 };
 
-// The overrides of parsed arguments; empty for arguments that have none or were never parsed.
+// The overrides of parsed arguments; empty if the arguments have none or were never parsed.
 const ParameterOverrides& parameter_overrides(const rcl_arguments_t& arguments);
 
 }  // namespace rcl

@@ -28,7 +28,7 @@ rcl_publisher_t rcl_get_zero_initialized_publisher(void);
 rcl_publisher_options_t rcl_publisher_get_default_options(void);
 
 // Creates the publisher on the expanded and remapped topic. Fires rcl_publisher_init with that name and the requested
-// depth. RCL_RET_TOPIC_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+// depth. Returns RCL_RET_TOPIC_NAME_INVALID, RCL_RET_NODE_INVALID or RCL_RET_ALREADY_INIT on errors.
 rcl_ret_t rcl_publisher_init(rcl_publisher_t* publisher, const rcl_node_t* node,
                              const rosidl_message_type_support_t* type_support, const char* topic_name,
                              const rcl_publisher_options_t* options);
@@ -40,18 +40,18 @@ rcl_ret_t rcl_publish_serialized_message(const rcl_publisher_t* publisher,
                                          const rcl_serialized_message_t* serialized_message,
                                          rmw_publisher_allocation_t* allocation);
 
-// Memory of the middleware to make a message in, not initialised; see rmw_borrow_loaned_message(). RCL_RET_UNSUPPORTED
-// unless rcl_publisher_can_loan_messages().
+// Borrows memory of the middleware for a message, not initialised; see rmw_borrow_loaned_message(). Returns
+// RCL_RET_UNSUPPORTED unless rcl_publisher_can_loan_messages().
 rcl_ret_t rcl_borrow_loaned_message(const rcl_publisher_t* publisher, const rosidl_message_type_support_t* type_support,
                                     void** ros_message);
 rcl_ret_t rcl_return_loaned_message_from_publisher(const rcl_publisher_t* publisher, void* loaned_message);
-// Takes the loan back, too.
+// Also takes the loan back.
 rcl_ret_t rcl_publish_loaned_message(const rcl_publisher_t* publisher, void* ros_message,
                                      rmw_publisher_allocation_t* allocation);
 
 rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t* publisher);
 
-// Nanoseconds; negative waits forever.
+// The timeout is in nanoseconds; a negative one waits forever.
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t* publisher, rmw_duration_t timeout);
 
 const char* rcl_publisher_get_topic_name(const rcl_publisher_t* publisher);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ROS client library below rclcpp: everything of this layer.
+// The ROS client library below rclcpp: all headers of this layer.
 //
 //   init.h context.h init_options.h arguments.h       start of a process, --ros-args
 //   node.h node_options.h                              nodes
 //   publisher.h subscription.h                         topics
 //   service.h client.h service_introspection.h         services
 //   timer.h time.h guard_condition.h wait.h            waiting
-//   graph.h                                            who else is there
+//   graph.h                                            what else is in the system
 //   remap.h expand_topic_name.h validate_topic_name.h  names
 //   logging.h logging_rosout.h                         console and /rosout
 //   parameter_overrides.hpp                            parameters of the command line (C++)
 //
-// Objects are made with rcl_get_zero_initialized_X(), rcl_X_init(), rcl_X_fini(). Functions return RCL_RET_OK or a code
-// of rcl/types.h after leaving a message for rcl_get_error_string().
+// The functions of an object are rcl_get_zero_initialized_X(), rcl_X_init() and rcl_X_fini(). Functions return
+// RCL_RET_OK, or a code of rcl/types.h after leaving a message for rcl_get_error_string().
 #pragma once
 
 #include "rcl/arguments.h"

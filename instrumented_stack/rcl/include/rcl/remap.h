@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applying remap rules. The first rule that matches wins; `local_arguments` (a node's own) come before
-// `global_arguments` (the process's). Either may be null. The output is null when no rule matched, else free it with
-// the allocator.
+// Applies remap rules. The first rule that matches wins; `local_arguments` (those of the node) come before
+// `global_arguments` (those of the process). Either may be null. The output is null if no rule matched; else free it
+// with the allocator.
 #pragma once
 
 #include "rcl/allocator.h"
@@ -20,7 +20,7 @@ rcl_ret_t rcl_remap_service_name(const rcl_arguments_t* local_arguments, const r
                                  const char* service_name, const char* node_name, const char* node_namespace,
                                  rcl_allocator_t allocator, char** output_name);
 
-// Rules `__node:=`, `__name:=` and `__ns:=`, all with an optional `node:` before.
+// Rules `__node:=`, `__name:=` and `__ns:=`, each with an optional `node:` in front.
 rcl_ret_t rcl_remap_node_name(const rcl_arguments_t* local_arguments, const rcl_arguments_t* global_arguments,
                               const char* node_name, rcl_allocator_t allocator, char** output_name);
 rcl_ret_t rcl_remap_node_namespace(const rcl_arguments_t* local_arguments, const rcl_arguments_t* global_arguments,

@@ -29,20 +29,20 @@ typedef struct rcl_service_options_s {
 rcl_service_t rcl_get_zero_initialized_service(void);
 rcl_service_options_t rcl_service_get_default_options(void);
 
-// Creates the service under the expanded and remapped name. Fires rcl_service_init with that name.
-// RCL_RET_SERVICE_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+// Creates the service under the expanded and remapped name. Fires rcl_service_init with that name. Returns
+// RCL_RET_SERVICE_NAME_INVALID, RCL_RET_NODE_INVALID or RCL_RET_ALREADY_INIT on errors.
 rcl_ret_t rcl_service_init(rcl_service_t* service, const rcl_node_t* node,
                            const rosidl_service_type_support_t* type_support, const char* service_name,
                            const rcl_service_options_t* options);
 rcl_ret_t rcl_service_fini(rcl_service_t* service, rcl_node_t* node);
 
-// Takes the next request, RCL_RET_SERVICE_TAKE_FAILED when there is none.
+// Takes the next request. Returns RCL_RET_SERVICE_TAKE_FAILED if there is none.
 rcl_ret_t rcl_take_request_with_info(const rcl_service_t* service, rmw_service_info_t* request_header,
                                      void* ros_request);
 rcl_ret_t rcl_take_request(const rcl_service_t* service, rmw_request_id_t* request_header, void* ros_request);
 
-// `response_header` as it came with the request. RCL_RET_TIMEOUT if the client cannot receive it yet; no error if it is
-// gone.
+// Pass `response_header` as it came with the request. Returns RCL_RET_TIMEOUT if the client cannot receive the response
+// yet. It is no error if the client is gone.
 rcl_ret_t rcl_send_response(const rcl_service_t* service, rmw_request_id_t* response_header, void* ros_response);
 
 const char* rcl_service_get_service_name(const rcl_service_t* service);
@@ -52,16 +52,16 @@ const rmw_qos_profile_t* rcl_service_request_subscription_get_actual_qos(const r
 const rmw_qos_profile_t* rcl_service_response_publisher_get_actual_qos(const rcl_service_t* service);
 bool rcl_service_is_valid(const rcl_service_t* service);
 
-// `callback` is told of every request that arrives, and at once of those that wait to be taken. Null ends the calls:
-// none is going on any more when this returns. Not to be called from the callback.
+// `callback` is called for every request that arrives, and at once for those that wait to be taken. Null ends the
+// calls: none is running any more when this returns. Must not be called from the callback.
 rcl_ret_t rcl_service_set_on_new_request_callback(const rcl_service_t* service, rcl_event_callback_t callback,
                                                   const void* user_data);
 
-// Lets the service publish what happens to its calls on the service's name and RCL_SERVICE_INTROSPECTION_TOPIC_POSTFIX,
-// changes what it publishes of them, or ends that: requests that were taken and responses that were sent.
-// `type_support` is that of the service. The publisher options count when it is off so far. The clock gives the events
-// their times and must live until it is off or the service is finalized. Thread safe. RCL_RET_SERVICE_INVALID,
-// RCL_RET_INVALID_ARGUMENT, and what rcl_publisher_init() returns.
+// Turns on, changes or turns off the introspection of this service: it publishes the requests taken and the responses
+// sent on a topic named after the service plus RCL_SERVICE_INTROSPECTION_TOPIC_POSTFIX. `type_support` is that of the
+// service. The publisher options only apply when it is turned on. The clock gives the events their times; it must live
+// until introspection is off or the service is finalized. Thread safe. Returns RCL_RET_SERVICE_INVALID,
+// RCL_RET_INVALID_ARGUMENT, or an error of rcl_publisher_init().
 rcl_ret_t rcl_service_configure_service_introspection(rcl_service_t* service, rcl_node_t* node, rcl_clock_t* clock,
                                                       const rosidl_service_type_support_t* type_support,
                                                       const rcl_publisher_options_t publisher_options,

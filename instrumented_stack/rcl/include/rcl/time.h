@@ -25,7 +25,7 @@ typedef rcutils_duration_value_t rcl_duration_value_t;
 
 typedef enum rcl_clock_type_e {
   RCL_CLOCK_UNINITIALIZED = 0,
-  RCL_ROS_TIME,     // the system time, or a time set from outside (simulation)
+  RCL_ROS_TIME,     // the system time, or a simulated time that is set from outside
   RCL_SYSTEM_TIME,  // CLOCK_REALTIME
   RCL_STEADY_TIME   // CLOCK_MONOTONIC
 } rcl_clock_type_t;
@@ -40,7 +40,7 @@ typedef struct rcl_time_point_s {
 } rcl_time_point_t;
 
 typedef enum rcl_clock_change_e {
-  RCL_ROS_TIME_NO_CHANGE = 1,  // simulated time advanced or went back
+  RCL_ROS_TIME_NO_CHANGE = 1,  // simulated time moved forward or back
   RCL_ROS_TIME_ACTIVATED = 2,
   RCL_ROS_TIME_DEACTIVATED = 3,
   RCL_SYSTEM_TIME_NO_CHANGE = 4
@@ -51,11 +51,11 @@ typedef struct rcl_time_jump_s {
   rcl_duration_t delta;
 } rcl_time_jump_t;
 
-// Called once before (`before_jump` true) and once after the clock changes.
+// Called once before the clock changes (`before_jump` true) and once after.
 typedef void (*rcl_jump_callback_t)(const rcl_time_jump_t* time_jump, bool before_jump, void* user_data);
 
 typedef struct rcl_jump_threshold_s {
-  bool on_clock_change;         // also on activation and deactivation of simulated time
+  bool on_clock_change;         // also when simulated time is turned on or off
   rcl_duration_t min_forward;   // 0: never on a forward jump
   rcl_duration_t min_backward;  // negative; 0: never on a backward jump
 } rcl_jump_threshold_t;
@@ -79,7 +79,7 @@ rcl_ret_t rcl_disable_ros_time_override(rcl_clock_t* clock);
 rcl_ret_t rcl_is_enabled_ros_time_override(rcl_clock_t* clock, bool* is_enabled);
 rcl_ret_t rcl_set_ros_time_override(rcl_clock_t* clock, rcl_time_point_value_t time_value);
 
-// Not thread safe with respect to one another and to changes of the clock.
+// Not thread safe: do not call these at the same time as each other or as changes of the clock.
 rcl_ret_t rcl_clock_add_jump_callback(rcl_clock_t* clock, rcl_jump_threshold_t threshold, rcl_jump_callback_t callback,
                                       void* user_data);
 rcl_ret_t rcl_clock_remove_jump_callback(rcl_clock_t* clock, rcl_jump_callback_t callback, void* user_data);

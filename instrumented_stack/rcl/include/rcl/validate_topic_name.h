@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Check of topic names before expansion: relative names, `~` and `{substitutions}` are allowed.
+// Checks topic names before expansion: relative names, `~` and `{substitutions}` are allowed.
 #pragma once
 
 #include <stddef.h>
@@ -21,10 +21,10 @@ extern "C" {
 #define RCL_TOPIC_NAME_INVALID_SUBSTITUTION_CONTAINS_UNALLOWED_CHARACTERS 8
 #define RCL_TOPIC_NAME_INVALID_SUBSTITUTION_STARTS_WITH_NUMBER 9
 
-// `validation_result` gets one of the codes, `invalid_index` (may be null) the place of the offending character.
+// `validation_result` gets one of the codes, `invalid_index` (may be null) the position of the offending character.
 rcl_ret_t rcl_validate_topic_name(const char* topic_name, int* validation_result, size_t* invalid_index);
 
-// A sentence without a full stop, null for RCL_TOPIC_NAME_VALID.
+// Returns a sentence without a full stop; null for RCL_TOPIC_NAME_VALID.
 const char* rcl_topic_name_validation_result_string(int validation_result);
 
 #ifdef __cplusplus

@@ -109,7 +109,7 @@ void log_file_name(Impl& impl, std::string_view, std::string_view value) {
 struct ValueFlag {
   std::string_view long_name;
   std::string_view short_name;  // empty: none
-  const char* value;            // what must follow, for the error
+  const char* value;            // what must follow; used in the error message
   void (*apply)(Impl& impl, std::string_view flag, std::string_view value);
 };
 
@@ -134,7 +134,7 @@ constexpr Switch kSwitches[] = {
     {RCL_LOG_EXT_LIB_FLAG_SUFFIX, &Impl::external_logs},
 };
 
-// `--enable-rosout-logs` and its kind.
+// Parses `--enable-rosout-logs` and similar flags.
 bool parse_switch(Impl& impl, std::string_view argument) {
   for (const auto& [prefix, value] : {std::pair<std::string_view, bool>{"--enable-", true}, {"--disable-", false}}) {
     if (!argument.starts_with(prefix)) {
@@ -150,7 +150,7 @@ bool parse_switch(Impl& impl, std::string_view argument) {
   return false;
 }
 
-// Handles argv[i], and moves `i` to the last argument that belongs to it. False for an unknown flag.
+// Handles argv[i], and moves `i` to the last argument that belongs to it. Returns false for an unknown flag.
 bool parse_ros_argument(Impl& impl, int argc, const char* const* argv, int& i) {
   const std::string_view argument = argv[i];
   if (parse_switch(impl, argument)) {
@@ -274,7 +274,7 @@ rcl_ret_t rcl_remove_ros_arguments(const char* const* argv, const rcl_arguments_
     return RCL_RET_OK;
   }
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(argv, RCL_RET_INVALID_ARGUMENT);
-  // With a null at the end, as argv has it.
+  // Ends with a null, like argv.
   auto** output =
       static_cast<const char**>(allocator.zero_allocate(indices.size() + 1, sizeof(const char*), allocator.state));
   if (output == nullptr) {

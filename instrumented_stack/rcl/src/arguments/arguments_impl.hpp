@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command line said.
+// The parsed command line.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 struct rcl_arguments_impl_s {
   std::vector<int> unparsed;      // indices into argv
-  std::vector<int> unparsed_ros;  // the same, inside ROS sections
+  std::vector<int> unparsed_ros;  // indices into argv, inside ROS sections
   std::vector<rcl::RemapRule> remap_rules;
   rcl::ParameterOverrides parameters;
   std::optional<std::string> enclave;

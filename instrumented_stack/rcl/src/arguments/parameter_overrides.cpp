@@ -8,7 +8,7 @@
 namespace rcl {
 namespace {
 
-// Both begin with a slash. `*` stands for one level of a name, `**` for any number of levels, also none.
+// Both begin with a slash. `*` matches one level of a name, `**` any number of levels, including none.
 bool matches(std::string_view pattern, std::string_view name) {
   if (pattern.empty()) {
     return name.empty();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter values and files as YAML, typed by ROS 2's own rules (rcl_yaml_param_parser), which are neither YAML 1.1's
-// nor 1.2's: `y` and `on` are booleans, integers may be hexadecimal or octal, `1e3` and `inf` are floating point
+// Reads parameter values and files as YAML, with ROS 2's own type rules (rcl_yaml_param_parser). They differ from YAML
+// 1.1 and 1.2: `y` and `on` are booleans, integers may be hexadecimal or octal, `1e3` and `inf` are floating point
 // numbers, `null` and `~` are strings.
 #include <yaml.h>
 
@@ -40,7 +40,7 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-// One event of the YAML parser, freed when it goes.
+// One event of the YAML parser. The destructor frees it.
 class Event {
  public:
   Event() = default;
@@ -64,7 +64,7 @@ class Event {
   yaml_event_t event_{};
 };
 
-// Reads events; errors are prefixed with `source:line: `, or nothing when there is no source.
+// Reads events. Errors get the prefix `source:line: `, or no prefix without a source.
 class Reader {
  public:
   Reader(std::string text, std::string source) : text_(std::move(text)), source_(std::move(source)) {
@@ -90,7 +90,7 @@ class Reader {
     wrong(source_.empty() ? what : source_ + ":" + std::to_string(line) + ": " + what);
   }
 
-  // The first event of the document. False for an empty one.
+  // Reads the first event of the document. Returns false if the document is empty.
   bool open_document(Event& first) {
     Event event;
     next(event);  // stream start
@@ -136,7 +136,7 @@ std::optional<std::int64_t> as_int(const std::string& text) {
 }
 
 std::optional<double> as_double(const std::string& text) {
-  // YAML writes `.inf` and `.nan` where strtod wants `inf` and `nan`.
+  // YAML writes `.inf` and `.nan`; strtod expects `inf` and `nan`.
   std::string number = text;
   const std::size_t sign = number.starts_with('-') || number.starts_with('+') ? 1 : 0;
   if (number.size() == sign + 4 && number[sign] == '.' && std::isalpha(static_cast<unsigned char>(number[sign + 1]))) {
@@ -220,7 +220,7 @@ ParameterValue read_list(Reader& reader, std::size_t line, const std::string& na
   }
 }
 
-// A scalar or list, whose first event is given.
+// Reads a scalar or list. `first` is its first event.
 ParameterValue read_value(Reader& reader, const Event& first, const std::string& name) {
   if (first.type() == YAML_SEQUENCE_START_EVENT) {
     return read_list(reader, first.line(), name);
@@ -228,7 +228,7 @@ ParameterValue read_value(Reader& reader, const Event& first, const std::string&
   return std::visit([](auto value) -> ParameterValue { return value; }, read_scalar(reader, first, name));
 }
 
-// The mapping below `ros__parameters`, or a mapping inside: names are joined with dots.
+// Reads the mapping below `ros__parameters`, or a mapping inside it. Names are joined with dots.
 void read_parameters(Reader& reader, const std::string& node, const std::string& prefix, ParameterOverrides& target) {
   while (true) {
     Event key;
@@ -250,7 +250,7 @@ void read_parameters(Reader& reader, const std::string& node, const std::string&
   }
 }
 
-// A mapping above `ros__parameters`: keys are parts of the node's name.
+// Reads a mapping above `ros__parameters`. Its keys are parts of the node's name.
 void read_nodes(Reader& reader, const std::string& prefix, ParameterOverrides& target) {
   while (true) {
     Event key;
@@ -268,7 +268,7 @@ void read_nodes(Reader& reader, const std::string& prefix, ParameterOverrides& t
       if (prefix.empty()) {
         reader.fail(key.line(), "'ros__parameters' must stand below a node name, such as '/**'");
       }
-      // Nothing below the key is as good as an empty mapping.
+      // An empty value is treated as an empty mapping.
       if (value.type() == YAML_SCALAR_EVENT && value.text().empty()) {
         continue;
       }
@@ -299,7 +299,7 @@ void ParameterOverrides::load_file(const std::string& path) {
   if (first.type() != YAML_MAPPING_START_EVENT) {
     reader.fail(first.line(), "a parameter file must be a mapping of node names");
   }
-  // Applied only when the whole file is good.
+  // The values are applied only if the whole file is valid.
   ParameterOverrides read;
   read_nodes(reader, "", read);
   merge(read);

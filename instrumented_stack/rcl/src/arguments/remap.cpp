@@ -10,7 +10,7 @@ namespace {
 
 using rcl::RemapRule;
 
-// The first match of the local rules, else of the global ones.
+// The first match of the local rules; if there is none, of the global rules.
 template <typename Find>
 rcl_ret_t first_match(const rcl_arguments_t* local, const rcl_arguments_t* global, const rcl_allocator_t& allocator,
                       char** output, Find find) try {

@@ -26,7 +26,7 @@ bool is_token(std::string_view text) {
   return true;
 }
 
-// Tokens separated by single slashes, optionally after `/` or `~/`.
+// A name is a list of tokens separated by single slashes, optionally after `/` or `~/`.
 void check_name(std::string_view side, std::string_view name) {
   const std::string quoted = "'" + std::string(name) + "'";
   if (name.empty()) {

@@ -19,15 +19,15 @@ struct RemapRule {
   };
 
   Kind kind;
-  std::string node;  // only nodes of this name; empty: all
-  std::string from;  // not of node names and namespaces; may be relative or begin with `~/`
+  std::string node;  // the rule applies only to nodes of this name; empty: to all
+  std::string from;  // unused for node names and namespaces; may be relative or begin with `~/`
   std::string to;
 };
 
-// Throws std::invalid_argument with what is wrong, in words that follow `'TEXT' is no remap rule: `.
+// Throws std::invalid_argument with the problem, in words that follow `'TEXT' is no remap rule: `.
 RemapRule parse_remap_rule(std::string_view text);
 
-// The name that a topic or service (Kind kTopic, kService), given in full, is remapped to.
+// The new name of a topic or service (Kind kTopic, kService); `name` is its full name.
 std::optional<std::string> remapped_name(const std::vector<RemapRule>& rules, RemapRule::Kind kind,
                                          std::string_view name, std::string_view node_name,
                                          std::string_view node_namespace);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the readers of arguments and of parameter files refuse what they read.
+// How the readers of arguments and of parameter files report errors in their input.
 #pragma once
 
 #include <stdexcept>

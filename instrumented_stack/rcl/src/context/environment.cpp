@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the environment says of domain and discovery.
+// Reads domain and discovery options from the environment.
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 
 namespace {
 
-// Domain ids above this give port numbers beyond 65535.
+// Domain ids above this one would give port numbers above 65535.
 constexpr unsigned long kLargestDomainId = 232;
 
 const char* value_of(const char* variable) {

@@ -20,7 +20,7 @@ uint64_t next_instance_id() {
   return ++last;
 }
 
-// What the options leave open is decided by the command line and the environment.
+// The command line and the environment decide what the options leave open.
 rcl_ret_t complete(rmw_init_options_t& options, const rcl_arguments_t& arguments) {
   if (options.domain_id == RCL_DEFAULT_DOMAIN_ID) {
     if (const rcl_ret_t result = rcl_get_default_domain_id(&options.domain_id); result != RCL_RET_OK) {
@@ -41,7 +41,7 @@ rcl_ret_t complete(rmw_init_options_t& options, const rcl_arguments_t& arguments
   return RCL_RET_OK;
 }
 
-// Fills `context` except for its instance id. What it has made is freed by the caller on failure.
+// Fills `context` except for its instance id. On failure, the caller frees the parts created so far.
 rcl_ret_t initialize(int argc, char const* const* argv, const rcl_init_options_t& options, uint64_t instance_id,
                      rcl_context_t& context) {
   rcl_context_impl_t& impl = *context.impl;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file in which a process keeps its log lines, as rcl_logging_spdlog names it.
+// The log file of a process, named as rcl_logging_spdlog does.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,8 @@
 
 namespace rcl {
 
-// `<logging_directory()>/<prefix>_<pid>_<milliseconds since 1970>.log`; an empty prefix stands for the name of the
-// program. Made, with its directory, when the first line comes. Each line is written at once, so a crash loses none.
-// Thread safe.
+// `<logging_directory()>/<prefix>_<pid>_<milliseconds since 1970>.log`; an empty prefix means the name of the program.
+// The first line creates the file and its directory. Each line is written at once, so a crash loses none. Thread safe.
 class LogFile {
  public:
   explicit LogFile(std::string_view prefix);
@@ -19,11 +18,11 @@ class LogFile {
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
 
-  // Warns, once, when there can be no file; the process goes on without one.
+  // Warns once if the file cannot be created. The process goes on without it.
   void write(std::string_view line);
 
  private:
-  // What is wrong; empty when the file is open.
+  // Returns the problem; empty if the file is open.
   std::string open();
 
   std::filesystem::path path_;

@@ -13,11 +13,11 @@
 
 namespace {
 
-// Where messages go; nowhere but the console before rcl_logging_configure().
+// The outputs of messages. Before rcl_logging_configure() it is only the console.
 std::atomic<bool> to_stdout{true};
 std::atomic<bool> to_rosout{false};
 
-// Replaced while other threads write.
+// The file may be replaced while other threads write.
 class CurrentFile {
  public:
   std::shared_ptr<rcl::LogFile> get() const {
@@ -34,7 +34,7 @@ class CurrentFile {
   std::shared_ptr<rcl::LogFile> file_;
 };
 
-// Never destroyed: static objects of other libraries may log while the process ends.
+// Never destroyed, because static objects of other libraries may log while the process ends.
 CurrentFile& current_file() {
   static CurrentFile& instance = *new CurrentFile;
   return instance;

@@ -21,22 +21,22 @@ struct Entry {
   rcl_publisher_t publisher;
 };
 
-// By logger name. The entries keep their addresses: those of publishers are handles in traces.
+// Publishers by logger name. The entries keep their addresses, because publisher addresses are handles in traces.
 struct Publishers {
   std::mutex mutex;
   std::map<std::string, Entry, std::less<>> by_logger;
 };
 
-// Never destroyed: nodes of static storage may go after it.
+// Never destroyed, because nodes in static storage may be destroyed later.
 Publishers& publishers() {
   static Publishers& instance = *new Publishers;
   return instance;
 }
 
-// Publishing can log again in this thread, through a failing middleware; that is not to be published.
+// A failing middleware can log while this thread publishes. Such messages must not be published.
 thread_local bool is_publishing = false;
 
-// The entry of the longest name that is `name` or an ancestor.
+// The entry with the longest name that is `name` or an ancestor of it.
 Entry* find_for(Publishers& all, std::string_view name) {
   while (!name.empty()) {
     const auto found = all.by_logger.find(name);
@@ -110,7 +110,7 @@ void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, i
     Publishers& all = publishers();
     std::lock_guard lock(all.mutex);
     Entry* entry = find_for(all, name == nullptr ? "" : name);
-    // Logging goes on after shutdown; publishing does not.
+    // Logging continues after shutdown, publishing does not.
     if (entry != nullptr && rcl_context_is_valid(entry->node->context)) {
       rcl_interfaces::msg::Log message;
       message.stamp.sec = static_cast<int32_t>(RCUTILS_NS_TO_S(timestamp));

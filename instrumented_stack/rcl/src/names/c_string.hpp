@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strings that are handed out through the C interface.
+// Strings that the C interface returns.
 #pragma once
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace rcl {
 
-// Allocates a copy for the caller to free. RCL_RET_BAD_ALLOC.
+// Allocates a copy, which the caller frees. Returns RCL_RET_BAD_ALLOC if memory runs out.
 inline rcl_ret_t hand_out(std::string_view text, const rcl_allocator_t& allocator, char** output) {
   char* copy = static_cast<char*>(allocator.allocate(text.size() + 1, allocator.state));
   if (copy == nullptr) {

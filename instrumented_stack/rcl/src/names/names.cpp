@@ -22,7 +22,7 @@ bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// `open` is the place of a `{`. On success `open` moves to the `}`.
+// `open` is the position of a `{`. On success `open` moves to the `}`.
 Verdict check_substitution(std::string_view name, size_t& open) {
   const size_t close = name.find('}', open);
   if (close == std::string_view::npos) {

@@ -10,7 +10,7 @@
 
 namespace rcl {
 
-// A name that cannot be used, with the code that the C interface returns for it.
+// An invalid name, with the code that the C interface returns for it.
 class NameError : public std::invalid_argument {
  public:
   NameError(rcl_ret_t code, const std::string& message) : std::invalid_argument(message), code_(code) {}
@@ -20,7 +20,7 @@ class NameError : public std::invalid_argument {
   rcl_ret_t code_;
 };
 
-// The result of expansion, not yet checked as a full name. Throws NameError.
+// Expands the name but does not check the result. Throws NameError.
 std::string expand_topic_name(std::string_view name, std::string_view node_name, std::string_view node_namespace);
 
 // Throws NameError unless `name` is a full topic name.

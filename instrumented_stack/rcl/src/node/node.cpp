@@ -30,7 +30,7 @@ namespace {
 
 using RemapNode = rcl_ret_t (*)(const rcl_arguments_t*, const rcl_arguments_t*, const char*, rcl_allocator_t, char**);
 
-// Replaces `value` if a rule for it matches the node.
+// Replaces `value` if a rule matches the node.
 rcl_ret_t remap(RemapNode function, const rcl_node_options_t& options, const rcl_context_t& context,
                 const std::string& node_name, std::string& value) {
   char* remapped = nullptr;
@@ -82,7 +82,7 @@ void destroy(rcl_node_impl_t* impl) {
   delete impl;
 }
 
-// Fills a new node. Names are the final ones.
+// Fills a new node. The names are already remapped.
 rcl_ret_t create(rcl_node_impl_t& impl, rcl_context_t* context, const std::string& name,
                  const std::string& namespace_) {
   impl.rmw_handle = rmw_create_node(rcl_context_get_rmw_context(context), name.c_str(), namespace_.c_str());
@@ -127,7 +127,7 @@ rcl_ret_t rcl_node_init(rcl_node_t* node, const char* name, const char* namespac
       result != RCL_RET_OK) {
     return result;
   }
-  // Rules for the namespace know the node by its new name.
+  // Rules for the namespace use the node's new name.
   if (const rcl_ret_t result = remap(rcl_remap_node_namespace, *options, *context, final_name, final_namespace);
       result != RCL_RET_OK) {
     return result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types in use by a node, by their hashes.
+// The types that a node uses, by their hashes.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace rcl {
 class TypeCache {
  public:
   void add(const rosidl_type_description_t& description);
-  // False if the type is not in use.
+  // Returns false if the type is not in use.
   bool remove(const rosidl_type_description_t& description);
   // Null if the type is not in use.
   const rosidl_type_description_t* find(const std::string& type_hash) const;

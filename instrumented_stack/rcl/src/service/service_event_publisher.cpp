@@ -64,7 +64,8 @@ rcl_ret_t ServiceEventPublisher::turn_off(rcl_node_t* node) {
 void ServiceEventPublisher::publish(uint8_t event_type, const uint8_t* client_gid, int64_t sequence_number,
                                     const void* message) {
   const std::lock_guard lock(mutex_);
-  // It may have been turned off since the caller looked. After the end of the context nobody is to be told anything.
+  // Introspection may have been turned off since the caller checked. After the end of the context no event is
+  // published.
   if (!is_on() || !rcl_context_is_valid(rcl_publisher_get_context(&publisher_))) {
     return;
   }

@@ -48,7 +48,7 @@ void tell(const rcl_clock_t& clock, const rcl_time_jump_t& jump, bool before_jum
   }
 }
 
-// Changes the clock between the two calls of every callback.
+// Changes the clock. Every callback is called before and after.
 template <typename Change>
 void jump(const rcl_clock_t& clock, rcl_clock_change_t kind, rcl_duration_value_t delta, Change change) {
   const rcl_time_jump_t description{kind, {delta}};

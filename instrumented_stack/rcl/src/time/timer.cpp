@@ -16,7 +16,7 @@ struct rcl_timer_impl_s {
   std::atomic<int64_t> last_call_time;
   std::atomic<int64_t> next_call_time;
   std::atomic<bool> canceled;
-  // Time left until the next call when simulated time is switched on or off; carried over to the other time.
+  // Time left until the next call when simulated time is turned on or off. It carries over to the new time.
   std::atomic<int64_t> time_left{0};
   std::mutex on_reset_mutex{};
   rcl_event_callback_t on_reset = nullptr;
@@ -25,10 +25,10 @@ struct rcl_timer_impl_s {
 
 namespace {
 
-// Any jump of simulated time can make a timer due, or put its next call too far away.
+// Any jump of simulated time can make a timer due, or move its next call too far away.
 constexpr rcl_jump_threshold_t kEveryJump = {true, {1}, {-1}};
 
-// A thread that waits has computed its time before.
+// A waiting thread has already computed its timeout, so wake it.
 rcl_ret_t wake_waiting(rcl_timer_impl_t& timer) {
   {
     const std::lock_guard lock(timer.on_reset_mutex);
@@ -74,7 +74,7 @@ rcl_ret_t check(const rcl_timer_t* timer) {
   return RCL_RET_OK;
 }
 
-// The first moment after `now` that lies a whole number of periods after `due`.
+// The first time after `now` that is a whole number of periods after `due`.
 int64_t next_call_after(int64_t due, int64_t now, int64_t period) {
   const int64_t next = due + period;
   if (next > now) {

@@ -10,7 +10,7 @@
 #include "tracetools/tracetools.h"
 
 struct rcl_publisher_impl_s {
-  // What each message needs, in one line of the cache.
+  // Everything that each message needs is in one cache line.
   rcl_context_t* context;
   rmw_publisher_t* rmw_handle;
 
@@ -111,7 +111,7 @@ rcl_ret_t rcl_borrow_loaned_message(const rcl_publisher_t* publisher, const rosi
 }
 
 rcl_ret_t rcl_return_loaned_message_from_publisher(const rcl_publisher_t* publisher, void* loaned_message) {
-  // Also after shutdown: what was borrowed must go back.
+  // Allowed after shutdown, too: a borrowed message must be returned.
   return rcl_publisher_is_valid_except_context(publisher)
              ? rmw_return_loaned_message_from_publisher(publisher->impl->rmw_handle, loaned_message)
              : RCL_RET_PUBLISHER_INVALID;

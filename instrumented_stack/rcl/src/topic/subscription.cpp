@@ -29,7 +29,7 @@ rcl_subscription_options_t rcl_subscription_get_default_options(void) {
 
 namespace {
 
-// rmw fills in all of `info` when it has taken a message.
+// rmw fills all of `info` when it has taken a message.
 [[gnu::hot]] rcl_ret_t finish_take(rmw_ret_t result, bool taken, [[maybe_unused]] const void* message,
                                    rmw_message_info_t& info) {
   if (!taken) {
@@ -78,7 +78,7 @@ rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node
   const rosidl_type_description_t* type = rmw_message_type_description(type_support);
   (void)rcl_node_type_cache_register_type(node, type);
   subscription->impl = new rcl_subscription_impl_s{handle, *options, actual_qos, type};
-  subscription->impl->options.rmw_subscription_options.content_filter_options = nullptr;  // of the caller
+  subscription->impl->options.rmw_subscription_options.content_filter_options = nullptr;  // belongs to the caller
   TRACETOOLS_TRACEPOINT(rcl_subscription_init, static_cast<const void*>(subscription), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -106,7 +106,7 @@ rcl_ret_t rcl_subscription_fini(rcl_subscription_t* subscription, rcl_node_t* no
     return RCL_RET_SUBSCRIPTION_INVALID;
   }
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RCL_RET_INVALID_ARGUMENT);
-  // The rmw_take event tells the source timestamp only if there is a place for it.
+  // The rmw_take event contains the source timestamp only if the caller passes a place for it.
   rmw_message_info_t local_info;
   rmw_message_info_t* info = message_info == nullptr ? &local_info : message_info;
   bool taken = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Content filters, in the options of a subscription that is to be made and of one that there is.
+// Content filters, in the options of a new subscription and of an existing one.
 #include <new>
 
 #include "rcl/error_handling.h"
