@@ -15,7 +15,7 @@ namespace launch {
 
 namespace {
 
-constexpr std::string_view kPythonBlanks = " \t\n\r\f\v";  // of str.strip()
+constexpr std::string_view kPythonBlanks = " \t\n\r\f\v";  // the characters that str.strip() removes
 
 // true/1 and false/0 in any case.
 std::optional<bool> any_case_boolean(std::string_view text) {

@@ -15,7 +15,7 @@ bool is_blank(char c) {
 // A text split as Python's shlex.split() does.
 struct Words {
   std::vector<std::string> words;
-  // The text begins or ends with blanks outside quotes: its first or last word doesn't glue to what stands beside it.
+  // The text begins or ends with blanks outside quotes, so its first or last word does not join the text beside it.
   bool starts_apart = false;
   bool ends_apart = false;
 };

@@ -17,7 +17,7 @@ namespace launch {
 
 namespace {
 
-// Appends what is there; false at the end of the stream.
+// Appends what can be read now; false at the end of the stream.
 bool read_some(int fd, std::string& text) {
   std::array<char, 4096> buffer;
   const ssize_t count = ::read(fd, buffer.data(), buffer.size());
@@ -60,7 +60,7 @@ CommandOutput capture_command(const std::string& program, const std::vector<std:
     }
     for (std::size_t i = 0; i < streams.size(); ++i) {
       if (streams[i].fd >= 0 && streams[i].revents != 0 && !read_some(streams[i].fd, *texts[i])) {
-        streams[i].fd = -1;  // poll() passes over it
+        streams[i].fd = -1;  // poll() skips it
       }
     }
   }

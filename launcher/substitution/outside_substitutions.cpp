@@ -98,7 +98,7 @@ std::string file_content(const SubstitutionCall& call) {
   return std::move(content).str();
 }
 
-// The name is kept as a configuration, so that it is the same wherever the scope reaches.
+// Keeps the name as a configuration, so that it is the same everywhere in the scope.
 std::string anon(const SubstitutionCall& call) {
   const std::string name = call.text(0);
   const std::string key = "anon" + name;

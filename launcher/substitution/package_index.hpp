@@ -13,7 +13,8 @@ namespace launch {
 
 // All look-ups take the launch environment, whose AMENT_PREFIX_PATH is searched in order. When the variable is unset or
 // lacks the package, the prefix that this launcher is installed in is searched last, so that its own packages are found
-// with no ROS 2 set up. Functions throw std::runtime_error with a one-line message (no place): the caller adds it.
+// with no ROS 2 set up. Functions throw std::runtime_error with a message of one line, to which the caller adds the
+// place.
 class PackageIndex {
  public:
   // `own_prefix` is searched after AMENT_PREFIX_PATH; empty for none.
@@ -30,7 +31,7 @@ class PackageIndex {
   // Names of all programs of a package, for suggestions. Throws as prefix() does.
   std::vector<std::string> executables(const std::string& package, const Environment& environment);
 
-  // Program on PATH of the environment; a name with a slash is taken as a path. Empty when there is none.
+  // The path of a program on PATH of the environment. A name with a slash is taken as a path. Empty when there is none.
   static std::string find_on_path(const std::string& name, const Environment& environment);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of ROS parameters, and those that a scope gives to every later node.
+// Values of ROS parameters, and the parameters that a scope gives to every later node.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct NamedParameter {
 };
 struct ParameterFilePath {
   std::string path;
-  SourceRange where;  // which asks for it
+  SourceRange where;  // the place that sets it
 };
 using GlobalParameter = std::variant<NamedParameter, ParameterFilePath>;
 

@@ -37,7 +37,7 @@ struct Scope {
   // Tells the user what is suspicious but no error, with its place. May be empty.
   std::function<void(const SourceRange& where, const std::string& text)> warn;
 
-  // Forgets the configurations and what belongs to them: `reset`, and `forwarding="false"` of a group.
+  // Forgets the configurations, parameters and remaps: for `reset`, and for `forwarding="false"` of a group.
   void clear_configurations() {
     configurations.clear();
     global_parameters.clear();

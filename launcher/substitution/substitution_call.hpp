@@ -72,7 +72,7 @@ std::vector<std::string> names_of(const Map& map) {
   return names;
 }
 
-// In outside_substitutions.cpp: those that look beyond the launch files.
+// In outside_substitutions.cpp: the substitutions that look beyond the launch files.
 std::string command(const SubstitutionCall& call);
 std::string eval(const SubstitutionCall& call);
 std::string file_content(const SubstitutionCall& call);

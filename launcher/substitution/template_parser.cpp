@@ -140,7 +140,7 @@ class TemplateParser {
     return text_.substr(name_begin, position_ - name_begin);
   }
 
-  // Something else than a space or ")" follows the name or an argument.
+  // Reports that something other than a space or ")" follows the name or an argument.
   [[noreturn]] void fail_after_item(const std::string& name, bool item_is_name) const {
     const char found = text_[position_];
     if (item_is_name) {

@@ -33,8 +33,8 @@ Template parse_template(const LocatedText& text);
 // Removes backslash escapes as literal attributes do (`\c` becomes `c`), without looking for substitutions.
 std::string unescape(std::string_view text);
 
-// Splits a parsed command line into words: literal runs split as POSIX shell words, results of substitutions never
-// split and glue to adjacent text. Throws LaunchError ("no closing quotation").
+// Splits a parsed command line into words. Literal text is split as POSIX shell words. The result of a substitution is
+// never split and joins the text beside it. Throws LaunchError ("no closing quotation").
 std::vector<Template> split_command_line(const Template& command_line);
 
 // Splits performed text as POSIX shell words (launch-prefix, $(command)). Throws LaunchError pointing at `where`.
