@@ -22,8 +22,8 @@
 
 namespace {
 
-// Becomes a program of its own, called `name`, with the arguments behind `last`: the launcher does without the
-// libraries that reading traces needs.
+// Becomes another program, called `name`, with the arguments behind `last`. The launcher links no libraries for reading
+// traces, so other programs do that.
 int become(const char* program_name, const char* name, char** last) {
   const std::string program = launch::own_library_file(program_name);
   *last = const_cast<char*>(name);

@@ -47,7 +47,7 @@ class Checker {
   }
 
  private:
-  // The words of a file are known also where it has other errors, unless it can't be read at all.
+  // Extensions are found even in a file with other errors, unless the file can't be read at all.
   void check_what_does_not_load(const std::string& path) {
     if (!options_.strict_ros2) {
       return;
@@ -57,7 +57,7 @@ class Checker {
         add(std::move(diagnostic));
       }
     } catch (const LaunchError&) {
-      // It has been told.
+      // The error is reported already.
     }
   }
 
@@ -117,7 +117,7 @@ class Checker {
     }
   }
 
-  // What needs an argument that nobody gives can't be visited.
+  // A launch file can't be visited when nobody gives an argument that it needs.
   bool all_given(const ArgumentList& list) {
     bool all = true;
     for (const ArgumentInfo& info : list.arguments) {
@@ -146,13 +146,13 @@ class Checker {
 
   void check_unused(const LaunchDescription& description, const ArgumentList& list, const LaunchPlan& plan) {
     if (!list.complete || !plan.python_includes.empty()) {
-      return;  // who knows what is read where
+      return;  // it is not known which arguments are read
     }
     const auto any_reads = [&](const std::function<bool(const LaunchDescription&)>& reads) {
       return reads(description) ||
              std::any_of(list.loaded.begin(), list.loaded.end(), [&](const auto& loaded) { return reads(*loaded); });
     };
-    // A name that is put together can't be followed, nor can one that Python code asks for.
+    // It can't be known which argument a computed name reads, nor which arguments Python code reads.
     const bool computed = any_reads([](const LaunchDescription& file) {
       return file.file != nullptr && (file.file->text().find("$(var $(") != std::string::npos ||
                                       file.file->text().find("$(var '$(") != std::string::npos);

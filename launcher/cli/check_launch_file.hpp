@@ -17,10 +17,10 @@ struct CheckOptions {
   bool strict_ros2 = false;                                    // what `ros2 launch` does not know is an error
 };
 
-// Loads and visits the file, what conditions leave out included, and resolves what a run would: packages, programs,
-// parameter files, included files. Errors are what would fail; warnings are what is suspicious: arguments that nothing
-// reads, remaps that match nothing, nodes of one name, and errors in what the conditions leave out with these
-// arguments. Each is told once, in the order of the files.
+// Loads and visits the file, including what conditions leave out, and resolves what a run would resolve: packages,
+// programs, parameter files, included files. Errors are what would fail. Warnings are what is suspicious: arguments
+// that nothing reads, remaps that match nothing, nodes of one name, and errors in what the conditions leave out with
+// these arguments. Each problem is reported once, in the order of the files.
 std::vector<Diagnostic> check_launch_file(const std::string& path, const Registry& registry,
                                           const Environment& environment, const CheckOptions& options);
 

@@ -24,7 +24,8 @@ struct CommandLine {
   std::string launch_prefix_filter;
 };
 
-// What to exit with at once: after --help, --version or a wrong command line. The text is already printed.
+// The exit code when there is nothing to run: after --help, --version or a wrong command line. The text is already
+// printed.
 struct ExitNow {
   int code;
 };

@@ -14,7 +14,8 @@ namespace launch {
 // Candidates for the last of the words after `launch trace`.
 using CompleteTrace = std::function<std::vector<std::string>(const std::vector<std::string>& words)>;
 
-// `words` are those after `launch`, the last one perhaps empty or begun. Names of files are left to the shell.
+// `words` are the words after `launch`; the last one may be empty or incomplete. The shell itself completes names of
+// files.
 std::vector<std::string> completions(const std::vector<std::string>& words, const Registry& registry,
                                      const Environment& environment, const CompleteTrace& trace_words);
 

@@ -13,10 +13,9 @@ namespace launch {
 std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_environment);
 
 // For programs: an object with
-//   processes        name, argv, cwd, env, shell, source; for ROS nodes also `node`; `params` are the contents of
-//   generated
-//                    parameter files, for whose paths "@params:N" stands in argv. `env` holds only what differs from
-//                    the launcher's own environment, null for a removed variable
+//   processes        name, argv, cwd, env, shell, source; for ROS nodes also `node`. `params` are the contents of
+//                    generated parameter files, for whose paths "@params:N" stands in argv. `env` holds only what
+//                    differs from the launcher's own environment, null for a removed variable
 //   composable       load requests: target and nodes, each with typed parameters [name, type, value]
 //   traces           their evaluated attributes
 //   logs             messages of `log` actions

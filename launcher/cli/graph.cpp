@@ -66,7 +66,7 @@ class GraphBuilder {
  private:
   std::string add_node(const std::string& full_name, std::string name_space, const std::string& program,
                        const SourceRange& origin, const std::vector<std::pair<std::string, std::string>>& remaps) {
-    // Several nodes of one name are drawn as several: that is what one wants to see.
+    // Several nodes of one name are drawn as several nodes, because a user wants to see that.
     std::string id = full_name;
     for (int again = 2; !ids_.insert(id).second; ++again) {
       id = fmt::format("{} ({})", full_name, again);

@@ -14,13 +14,13 @@ namespace launch {
 struct LaunchGraph {
   struct Box {
     std::string id;
-    std::vector<std::string> lines;  // what stands in it
+    std::vector<std::string> lines;  // its text
   };
   enum class Relation {
     kIncludes,  // a file to a file
     kAsksFor,   // a file to a node or another process
     kLoads,     // a container to a component
-    kRemaps,    // a node to the topic that one of its names, the label, stands for
+    kRemaps,    // a node to a topic; the label is the node's own name for the topic
   };
   struct Edge {
     std::string from;
@@ -29,10 +29,10 @@ struct LaunchGraph {
     std::string label;
   };
 
-  std::map<std::string, Box> files;               // by their path; one that several places include stands here once
+  std::map<std::string, Box> files;               // by their path; a file that several places include stands here once
   std::map<std::string, std::vector<Box>> nodes;  // by their namespace, components among them
-  std::vector<Box> processes;                     // that are no nodes
-  std::vector<Box> topics;                        // that something is remapped to, sorted
+  std::vector<Box> processes;                     // processes that are no nodes
+  std::vector<Box> topics;                        // topics that something is remapped to, sorted
   std::vector<Edge> edges;                        // in the order of the plan
 };
 

@@ -10,8 +10,8 @@
 
 namespace launch {
 
-// Takes the words after its name. Returns the exit code: 0, 1 after an error in a launch file, 2 after a wrong command
-// line.
+// Takes the words after the name of the command. Returns the exit code: 0, 1 after an error in a launch file, 2 after a
+// wrong command line.
 int graph_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment);
 
 }  // namespace launch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a graph: three columns, in each of which everything stands below one another. All lengths are pixels.
+// The picture of a graph: three columns, each with its boxes below one another. All lengths are pixels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace launch {
 
 namespace {
 
-constexpr double kCharacter = 7.2;  // the width of one, of text of kText pixels, generously
+constexpr double kCharacter = 7.2;  // generous width of a character of text of kText pixels
 constexpr int kText = 12;
-constexpr double kLine = 16;    // the height of one
-constexpr double kPadding = 8;  // inside of a box
-constexpr double kGap = 10;     // between boxes of a column
-constexpr double kIndent = 22;  // of what a file includes
+constexpr double kLine = 16;    // height of a line
+constexpr double kPadding = 8;  // inside a box
+constexpr double kGap = 10;     // between the boxes of a column
+constexpr double kIndent = 22;  // of an included file
 constexpr double kColumnGap = 120;
 
 struct Rectangle {
@@ -95,7 +95,7 @@ class Picture {
     lowest_ = std::max(lowest_, place.y + place.height);
   }
 
-  // Files that nothing includes first, and below each what it includes, further to the right.
+  // Begins with the files that nothing includes. Below each file come the files that it includes, further to the right.
   void place_files() {
     std::map<std::string, std::vector<std::string>> included;  // by the includer
     std::map<std::string, bool> has_includer;
@@ -157,7 +157,7 @@ class Picture {
     const auto from = places_.find(edge.from);
     const auto to = places_.find(edge.to);
     if (from == places_.end() || to == places_.end()) {
-      return;  // a container of another launch
+      return;  // the container belongs to another launch
     }
     const Rectangle& a = from->second;
     const Rectangle& b = to->second;
@@ -191,7 +191,7 @@ class Picture {
 
   const LaunchGraph& graph_;
   std::map<std::string, Rectangle> places_;
-  double column_ = kGap;  // its left border
+  double column_ = kGap;  // left border of the column
   double next_ = kGap;    // where the next box of the column begins
   double widest_ = 0;
   double lowest_ = 0;

@@ -61,7 +61,7 @@ void LaunchTracepoints::begin() {
 }
 
 void LaunchTracepoints::open() {
-  // Never closed again: LTTng-UST's threads run in it.
+  // The library is never closed again: LTTng-UST's threads run in it.
   void* const library = ::dlopen((prefix_ + "/lib/launch/liblaunch_trace.so").c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const function = library != nullptr ? ::dlsym(library, "launch_trace_fire") : nullptr;
   const std::lock_guard lock(mutex_);

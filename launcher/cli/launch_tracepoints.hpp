@@ -14,12 +14,12 @@ namespace launch {
 
 class LaunchTracepoints : public LaunchRecorder {
  public:
-  // The library stands in lib/launch below `prefix`. Without it nothing is recorded, and nothing else changes.
+  // The library is in lib/launch below `prefix`. If it is missing, nothing is recorded, and nothing else changes.
   explicit LaunchTracepoints(std::string prefix) : prefix_(std::move(prefix)) {}
   ~LaunchTracepoints() override { end(); }
 
-  // Opens the library in a thread of its own: that takes LTTng-UST some milliseconds, for it waits until the session
-  // daemon has told it which events are enabled.
+  // Opens the library in a thread of its own. Opening takes some milliseconds, because LTTng-UST waits until the
+  // session daemon has told it which events are enabled.
   void begin() override;
   void drop() override;
   void record(LaunchRecord record) override;
@@ -32,7 +32,7 @@ class LaunchTracepoints : public LaunchRecorder {
 
   std::string prefix_;
   std::thread opener_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   State state_ = State::kKeeping;
   std::vector<LaunchRecord> kept_;
   launch_trace_fire_function fire_ = nullptr;

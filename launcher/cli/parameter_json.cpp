@@ -25,7 +25,7 @@ Json scalar_as_json(const ParameterScalar& scalar) {
   return std::visit([](const auto& value) { return Json(value); }, scalar);
 }
 
-// As rcl_yaml_param_parser types a plain scalar.
+// Types a plain scalar as rcl_yaml_param_parser does.
 Json plain_scalar_as_json(const std::string& text) {
   static const std::regex true_word("y|Y|yes|Yes|YES|true|True|TRUE|on|On|ON");
   static const std::regex false_word("n|N|no|No|NO|false|False|FALSE|off|Off|OFF");
@@ -75,7 +75,7 @@ Json node_as_json(const YamlNode& node) {
     case YamlNode::Kind::kScalar:
       break;
   }
-  // What the tag of a scalar says is as good as quotes.
+  // A scalar with a tag counts as text, as one in quotes does.
   return node.is_plain || node.is_null() ? plain_scalar_as_json(node.scalar.text.text())
                                          : Json(node.scalar.text.text());
 }

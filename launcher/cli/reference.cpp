@@ -41,7 +41,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-// What `ros2 launch` does not know is marked.
+// Marks what `ros2 launch` does not know.
 std::string_view mark(bool extension) {
   return extension ? " \\*" : "";
 }

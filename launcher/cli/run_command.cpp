@@ -44,7 +44,7 @@ void set_arguments(const CommandLine& command, Scope& scope) {
   }
 }
 
-// Throws LaunchError for what is wrong with the launch arguments if that is an error, else warns.
+// Throws LaunchError if a problem with the launch arguments is an error, else warns.
 void report_arguments(const CommandLine& command, const LaunchDescription& description, const ArgumentList& declared) {
   const Severity severity = command.strict_arguments ? Severity::kError : Severity::kWarning;
   std::vector<Diagnostic> found = check_arguments(command.arguments, description, declared, severity);
@@ -62,10 +62,10 @@ void print_timing(const std::vector<TimedStep>& steps) {
   }
 }
 
-// Everything that a run needs, in the order in which it must be destroyed backwards.
+// Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, TimedStep load, LaunchRecord load_record) {
-  // A signal that was ignored when we started, as by a shell that runs us in the background, would never arrive.
+  // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM}) {
     ::signal(signal, SIG_DFL);
   }

@@ -54,7 +54,7 @@ class XmlSchema {
     text += "    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n";
     for (const ItemSpec& item : items) {
       if (holds_actions && registry_.find(item.tag) != nullptr) {
-        continue;  // one name can have only one type in one place; the action's is the wider one
+        continue;  // one name can have only one type in one place; the type of the action is the wider one
       }
       const std::string type = name + "." + item.tag;
       text += fmt::format("      <xs:element name=\"{}\" type=\"{}\">\n{}      </xs:element>\n", item.tag, type,

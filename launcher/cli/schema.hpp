@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Schemas of the launch language, made from the declarations of the actions, for editors to complete and check by.
 //
-// They say which elements and attributes there are, which are required, and what each is for. What a substitution may
-// give they can't say, so values of attributes are any text.
+// They say which elements and attributes there are, which of them are required, and what each is for. They can't say
+// what a substitution may give, so the value of an attribute is any text.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace launch {
 
-// Takes the words after its name. Returns the exit code: 0, or 2 after a wrong command line.
+// Takes the words after the name of the command. Returns the exit code: 0, or 2 after a wrong command line.
 int schema_command(const std::vector<std::string>& words, const Registry& registry);
 
 }  // namespace launch

@@ -11,11 +11,11 @@
 
 namespace launch {
 
-// A script that starts the processes, in order and all at once, and waits for them. It starts no traces and supervises
-// nothing; what it leaves out stands in comments.
+// A script that starts the processes in order and all at once, and waits for them. It starts no traces and supervises
+// nothing. Comments in it name what it leaves out.
 std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment);
 
-// A word as a shell has to read it to get the same word.
+// A word quoted in such a way that a shell reads this word.
 std::string shell_quoted(const std::string& word);
 
 // What has to change in `to` to get `of`; nullopt: the variable is removed.

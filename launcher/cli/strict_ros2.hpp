@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a launch file `ros2 launch` would not know (docs/extensions.md).
+// Finds what `ros2 launch` would not know in a launch file (docs/extensions.md).
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace launch {
 
-// An error for each action, item and attribute that is an extension. Of the file alone, not of those it includes.
-// Throws LaunchError when the file is no XML and no YAML; nothing is said of Python files.
+// Returns an error for each action, item and attribute that is an extension. It looks at this file alone, not at the
+// files that it includes. Throws LaunchError when the file is neither XML nor YAML; a Python file has no errors here.
 std::vector<Diagnostic> beyond_ros2(const std::shared_ptr<const SourceFile>& file, const Registry& registry);
 
 }  // namespace launch

@@ -36,7 +36,7 @@ void Subcommand::take_flag(const std::string& name, bool& value, const std::stri
 }
 
 std::optional<int> Subcommand::parse(std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  std::reverse(words.begin(), words.end());  // CLI11 wants them backwards
   try {
     app_->parse(words);
   } catch (const CLI::CallForHelp&) {

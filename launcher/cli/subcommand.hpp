@@ -24,23 +24,23 @@ struct LaunchTarget {
   std::vector<std::pair<std::string, std::string>> arguments;
 };
 
-// What it is given to fill must live until it has parsed.
+// The variables that it is given to fill must live until it has parsed.
 class Subcommand {
  public:
   // `name` is "launch check".
   Subcommand(const std::string& name, const std::string& description);
   ~Subcommand();
 
-  // The words that are no options. At least one that is no argument is required.
+  // Takes the words that are no options. At least one word that is no argument is required.
   void take_target(LaunchTarget& target);
-  // An option, or without "--" a word, that is one of `values`.
+  // Takes a value that is one of `values`: an option, or a word if `name` does not begin with "--".
   void take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
                    const std::string& help);
   void take_text(const std::string& name, std::string& value, const std::string& help);
   void take_flag(const std::string& name, bool& value, const std::string& help);
 
-  // Parses the words behind the name of the command. Gives the exit code when that is all there is to do: after
-  // --help, and after an error, which it has told.
+  // Parses the words after the name of the command. Returns the exit code when there is nothing more to do: after
+  // --help, and after an error, which it has printed.
   std::optional<int> parse(std::vector<std::string> words);
 
  private:

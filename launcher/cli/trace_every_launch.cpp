@@ -30,7 +30,8 @@ class UnlessTraced : public Action {
   std::vector<ActionPtr> actions_;
 };
 
-// "01_ping_pong" of "/…/01_ping_pong.launch.xml", without what means something in a path, a substitution or XML.
+// "01_ping_pong" of "/…/01_ping_pong.launch.xml", without characters that mean something in a path, a substitution or
+// XML.
 std::string session_name_of(const std::string& path) {
   std::string name = std::filesystem::path(path).filename().string();
   name.resize(std::min(name.find('.'), name.size()));

@@ -9,8 +9,8 @@
 
 namespace launch {
 
-// The description with a <trace> of the default attributes at its end, named after the file and the time. It counts
-// only when the visit of everything before has asked for no trace. Position is no matter: traces begin before
+// Returns the description with a <trace> of the default attributes at its end, named after the file and the time. This
+// <trace> counts only when the visit has met no other one before. It may stand at the end because traces begin before
 // processes.
 std::shared_ptr<const LaunchDescription> with_trace(const LaunchDescription& description, const Registry& registry);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text for XML that is written.
+// Writes text for XML.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace launch {
 
-// With entities for the characters that mean something in text and in quoted attributes.
+// The text with entities for the characters that mean something in XML text and in quoted attributes.
 std::string as_xml_text(std::string_view text);
 
 }  // namespace launch
