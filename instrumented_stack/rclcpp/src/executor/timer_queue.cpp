@@ -8,6 +8,9 @@
 #include "rclcpp/exceptions.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
+
 namespace {
 
 constexpr auto kLater = [](const auto& a, const auto& b) { return a.due > b.due; };
