@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coroutines of Python launch files, which run beside the processes, on the launch's own loop.
+// Coroutines of Python launch files, which run on the launch's own loop beside the processes.
 #pragma once
 
 #include <functional>
@@ -15,19 +15,19 @@ namespace launch {
 class LaunchContext;
 class PythonFile;
 
-// They run in steps, each up to where all of them wait; a descriptor and a time tell when the next step is due.
+// They run in steps. A step goes on until all of them wait; a descriptor and a time tell when the next step is due.
 class Coroutines {
  public:
-  // `stepped` is called after each step: a step may have left requests in the context, or have ended the last
-  // coroutine. `fail` is given what a coroutine throws.
+  // `stepped` is called after each step, because a step may have left requests in the context or have ended the last
+  // coroutine. `fail` gets the error that a coroutine throws.
   Coroutines(LaunchContext& context, EventLoop& loop, std::function<void()> stepped,
              std::function<void(const LaunchError&)> fail)
       : context_(context), loop_(loop), stepped_(std::move(stepped)), fail_(std::move(fail)) {}
 
   void start(const CoroutineRequest& request);
-  // Nothing runs.
+  // True when no coroutine runs.
   bool idle() const { return running_ == 0; }
-  // Asks all of them to end; they may still have something to do first.
+  // Asks all coroutines to end; they may still have something to do first.
   void cancel();
 
  private:
@@ -37,7 +37,7 @@ class Coroutines {
   EventLoop& loop_;
   std::function<void()> stepped_;
   std::function<void(const LaunchError&)> fail_;
-  std::shared_ptr<PythonFile> file_;  // the one that started a coroutine last: what Python's calls speak of
+  std::shared_ptr<PythonFile> file_;  // the file that started a coroutine last; Python's calls refer to it
   std::size_t running_ = 0;
   EventLoop::SourcePtr wake_up_;
   EventLoop::SourcePtr timer_;

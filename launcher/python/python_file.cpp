@@ -37,7 +37,7 @@ class PythonSubstitution : public Substitution {
   std::shared_ptr<PythonFile> file_;
 };
 
-// An action that only Python can execute: it tells what shall be visited in its place.
+// An action that only Python can execute: Python gives the entities to visit in its place.
 class PythonAction : public Action {
  public:
   PythonAction(python::ObjectPtr object, std::shared_ptr<PythonFile> file, SourceRange where, Condition condition)
@@ -60,7 +60,7 @@ class PythonAction : public Action {
   std::shared_ptr<PythonFile> file_;
 };
 
-// An action whose processes can be spoken of by a name that no launch file can write.
+// An action whose processes also have a name that no launch file can write, by which handlers refer to them.
 class NamedAction : public Action {
  public:
   NamedAction(ActionPtr action, std::string name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Python launch file: what it builds becomes actions, and what it asks for while it runs is done to the launch.
+// A Python launch file. The objects that it builds become actions; while it runs, its calls act on the launch.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,8 @@ namespace launch {
 
 class LaunchContext;
 
-// Makes actions and templates of what Python tells. Everything that asks Python later keeps the file.
+// Makes actions and templates of the entities that Python gives. Everything that asks Python later keeps the file
+// alive.
 class PythonFile : public std::enable_shared_from_this<PythonFile> {
  public:
   // The registry must outlive everything that is made.
@@ -41,10 +42,10 @@ class PythonFile : public std::enable_shared_from_this<PythonFile> {
   const Registry& registry_;
 };
 
-// The launch as Python sees it while it runs.
+// The launch, for Python while it runs.
 class PythonHost : public python::Host {
  public:
-  // While a file is loaded or a substitution performed: what needs a visit throws.
+  // For loading a file or performing a substitution. Calls that need a visit throw.
   PythonHost(PythonFile& file, Scope& scope) : file_(file), scope_(scope) {}
   PythonHost(PythonFile& file, LaunchContext& context);
 

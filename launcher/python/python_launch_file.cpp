@@ -17,11 +17,11 @@ namespace {
 using Key = std::tuple<std::string, const SourceFile*, std::uint32_t>;
 
 struct Loaded {
-  Environment environment;  // in which it was run
+  Environment environment;  // in which the file was run
   std::shared_ptr<const LaunchDescription> description;
 };
 
-// Never freed: what it holds belongs to an interpreter that isn't ended either.
+// Never freed: it holds objects of an interpreter that isn't ended either.
 std::map<Key, Loaded>& loaded_files() {
   static auto* const files = new std::map<Key, Loaded>;
   return *files;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Python launch files: run by the launcher's CPython (launcher/python/), they give the same actions as XML and YAML.
+// Python launch files. The launcher's CPython (launcher/python/) runs them; they give the same actions as XML and YAML.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 namespace launch {
 
 // Runs the file's generate_launch_description() and makes the actions of what it returns. `scope` gives the environment
-// and the packages that the file sees; what it does to its environment takes effect when the description is visited.
-// A file is run once for each include that asks for it in the same environment, however often that is looked at. Throws
-// LaunchError at the place in the Python file.
+// and the packages that the file sees. Changes that the file makes to its environment take effect when the description
+// is visited. A file runs once for each include that asks for it in the same environment, however often the description
+// is looked at. Throws LaunchError at the place in the Python file.
 std::shared_ptr<const LaunchDescription> load_python_launch_file(std::shared_ptr<const SourceFile> file,
                                                                  const Registry& registry, const Scope& scope);
 

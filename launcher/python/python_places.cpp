@@ -31,7 +31,7 @@ SourceRange PythonPlaces::range(const python::Place& place) {
       try {
         known->second = read_source_file(place.file, file_->included_from());
       } catch (const LaunchError&) {
-        // Code that comes from no file.
+        // The code comes from no file.
       }
     }
     file = known->second;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where Python's objects and errors stand: its file names and lines become places in the kept source text.
+// Turns the file names and lines of Python's objects and errors into places in the kept source text.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace launch {
 
-// Of one launch file and the modules that it takes objects from.
+// The places of one launch file and of the modules that it takes objects from.
 class PythonPlaces {
  public:
   explicit PythonPlaces(std::shared_ptr<const SourceFile> file) : file_(std::move(file)) {}
@@ -19,7 +19,7 @@ class PythonPlaces {
   // The place, or the beginning of the launch file when it is unknown.
   SourceRange range(const python::Place& place);
 
-  // Throws what a call of the host threw, or a LaunchError at the place of Python's error.
+  // Throws the exception of a call of the host, or a LaunchError at the place of Python's error.
   [[noreturn]] void fail(const python::Error& error);
 
  private:

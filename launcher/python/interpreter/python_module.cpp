@@ -29,7 +29,7 @@ python::Runtime* load_module() {
     throw std::runtime_error(fmt::format(
         "this build has no Python: '{}' does not exist; install python3-dev and pybind11-dev and build again", path));
   }
-  // Global, because the extension modules of Python take their symbols from it.
+  // Global, because the extension modules of Python take their symbols from this library.
   void* const module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
   void* const symbol = module == nullptr ? nullptr : ::dlsym(module, python::kGetRuntimeSymbol);
   if (symbol == nullptr) {

@@ -8,11 +8,11 @@
 
 namespace launch {
 
-// Throws std::runtime_error that says what to install when the module can't be loaded.
+// Throws std::runtime_error when the module can't be loaded; the message says what to install.
 python::Runtime& python_runtime();
 
-// Where the module is loaded from, instead of ../lib/launch beside the program's directory. For programs that are not
-// installed; counts until the first use of Python.
+// Loads the module from this path instead of ../lib/launch beside the program's directory. For programs that are not
+// installed. It has an effect only before the first use of Python.
 void use_python_module(std::string path);
 
 }  // namespace launch

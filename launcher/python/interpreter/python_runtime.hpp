@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launcher and liblaunch_python.so know of each other: plain data one way, two small interfaces.
+// The interface between the launcher and liblaunch_python.so: plain data one way, two small interfaces.
 //
-// The module runs Python and turns what a launch file builds into the entities below, each with the place at which it
-// was made; what they mean is decided by the launcher, as for XML and YAML. What only Python can do (a function, a
-// substitution of the user's) stays an Object, which the launcher asks while it visits. One thread only.
+// The module runs Python and turns the objects that a launch file builds into the entities below, each with the place
+// at which it was made. The launcher decides what they mean, as for XML and YAML. What only Python can do (a function,
+// a substitution of the user's) stays an Object, which the launcher asks while it visits. One thread only.
 #pragma once
 
 #include <cstdint>
@@ -32,13 +32,13 @@ using ObjectPtr = std::shared_ptr<Object>;
 
 struct Text;
 
-// A piece of a text: itself, a substitution of the launcher's called by name, or one that Python performs.
+// A piece of a text: literal text, a substitution of the launcher's called by name, or one that Python performs.
 struct Part {
   enum class Kind { kText, kCall, kObject };
 
   Kind kind = Kind::kText;
-  std::string text;             // or the name of the substitution
-  std::vector<Text> arguments;  // of a call
+  std::string text;             // literal text, or the name of the substitution
+  std::vector<Text> arguments;  // of the substitution
   ObjectPtr object;
   Place where;
 };
@@ -54,19 +54,19 @@ struct Value {
   Place where;
 };
 
-// An action or an item of one, as launcher/frontend/entity.hpp has it. With an object: an action that Python executes,
-// of which only the attributes `if` and `unless` are given.
+// An action or an item of one, as in launcher/frontend/entity.hpp. With an object it is an action that Python executes;
+// only the attributes `if` and `unless` are given then.
 struct Entity {
   std::string tag;
   Place where;
   std::vector<std::pair<std::string, Value>> attributes;
   std::vector<Entity> children;
   ObjectPtr object;
-  // A name by which event handlers speak of the processes that the action starts; empty: none does.
+  // A name by which event handlers refer to the processes that the action starts; empty when no handler refers to them.
   std::string process_name;
 };
 
-// The launch, while Python runs. Calls throw what the launcher throws.
+// The launch, for Python while it runs. Calls throw what the launcher throws.
 class Host {
  public:
   using Variables = std::map<std::string, std::string>;
@@ -80,13 +80,13 @@ class Host {
   virtual std::string perform(const Text& text, Variables& configurations) = 0;
   // "debug", "info", "warning", "error", "critical".
   virtual void message(const std::string& level, const std::string& logger, const std::string& text) = 0;
-  // Keeps what a scope restores (all of it, or the environment alone) and puts it back, as a stack. Throw outside a
-  // visit and when nothing is kept.
+  // Keeps what a scope restores (all of it, or the environment alone) and puts it back, as a stack. Both throw outside
+  // a visit; pop() throws when nothing is kept.
   virtual void push(bool environment) = 0;
   virtual void pop(bool environment) = 0;
-  // Visits actions now.
+  // Visits the actions now.
   virtual void visit(const std::vector<Entity>& entities) = 0;
-  // Has the object, a coroutine, started once the traversal is carried out.
+  // Has a coroutine started once the traversal is carried out.
   virtual void run_coroutine(ObjectPtr object) = 0;
 };
 
@@ -94,19 +94,19 @@ class Host {
 class Object {
  public:
   virtual ~Object() = default;
-  // The text of a substitution; "true" or "false" of a condition.
+  // The text of a substitution, or "true" or "false" for a condition.
   virtual std::string perform(Host& host) = 0;
   virtual std::string describe() = 0;
-  // What an action asks for in its place.
+  // The entities to visit in place of an action.
   virtual std::vector<Entity> execute(Host& host) = 0;
-  // Starts the coroutine that the object is.
+  // Starts the object, which is a coroutine.
   virtual void start(Host& host) = 0;
 };
 
-// The coroutines after a step.
+// The state of the coroutines after a step.
 struct Pause {
   std::size_t running = 0;        // how many have not ended
-  int descriptor = -1;            // readable: a step has something to do
+  int descriptor = -1;            // when it is readable, a step has something to do
   std::optional<double> seconds;  // until a step has something to do by itself
 };
 
@@ -123,7 +123,7 @@ class __attribute__((visibility("default"))) Error : public std::runtime_error {
   Place where;
   std::string help;
   std::string traceback;     // as Python prints it
-  std::exception_ptr cause;  // what a call of the host threw, when Python passed that on
+  std::exception_ptr cause;  // the exception of a call of the host, when Python passed it on
 };
 
 class Runtime {
@@ -133,14 +133,14 @@ class Runtime {
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.
   virtual std::vector<Entity> load(const std::string& path, const std::string& text, Host& host) = 0;
-  // Runs the coroutines until all of them wait. Throws Error: what one of them has thrown.
+  // Runs the coroutines until all of them wait. Throws the Error that one of them has raised.
   virtual Pause step_coroutines(Host& host) = 0;
-  // Asks all of them to end, which takes further steps.
+  // Asks all coroutines to end, which takes further steps.
   virtual void cancel_coroutines(Host& host) = 0;
 };
 
-// What the module exports. Never null; lives as long as the program. Starts nothing: the first call of the runtime
-// does.
+// What the module exports. It never returns null, and the runtime lives as long as the program. This function starts
+// nothing; the first call of the runtime does.
 using GetRuntime = Runtime* (*)();
 constexpr const char* kGetRuntimeSymbol = "launch_python_runtime";
 

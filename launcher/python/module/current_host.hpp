@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The launch that Python sees, and what its calls throw on the way through Python.
+// The launch that Python sees, and a way for the exceptions of its calls through Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -24,15 +24,15 @@ class CurrentHost {
 };
 
 bool host_is_there();
-// Throws std::runtime_error when there is none.
+// Throws std::runtime_error when there is no host.
 Host& host();
 
 // Keeps the exception that is being handled, and throws a Python exception that carries its number.
 [[noreturn]] void throw_host_failure(const std::exception& error);
-// What a call of the host threw, by that number; null for an unknown one.
+// The exception with this number, which a call of the host threw; null for an unknown number.
 std::exception_ptr host_failure(std::size_t number);
 
-// Runs a call of the host. What it throws becomes a Python exception that carries it.
+// Runs a call of the host. An exception of the call becomes a Python exception that carries it.
 template <typename Call>
 auto guarded(Call call) {
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The module `_launch_engine`: the launch that called Python, for the Python package `launch`.
+// The module `_launch_engine`: gives the Python package `launch` access to the launch that called Python.
 #include <pybind11/embed.h>
 #include <pybind11/stl.h>
 

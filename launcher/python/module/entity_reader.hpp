@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what the Python package `launch` tells of its objects.
+// Reads the entities that the Python package `launch` makes of its objects.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,10 +13,10 @@ namespace launch::python {
 // A list of (tag, place, attributes, children, object, process name), as launch/_entities.py gives them.
 std::vector<Entity> read_entities(const pybind11::handle& entities);
 
-// For what the launch will ask Python about later.
+// Wraps a Python object that the launch will ask later.
 ObjectPtr make_object(pybind11::object object);
 
-// Text: a str, a substitution, or a tuple of them, which is pasted together.
+// Reads a text: a str, a substitution, or a tuple of them, which is pasted together.
 Text read_text(const pybind11::handle& value);
 
 }  // namespace launch::python

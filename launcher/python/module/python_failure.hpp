@@ -12,7 +12,8 @@ namespace launch::python {
 // Throws Error for a Python exception.
 [[noreturn]] void throw_failure(pybind11::error_already_set& error);
 
-// Runs a call of Python, in the interpreter's lock, with `host` as the launch that it sees. Throws Error.
+// Runs a call of Python while it holds the interpreter's lock, with `host` as the launch that Python sees. Throws
+// Error.
 template <typename Call>
 auto run_python(Host& host, Call call) {
   const pybind11::gil_scoped_acquire lock;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// liblaunch_python.so: CPython for $(eval …) and Python launch files. Loaded with dlopen on first use, so that
-// launching without Python costs and needs no Python.
+// liblaunch_python.so: CPython for $(eval …) and Python launch files. It is loaded with dlopen on first use, so that a
+// launch without Python needs no Python and takes no longer.
 #include <dlfcn.h>
 #include <pybind11/embed.h>
 #include <pybind11/stl.h>
@@ -18,7 +18,7 @@ namespace py = pybind11;
 
 namespace {
 
-// The interpreter lives until the program ends: finalising it would only cost time.
+// The interpreter lives until the program ends: finalising it would only take time.
 void start_interpreter() {
   PyConfig config;
   PyConfig_InitPythonConfig(&config);
@@ -26,7 +26,7 @@ void start_interpreter() {
   config.parse_argv = 0;
   config.buffered_stdio = 0;  // what a launch file prints appears among the launcher's own lines
   config.write_bytecode = 0;  // no __pycache__ beside the user's files
-  // Else the first python3 on the PATH would tell where the standard library is, whatever version it has.
+  // Otherwise the first python3 on the PATH would tell where the standard library is, whatever version it has.
   PyConfig_SetBytesString(&config, &config.program_name, LAUNCH_PYTHON_PROGRAM);
   const PyStatus status = Py_InitializeFromConfig(&config);
   PyConfig_Clear(&config);
@@ -67,7 +67,7 @@ std::string evaluate(const std::string& expression, const std::string& modules) 
       }
     }
   }
-  // Python's own eval() passes over blanks at the front, as pybind11's does not.
+  // Python's own eval() skips blanks at the front; pybind11's does not.
   return py::str(py::module_::import("builtins").attr("eval")(expression, names));
 }
 
@@ -90,7 +90,7 @@ class CPython : public launch::python::Runtime {
     start();
     return launch::python::run_python(host, [&] {
       if (!packages_found_) {
-        // In front of everything: an installed ROS 2 has packages of the same names.
+        // Before everything else: an installed ROS 2 has packages of the same names.
         py::module_::import("sys").attr("path").attr("insert")(0, package_directory());
         packages_found_ = true;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a place in a launch file, as the Python package `launch` tells it.
+// Reads a place in a launch file from the Python package `launch`.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,7 +8,7 @@
 
 namespace launch::python {
 
-// (file, line, begin, end), or None.
+// `place` is (file, line, begin, end), or None.
 Place read_place(const pybind11::handle& place);
 
 }  // namespace launch::python

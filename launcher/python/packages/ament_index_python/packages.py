@@ -7,7 +7,7 @@ from ament_index_python.resources import get_resources
 
 
 class PackageNotFoundError(KeyError):
-    """No package of that name. Not caught, it ends the launch with the launcher's own message."""
+    """No package of that name. If it is not caught, it ends the launch with the launcher's own message."""
 
     def __str__(self):
         return str(self.args[0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The prefixes that are searched."""
+"""The prefixes that are searched for packages."""
 
 import os
 

@@ -27,7 +27,7 @@ _names.same_module('launch.some_types', 'launch.some_actions_type', 'launch.some
 
 
 def __getattr__(name):
-    if name == 'logging':  # it takes as long to load as all the rest
+    if name == 'logging':  # logging takes as long to load as all the rest
         import importlib
         return importlib.import_module('launch.logging')
     raise AttributeError(f"module 'launch' has no attribute '{name}'", name=name, obj=sys.modules[__name__])

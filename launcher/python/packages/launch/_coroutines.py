@@ -8,7 +8,7 @@ A step goes on until all coroutines wait. The launcher then waits for the loop's
 import asyncio
 import selectors
 
-_MOST_TURNS = 100  # of one step: a coroutine that never waits must not keep the launcher from its other work
+_MOST_TURNS = 100  # in one step: a coroutine that never waits must not keep the launcher from its other work
 
 
 class _Selector(selectors.DefaultSelector):
@@ -35,12 +35,12 @@ class _Loop(asyncio.SelectorEventLoop):
     def call_soon(self, callback, *args, context=None):
         if self.is_running():
             return super().call_soon(callback, *args, context=context)
-        # An event handler has something for a coroutine: the launcher must hear that a step is due.
+        # An event handler has something for a coroutine, so the launcher has to learn that a step is due.
         return self.call_soon_threadsafe(callback, *args, context=context)
 
 
 _selector = None
-_tasks = {}  # with the objects that they were made by
+_tasks = {}  # each task with the object that made its coroutine
 
 
 def loop():
@@ -58,7 +58,7 @@ def start(coroutine, owner):
 
 
 def step():
-    """(number of coroutines left, descriptor to wait for, seconds to wait or None); raises what one of them raised."""
+    """(number of coroutines left, descriptor to wait for, seconds to wait or None); raises what a coroutine raised."""
     _selector.turns = 0
     loop().run_forever()
     for task in [task for task in _tasks if task.done()]:

@@ -7,12 +7,12 @@ from launch._values import LaunchFileError, name_of
 
 
 def entity(tag, place, attributes, children=(), obj=None, process_name=''):
-    """`attributes` are names with values, and places if they have their own; those whose value is None are left out."""
+    """`attributes` are (name, value) or (name, value, place); an attribute whose value is None is left out."""
     return (tag, place, [pair for pair in attributes if pair[1] is not None], list(children), obj, process_name)
 
 
 def entities(objects, place=None):
-    """The entities of actions, lists of them and launch descriptions, in order. `place` is of what holds them."""
+    """The entities of actions, lists of actions and launch descriptions, in order. `place` is where they are held."""
     result = []
     _collect(objects, result, place)
     return result

@@ -11,7 +11,7 @@ _of_launcher = os.environ
 
 
 class LaunchVariables(MutableMapping):
-    """The launch's environment, or its configurations: changes take effect there."""
+    """The launch's environment, or its configurations. Changes take effect in the launch."""
 
     def __init__(self, environment):
         self._environment = environment
@@ -51,7 +51,7 @@ class LaunchVariables(MutableMapping):
     def copy(self):
         return dict(self)
 
-    # Where no launch is, as in an expression of $(eval).
+    # The values where there is no launch, as in an expression of $(eval).
     def _outside(self):
         return _of_launcher if self._environment else {}
 
@@ -68,8 +68,8 @@ configurations = LaunchVariables(False)
 
 def replace_os_environ():
     """
-    Makes os.environ the launch's environment, which begins as that of the launcher.
+    Makes os.environ the launch's environment, which begins as a copy of the launcher's environment.
 
-    `set_env` and the like change it while the launch is visited, and only there: the launcher's own stays as it is.
+    `set_env` and the like change it while the launch is visited. The launcher's own environment stays as it is.
     """
     os.environ = environment

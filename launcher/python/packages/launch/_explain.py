@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to tell of an exception in a launch file: one line and a place instead of a traceback."""
+"""Explains an exception of a launch file by one line and a place instead of a traceback."""
 
 import difflib
 import re
@@ -59,7 +59,7 @@ _OWN = ('launch', 'launch_ros', 'launch_xml', 'launch_yaml', 'ament_index_python
 
 
 def _unknown_name(error):
-    """(module, name) when one of the packages of the launcher lacks a name that was asked for; else None."""
+    """(module, name) when a package of the launcher lacks a name that was asked for; else None."""
     if isinstance(error, ImportError) and not isinstance(error, ModuleNotFoundError):
         found = re.match(r"cannot import name '([^']*)' from '([^']*)'", str(error))
         module, name = (found[2], found[1]) if found else (None, None)
@@ -71,7 +71,7 @@ def _unknown_name(error):
 
 
 def explain(error, trace):
-    """(message, place, help, traceback, number of what the launcher threw)."""
+    """(message, place, help, traceback, number of the launcher's exception)."""
     text = ''.join(traceback.format_exception(type(error), error, trace))
     number = getattr(error, '_number', None)
     if isinstance(error, LaunchFileError):

@@ -13,7 +13,7 @@ from launch._values import LaunchFileError, name_of
 
 
 def _program_arguments():
-    # As `ros2 launch` gives them: some launch files look for their arguments here.
+    # As `ros2 launch` sets them: some launch files look for their arguments here.
     try:
         with open('/proc/self/cmdline', encoding='utf-8', errors='surrogateescape') as file:
             words = file.read().split('\0')[:-1]

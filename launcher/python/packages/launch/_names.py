@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The import names of ROS 2's packages that hold one class each."""
+"""The names of those modules of ROS 2's packages that hold one class each."""
 
 import sys
 
@@ -11,7 +11,7 @@ def same_module(module, *names):
 
 
 def snake_case(name):
-    """ExecuteProcess is execute_process, SetROSLogDir set_ros_log_dir."""
+    """Turns ExecuteProcess into execute_process, and SetROSLogDir into set_ros_log_dir."""
     result = ''
     for index, character in enumerate(name):
         before, after = name[index - 1:index], name[index + 1:index + 2]
@@ -23,9 +23,9 @@ def snake_case(name):
 
 def one_class_modules(module_name):
     """
-    Each class of the module can be imported from a module of its own, too.
+    Makes each class of the module importable from a module of its own, too.
 
-    So that `from launch.actions.execute_process import ExecuteProcess` means what it means in ROS 2.
+    `from launch.actions.execute_process import ExecuteProcess` then works as in ROS 2.
     """
     module = sys.modules[module_name]
     for name, value in list(vars(module).items()):

@@ -2,8 +2,8 @@
 """
 Where in a launch file something is: (file, line, first byte, end byte).
 
-The instruction that makes an object tells the position of the call; the syntax tree of the file, read when the first
-place of it is asked for, tells where the name that is called and the arguments are.
+The instruction that makes an object tells the position of the call. The syntax tree of the file tells where the called
+name and the arguments are; it is read when the first place of the file is asked for.
 """
 
 import os
@@ -50,7 +50,7 @@ def resolve(instruction):
 
 
 def of_function(function):
-    """The first line of a function; None for what isn't written in Python."""
+    """The first line of a function; None for a function that isn't written in Python."""
     code = getattr(function, '__code__', None)
     return code and (code.co_filename, code.co_firstlineno, 0, 0)
 
@@ -67,7 +67,7 @@ def _call_at(place):
             if source is None:
                 with open(filename, 'rb') as file:
                     source = file.read()
-            # Inner calls that begin where outer ones do, as in a().b(), come later.
+            # Inner calls that begin where outer calls do, as in a().b(), come later.
             for node in ast.walk(ast.parse(source)):
                 if isinstance(node, ast.Call):
                     calls.setdefault((node.lineno, node.col_offset), node)
@@ -81,7 +81,7 @@ def _of_node(filename, node):
 
 
 class Located:
-    """Remembers where it was made."""
+    """An object that remembers where it was made."""
 
     def __new__(cls, *_args, **_kwargs):
         self = object.__new__(cls)
@@ -89,7 +89,7 @@ class Located:
         return self
 
     def _place(self):
-        """The name that is called to make it."""
+        """The place of the class name in the call that made it."""
         place = resolve(self._made_at)
         call = place and _call_at(place)
         if call is None or call.func.end_lineno != call.lineno:
@@ -97,7 +97,7 @@ class Located:
         return place[:3] + (call.func.end_col_offset,)
 
     def _place_of(self, argument):
-        """The argument of that name in the call that makes it; None when it can't be told."""
+        """The place of the argument of that name in the call that made it; None when it is not known."""
         place = resolve(self._made_at)
         call = place and _call_at(place)
         if call is None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What launch files give as values, in the few forms that the launcher reads.
+Reads the values that launch files give into the few forms that the launcher reads.
 
 A str, a substitution, or a tuple of them (pasted together) is a text; a list is a list of values; bool, int and float
 are themselves.
@@ -13,12 +13,12 @@ from launch.substitution import Substitution
 
 
 class LaunchFileError(Exception):
-    """Something in a launch file that can't be right. Told without a Python traceback."""
+    """Something in a launch file that can't be right. It is reported without a Python traceback."""
 
     def __init__(self, message, help_='', place=None):
         super().__init__(message)
         self.help = help_
-        self.place = place  # for when nothing of the launch file is being executed
+        self.place = place  # used when nothing of the launch file is being executed
 
 
 def name_of(value):
@@ -41,12 +41,12 @@ def text(value, what):
 
 
 def boolean(value, what):
-    """True, False, or a text that gives one."""
+    """True, False, or a text that gives a boolean."""
     return 'true' if value is True else 'false' if value is False else text(value, what)
 
 
 def number(value, what):
-    """A number, or a text that gives one."""
+    """A number, or a text that gives a number."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else text(value, what)
 
 

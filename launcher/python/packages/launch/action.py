@@ -8,7 +8,7 @@ from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 
-# The arguments of Python that have another name than the attributes of XML.
+# The arguments whose names in Python differ from the attributes of XML.
 _ARGUMENTS = {'args': 'arguments', 'clean_env': 'env', 'default': 'default_value', 'exec': 'executable',
               'file': 'launch_description_source', 'from': 'src', 'launch-prefix': 'prefix', 'message': 'msg',
               'pkg': 'package', 'ros_args': 'ros_arguments', 'stderr': 'output', 'stdout': 'output',
@@ -17,7 +17,7 @@ _ARGUMENTS = {'args': 'arguments', 'clean_env': 'env', 'default': 'default_value
 
 class Action(LaunchDescriptionEntity):
     """
-    To be derived from by launch files: execute() returns the actions to visit in its place.
+    A base class for the actions of launch files: execute() returns the actions to visit in its place.
 
     The launcher's own actions implement _tags() instead, which gives entities.
     """
@@ -47,7 +47,7 @@ class Action(LaunchDescriptionEntity):
                 (*attribute, self._place_of(_ARGUMENTS.get(attribute[0]) or attribute[0].replace('-', '_')))
                 for attribute in attributes]
 
-    # Pairs for `if` and `unless`.
+    # The pairs for `if` and `unless`.
     def _when(self):
         return [] if self.condition is None else [self.condition._attribute()]
 
@@ -68,12 +68,12 @@ class Action(LaunchDescriptionEntity):
 
 
 class _Plain(LaunchDescriptionEntity):
-    """An action of the launcher's without what a derived class makes of it."""
+    """One of the launcher's own actions, without the execute() of a class derived from it."""
 
     def __init__(self, action):
         self._action = action
 
     def _entities(self):
-        # Its condition has been evaluated.
+        # The launcher has evaluated its condition already.
         return [(tag, place, [pair for pair in attributes if pair[0] not in ('if', 'unless')], *rest)
                 for tag, place, attributes, *rest in self._action._tags()]

@@ -18,11 +18,11 @@ class Condition(Located):
     def describe(self):
         return f'{type(self).__name__}()'
 
-    # As an attribute of an action: `if` or `unless`, text, and its place.
+    # The condition as an attribute of an action: `if` or `unless`, the text, and its place.
     def _attribute(self):
         return ('if', self, self._place())
 
-    # The launcher takes it for a substitution that gives true or false.
+    # None: the launcher asks Python, as for a substitution, and gets true or false.
     def _part(self):
         return None
 

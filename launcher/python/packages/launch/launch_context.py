@@ -11,9 +11,9 @@ from launch._values import LaunchFileError
 
 class LaunchContext:
     """
-    The launch's state: what an OpaqueFunction and the like are given.
+    The launch's state, which an OpaqueFunction and the like are called with.
 
-    One made by a launch file itself has configurations of its own and the launch's environment.
+    A context that a launch file makes itself has configurations of its own and the launch's environment.
     """
 
     _launch = None
@@ -48,7 +48,7 @@ class LaunchContext:
         return _coroutines.loop()
 
     def emit_event_sync(self, event):
-        """As EmitEvent does."""
+        """Emits the event, as EmitEvent does."""
         if not hasattr(event, '_tags'):
             raise LaunchFileError(f'this launcher can\'t emit {type(event).__name__}')
         _launch_engine.visit(event._tags(resolve(caller()), []))

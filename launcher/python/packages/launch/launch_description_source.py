@@ -7,7 +7,7 @@ from launch.launch_description import LaunchDescription
 
 
 class LaunchDescriptionSource(Located):
-    """A launch description that is there already, or the path of a launch file, whatever its format."""
+    """A launch description that exists already, or the path of a launch file of any format."""
 
     def __init__(self, launch_description=None, location='', method='unspecified mechanism from a script'):
         self._description = launch_description if isinstance(launch_description, LaunchDescription) else None

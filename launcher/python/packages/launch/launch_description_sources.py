@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Launch files by their path. The launcher sees the format itself, so that all of these mean the same."""
+"""Launch files by their path. The launcher detects the format itself, so all of these classes mean the same."""
 
 import os
 
@@ -36,7 +36,7 @@ class InvalidPythonLaunchFileError(Exception):
 
 
 def load_python_launch_file_as_module(python_launch_file_path):
-    """Runs a Python launch file, for what it defines."""
+    """Runs a Python launch file and returns it as a module."""
     from importlib.machinery import SourceFileLoader
     from importlib.util import module_from_spec, spec_from_loader
     path = os.fspath(python_launch_file_path)

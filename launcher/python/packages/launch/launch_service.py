@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What runs launch descriptions: here, only the launcher itself."""
+"""The class that runs launch descriptions in ROS 2. Here only the launcher itself runs them."""
 
 from launch import _names
 from launch._values import LaunchFileError

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Substitution: text that is known when it is visited."""
+"""Substitution: a text that is known only when it is visited."""
 
 from launch._places import Located, of_function
 
 
 class Substitution(Located):
-    """To be derived from by launch files: perform() returns the text, describe() tells of it."""
+    """A base class for the substitutions of launch files: perform() returns the text, describe() describes it."""
 
     def perform(self, context):
         raise NotImplementedError(f'{type(self).__name__} has no perform()')
@@ -13,7 +13,7 @@ class Substitution(Located):
     def describe(self):
         return f'{type(self).__name__}()'
 
-    # The launcher's own substitutions return its name of them and their arguments; None: Python performs it.
+    # The launcher's own substitutions return their name and their arguments. None: Python performs it.
     def _part(self):
         return None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Actions that ROS 2 does not have: a launch file that imports them runs with this launcher alone."""
+"""Actions that ROS 2 does not have. A launch file that imports them runs with this launcher alone."""
 
 from launch._entities import entities, entity
 from launch._values import number, text
@@ -27,7 +27,7 @@ class WaitFor(Action):
 
 
 class RestartProcess(Action):
-    """Ends the process of an action, or of a name, and starts it again; <restart> in XML."""
+    """Ends the process of an action, or the process with a name, and starts it again; <restart> in XML."""
 
     def __init__(self, process, **kwargs):
         from launch.actions._processes import name_of_process

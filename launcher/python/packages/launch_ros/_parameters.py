@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What nodes are given as `parameters`: files, mappings, and the two kinds of descriptions."""
+"""Reads the `parameters` of nodes: files, mappings, and the two kinds of descriptions."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -14,7 +14,7 @@ _SCALARS = (bool, int, float)
 
 
 class _TypedText(_Builtin):
-    """A text that is typed when it is performed, even if it holds no substitution."""
+    """A text whose type is found when it is performed, even if it holds no substitution."""
 
     _call = 'string-join'
 
@@ -57,7 +57,7 @@ def _item(name, value, place):
 
 
 def parameter_value(value):
-    """A scalar, a list of scalars, or a text: of a str it stays one, of substitutions it is typed when performed."""
+    """A scalar, a list of scalars, or a text. A str stays a text; the type of substitutions is found when performed."""
     if isinstance(value, (str, *_SCALARS)):
         return value
     if isinstance(value, (Substitution, os.PathLike)):
@@ -69,7 +69,7 @@ def parameter_value(value):
 
 
 def _list(values):
-    # A substitution among texts: all of them are pasted together.
+    # A substitution among texts means that all of them are pasted together.
     if any(isinstance(value, Substitution) for value in values):
         return text(values, 'a parameter')
     if any(isinstance(value, float) for value in values) and all(type(value) in (int, float) for value in values):
@@ -78,7 +78,7 @@ def _list(values):
 
 
 def as_yaml(value):
-    """The text that YAML rules read as the value; substitutions are left as they are."""
+    """The text that the rules of YAML read as this value; substitutions stay as they are."""
     value = parameter_value(value)
     if isinstance(value, bool):
         return 'true' if value else 'false'

@@ -12,7 +12,7 @@ _TYPES = {None: None, str: 'str', bool: 'bool', int: 'int', float: 'float', List
 
 
 class ParameterValue(Located):
-    """A value with its type; None: typed by the rules of YAML."""
+    """A value with its type. value_type None: the type follows from the rules of YAML."""
 
     def __init__(self, value, *, value_type=None):
         try:
@@ -37,7 +37,7 @@ class Parameter(Located):
 
 
 class ParameterFile(Located):
-    """A file of parameters, with substitutions in its text if so asked."""
+    """A file of parameters; if so asked, substitutions in its text are performed."""
 
     def __init__(self, param_file, *, allow_substs=False):
         self._path = text(param_file, 'param_file')

@@ -10,7 +10,7 @@ from tracetools_trace.tools import names
 
 
 def _attributes(given):
-    """Attributes of XML, whose names have hyphens."""
+    """The attributes of XML for these arguments; their names have hyphens there."""
     attributes = []
     for name, value in given.items():
         if isinstance(value, bool):
@@ -32,7 +32,7 @@ class Trace(Action):
                  events_kernel=None, syscalls=None, context_fields=None, subbuffer_size_ust=None,
                  subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, channels=(), **kwargs):
         options = {'condition': kwargs.pop('condition', None)}
-        # What is left in kwargs are further attributes of <trace>, with underscores.
+        # The arguments left in kwargs are further attributes of <trace>, with underscores.
         super().__init__(**options)
         context_fields_kernel = kwargs.pop('context_fields_kernel', None)
         if isinstance(context_fields, Mapping):
@@ -40,7 +40,7 @@ class Trace(Action):
             for domain in context_fields:
                 if domain not in domains:
                     raise LaunchFileError(f"context_fields has a domain '{domain}': there are {' and '.join(domains)}")
-            # A domain that is not named has none.
+            # A domain that is not named has no context fields.
             context_fields, context_fields_kernel = (context_fields.get(domain, []) for domain in domains)
 
         def given(values, what):

@@ -140,7 +140,7 @@ class TimerAction(Action):
 
 
 class _OfEngine(Action):
-    """Something that is done to the launch's state."""
+    """An action that changes the launch's state."""
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Actions that hold others, or that make them when they are visited."""
+"""Actions that hold other actions, or that make them when they are visited."""
 
 import _launch_engine
 from launch._entities import entities, entity
@@ -59,7 +59,7 @@ class IncludeLaunchDescription(Action):
 
 
 class OpaqueFunction(Action):
-    """Calls function(context, *args, **kwargs) when it is visited; what it returns is visited in its place."""
+    """Calls function(context, *args, **kwargs) when it is visited; the actions that it returns are visited."""
 
     def __init__(self, *, function, args=None, kwargs=None, **left_over_kwargs):
         super().__init__(**left_over_kwargs)
@@ -80,12 +80,12 @@ class OpaqueCoroutine(Action):
     """
     Runs coroutine(context, *args, **kwargs) beside the processes, from when they start.
 
-    The launch lasts until it has returned; a shutdown cancels it. What it raises ends the launch.
+    The launch goes on until it has returned; a shutdown cancels it. If it raises an error, the launch ends.
     """
 
     def __init__(self, *, coroutine, args=None, kwargs=None, ignore_context=False, **left_over_kwargs):
         super().__init__(**left_over_kwargs)
-        from asyncio import iscoroutinefunction  # not for launch files that need none of it
+        from asyncio import iscoroutinefunction  # here, because most launch files need nothing of asyncio
         if not iscoroutinefunction(coroutine):
             raise LaunchFileError(f'coroutine must be an async function, got {type(coroutine).__name__}',
                                   'write it with async def')
@@ -109,7 +109,7 @@ class OpaqueCoroutine(Action):
 
 
 class ForLoop(Action):
-    """Calls function(i) for i from 0 below length; what it returns is visited."""
+    """Calls function(i) for each i from 0 to length - 1; the actions that it returns are visited."""
 
     def __init__(self, length, *, function=None, name=None, **kwargs):
         super().__init__(**kwargs)
@@ -121,7 +121,7 @@ class ForLoop(Action):
 
 
 class ForEach(Action):
-    """Calls function(**values) for each of the YAML mappings, separated by semicolons; visits what it returns."""
+    """Calls function(**values) for each of the YAML mappings, separated by semicolons, and visits what it returns."""
 
     def __init__(self, input_values, *, function=None, **kwargs):
         super().__init__(**kwargs)

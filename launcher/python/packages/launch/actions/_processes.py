@@ -15,7 +15,7 @@ _names_given = {}
 
 
 def name_of_process(action, what):
-    """A name by which event handlers and commands mean the processes of one action, and no others."""
+    """A name by which event handlers and commands refer to the processes of this one action."""
     if not isinstance(action, _Process):
         raise LaunchFileError(f'{what} must be an action that runs a process, got {type(action).__name__}')
     if action._spoken_of is None:
@@ -30,7 +30,7 @@ def name_of_process(action, what):
 
 
 def _dependencies(given, action):
-    """The items for depends_on: mappings with the attributes of XML, `process` may be an action."""
+    """The items for depends_on: mappings with the attributes of XML. `process` may be an action."""
     items = []
     given = [given] if isinstance(given, dict) else given or []
     for dependency in given:
@@ -56,12 +56,12 @@ class _Process(Action):
     _ARGUMENTS = ('name', 'cwd', 'env', 'additional_env', 'prefix', 'shell', 'sigterm_timeout', 'sigkill_timeout',
                   'emulate_tty', 'output', 'output_format', 'log_cmd', 'cached_output', 'on_exit', 'respawn',
                   'respawn_delay', 'respawn_max_retries', 'condition')
-    # What this launcher has besides, named as in XML.
+    # Arguments that only this launcher has, named as in XML.
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
                    'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace')
 
     def _take(self, options, known=(), former=None):
-        """Keeps the options of the process; `known` are the arguments that the caller has taken."""
+        """Keeps the options of the process; `known` are the arguments that the caller handles itself."""
         options_known = (*self._ARGUMENTS, *self._EXTENSIONS, 'depends_on')
         unknown = [name for name in options if name not in options_known]
         reject(type(self), unknown, [*options_known, *known], former)
@@ -124,7 +124,7 @@ class _Process(Action):
         return type(action) is Shutdown and action.condition is None
 
     def _with_handlers(self, tag, attributes, items):
-        """The process, and before it what shall happen when it ends."""
+        """The process, and before it the handlers for its end."""
         from launch.event_handlers import OnProcessExit
         handlers = []
         on_exit = self._options.get('on_exit')

@@ -43,7 +43,7 @@ class UnlessCondition(IfCondition):
 
 
 class LaunchConfigurationEquals(Condition):
-    """Holds when a configuration has a value; None: when there is none."""
+    """Holds when a configuration has this value; None: when there is no such configuration."""
 
     def __init__(self, launch_configuration_name, expected_value):
         super().__init__()

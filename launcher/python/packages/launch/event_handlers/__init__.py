@@ -2,7 +2,7 @@
 """
 Handlers of what happens to processes and to the launch.
 
-What they do is a list of actions, or a function of the event and the context that returns actions.
+A handler has a list of actions, or a function of the event and the context that returns actions.
 """
 
 from launch import _names
@@ -82,7 +82,7 @@ class OnProcessExit(_ProcessHandler):
 
 
 class OnExecutionComplete(_ProcessHandler):
-    """For actions that run a process: when it has ended."""
+    """For actions that run a process: called when the process has ended."""
 
     def __init__(self, *, target_action, on_completion, handle_once=False):
         super().__init__(target_action, on_completion, handle_once)
@@ -97,7 +97,7 @@ class OnProcessIO(_ProcessHandler):
         if on_stdin is not None:
             raise LaunchFileError('on_stdin is not supported: launched processes are given no input')
 
-        # They are given the event alone.
+        # These functions get only the event.
         def without_context(function):
             return function and (lambda event, _context: function(event))
 
@@ -122,11 +122,11 @@ class OnShutdown(BaseEventHandler):
 
 
 class OnActionEventBase(BaseEventHandler):
-    """Of ROS 2, where the handlers of processes derive from it."""
+    """A class of ROS 2, where the handlers of processes derive from it."""
 
 
 class OnIncludeLaunchDescription(BaseEventHandler):
-    """Not here: an include is no event."""
+    """Not supported: an include is no event here."""
 
 
 _names.one_class_modules(__name__)

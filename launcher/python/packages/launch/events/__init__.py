@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Events that a launch file can emit, and what handlers are told."""
+"""Events that a launch file can emit, and events that handlers get."""
 
 from launch import _names
 from launch._entities import entity
@@ -23,15 +23,15 @@ class Shutdown(Located, Event):
 
 
 class ExecutionComplete(Event):
-    """Of ROS 2; the handler OnExecutionComplete is given ProcessExited here."""
+    """An event of ROS 2; the handler OnExecutionComplete gets ProcessExited here."""
 
 
 class IncludeLaunchDescription(Event):
-    """Of ROS 2; an include is no event here."""
+    """An event of ROS 2; an include is no event here."""
 
 
 class TimerEvent(Event):
-    """Of ROS 2; a timer that fires is no event here."""
+    """An event of ROS 2; a timer that fires is no event here."""
 
 
 _names.one_class_modules(__name__)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Events of processes: what handlers are told, and what can be asked of a process."""
+"""Events of processes: those that handlers get, and those that ask something of a process."""
 
 from launch import _names
 from launch._entities import entity
@@ -53,7 +53,7 @@ class ProcessIO(ProcessEvent):
 
 
 class ProcessStdin(ProcessIO):
-    """Of ROS 2; launched processes are given no input, so there are none."""
+    """An event of ROS 2. It never happens, because launched processes get no input."""
 
 
 class ProcessStdout(ProcessIO):
@@ -96,7 +96,7 @@ class SignalProcess(_ProcessTargetedEvent):
 
 
 class _Matcher(Located):
-    """Which process is meant."""
+    """Tells which process an event is for."""
 
     def __init__(self, process, action=None):
         self._process = process

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Substitutions. All but the last few are the launcher's own, called by the names that XML and YAML files use."""
+"""Substitutions. All but the last few are the launcher's own; they are called by the names of XML and YAML files."""
 
 import os
 
@@ -32,12 +32,12 @@ class TextSubstitution(Substitution):
 
 
 class _Builtin(Substitution):
-    """A substitution of the launcher's: its name there, and arguments, each a text."""
+    """A substitution of the launcher's: its name there, and its arguments, each a text."""
 
     _call = ''
 
     def _take(self, *arguments):
-        """Keeps arguments up to the first that is None."""
+        """Keeps the arguments before the first that is None."""
         self._arguments = []
         for argument in arguments:
             if argument is None:
@@ -215,7 +215,7 @@ class BooleanSubstitution(_Builtin):
 
 
 class _Joined(Substitution):
-    """Texts that Python joins."""
+    """Texts that Python joins into one."""
 
     def __init__(self, substitutions):
         if isinstance(substitutions, (str, Substitution)):
@@ -234,7 +234,7 @@ class _Joined(Substitution):
 
 
 class PathJoinSubstitution(_Joined):
-    """A path of its components; each may be a list of texts to paste together."""
+    """A path made of its components; each may be a list of texts to paste together."""
 
     def _join(self, texts):
         return os.path.join(*texts) if texts else ''
@@ -244,7 +244,7 @@ class PathJoinSubstitution(_Joined):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """A path, to be extended by /."""
+    """A path that the operator / extends."""
 
     def __init__(self, path):
         super().__init__(path if isinstance(path, (list, tuple)) else [path])

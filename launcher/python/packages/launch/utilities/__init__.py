@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that launch files and the packages of others use."""
+"""Functions that launch files and other packages use."""
 
 from collections.abc import Iterable
 

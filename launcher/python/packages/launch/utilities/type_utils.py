@@ -23,14 +23,14 @@ def _is_text(value):
 
 
 def normalize_typed_substitution(value, data_type=None):
-    """A text becomes a list of substitutions, whatever has its type already stays itself."""
+    """Turns a text into a list of substitutions; a value that has its type already stays as it is."""
     if _is_text(value) and not (data_type is not None and is_typing_list(data_type) and isinstance(value, (list, tuple))):
         return normalize_to_list_of_substitutions(value)
     return value
 
 
 def get_typed_value(value, data_type=None, can_be_str=True):
-    """The value of a text by the rules of YAML; ValueError when it has another type."""
+    """The value of a text by the rules of YAML; raises ValueError when it has another type."""
     import yaml
     if isinstance(value, (list, tuple)):
         inner = (get_args(data_type) or (None,))[0] if data_type is not None else None
@@ -49,7 +49,7 @@ def get_typed_value(value, data_type=None, can_be_str=True):
 
 
 def perform_typed_substitution(context, value, data_type=None):
-    """The value of what normalize_typed_substitution() gave."""
+    """The value of a result of normalize_typed_substitution()."""
     if isinstance(value, Substitution) or (isinstance(value, list) and value and all(
             isinstance(part, Substitution) for part in value)):
         return get_typed_value(context._perform(text(value, 'value')), data_type)

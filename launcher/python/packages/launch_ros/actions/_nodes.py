@@ -35,7 +35,7 @@ class Node(_Process):
                             ('namespace', self._namespace), ('exec_name', given(exec_name, 'exec_name')),
                             ('args', words(arguments, 'arguments') if arguments else None),
                             ('ros_args', words(ros_arguments, 'ros_arguments') if ros_arguments else None)]
-        # Read now: a launch file may change its mappings later.
+        # Read now, because a launch file may change its mappings later.
         self._parameters = parameter_items(parameters, self._place_of('parameters') or self._place())
         self._remappings = pairs(remappings or [], 'remappings')
 
@@ -78,7 +78,7 @@ class ComposableNodeContainer(Node):
 
 
 def full_name(node):
-    """The fully qualified name of a node that has a name, as a substitution."""
+    """The fully qualified name of a node, as a substitution. The node must have a name."""
     if node._name is None:
         raise LaunchFileError(f'the {type(node).__name__} needs a name')
     return _FullName(node)
@@ -114,7 +114,7 @@ class LoadComposableNodes(Action):
 
 
 class LifecycleTransition(Action):
-    """Changes the state of nodes: each goes through the transitions in turn."""
+    """Changes the state of nodes: each node goes through the transitions in turn."""
 
     def __init__(self, *, lifecycle_node_names, transition_ids, **kwargs):
         super().__init__(**kwargs)

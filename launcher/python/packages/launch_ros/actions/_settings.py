@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Actions that set what later nodes of the scope are given."""
+"""Actions that set something for later nodes of the scope."""
 
 from launch._values import boolean, text
 from launch.actions import TimerAction

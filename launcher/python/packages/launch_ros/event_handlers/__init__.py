@@ -8,7 +8,7 @@ from launch.event_handler import BaseEventHandler
 from launch.event_handlers import _actions
 from launch_ros.events.lifecycle import StateTransition
 
-# What a node is in while it makes the transition.
+# The state of a node while it makes the transition.
 _ON_THE_WAY = {'configure': 'configuring', 'cleanup': 'cleaningup', 'activate': 'activating',
                'deactivate': 'deactivating', 'shutdown': 'shuttingdown'}
 

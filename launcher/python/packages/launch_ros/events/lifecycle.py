@@ -25,7 +25,7 @@ def matches_node_name(node_name):
 
 
 class StateTransition(Event):
-    """What handlers are told: `action` is the node, the states are labels such as 'inactive'."""
+    """The event that handlers get: `action` is the node, the states are labels such as 'inactive'."""
 
     name = 'launch_ros.events.lifecycle.StateTransition'
 
