@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <arg name="…" default="…"/> and <bool_arg …/>: declare a launch argument. A value that is already there is kept.
+// <arg name="…" default="…"/> and <bool_arg …/>: declare a launch argument. A value that is set already is kept.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -5,8 +5,8 @@
 
 namespace launch {
 
-// The list. Each name stands for a function NAME_action() that returns the declaration, in the file of its tag or
-// family.
+// The list of all actions. For each NAME there is a function NAME_action() that returns the declaration, in the file of
+// its tag or family.
 #define LAUNCH_BUILTIN_ACTIONS(ACTION) \
   ACTION(append_env)                   \
   ACTION(arg)                          \

@@ -14,14 +14,14 @@ namespace launch {
 
 class ComposableNodes {
  public:
-  // composable_node and composable_lifecycle_node.
+  // The items composable_node and composable_lifecycle_node.
   static std::vector<ItemSpec> items();
 
   explicit ComposableNodes(const Fields& fields);
 
   bool empty() const { return nodes_.empty(); }
-  // Asks for those nodes to be loaded into the container `target` whose conditions hold. `environment` is that of the
-  // container, as far as it is known.
+  // Asks that the nodes whose conditions hold are loaded into the container `target`. `environment` is the environment
+  // of the container, as far as it is known.
   void request(LaunchContext& context, const std::string& target, const Environment& environment,
                const SourceRange& where) const;
 

@@ -13,13 +13,13 @@ namespace launch {
 
 class DependsOn {
  public:
-  // Declaration for the ActionType of a process.
+  // The declaration for the ActionType of a process.
   static ItemSpec item();
 
   // Throws LaunchError when attributes don't go together.
   explicit DependsOn(const Fields& fields);
 
-  // Evaluates it, for the process with this number among the requests, if its condition holds.
+  // If its condition holds, evaluates the item for the process with this number among the requests.
   void request(LaunchContext& context, std::size_t process) const;
 
  private:
@@ -29,7 +29,7 @@ class DependsOn {
 
   SourceRange where_;
   Condition condition_;
-  std::optional<RosCondition> ros_condition_;  // else it is about a process
+  std::optional<RosCondition> ros_condition_;  // without it, the item is about a process
   std::optional<Template> process_;
   State state_ = State::kStarted;
   std::optional<Template> exit_code_;

@@ -17,7 +17,7 @@ constexpr double kDefaultShutdownTimeout = 5.0;  // seconds
 
 using Event = decltype(EventHandler::event);
 
-// What is the same in all of them; `make_event` evaluates the rest each time the handler is visited.
+// The part that all event handlers have in common. `make_event` evaluates the rest each time the handler is visited.
 class RegisterEventHandler : public Action {
  public:
   using MakeEvent = std::function<Event(Scope&)>;
@@ -60,7 +60,7 @@ class RegisterEventHandler : public Action {
   MakeEvent make_event_;
 };
 
-// Evaluates now what is literal, so that its errors are found at load.
+// Evaluates literal attributes now, so that their errors are found at load.
 RegisterEventHandler::MakeEvent checked(RegisterEventHandler::MakeEvent make_event, bool literal) {
   if (literal) {
     Scope nothing;
@@ -104,7 +104,7 @@ ActionPtr make_on_shutdown(const Fields& fields) {
   });
 }
 
-// Those that a node stays in, and those that it is in on the way.
+// The states that a node stays in, and the states that it passes through.
 const std::vector<std::string> kStates = {"unconfigured", "inactive",       "active",     "finalized",
                                           "configuring",  "cleaningup",     "activating", "deactivating",
                                           "shuttingdown", "errorprocessing"};

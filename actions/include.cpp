@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <include file="…"/>: visits another launch file here, in the scope that is there.
+// <include file="…"/>: visits another launch file here, in the current scope.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace launch {
 
 namespace {
 
-// A chain of includes longer than this includes itself without end.
+// A longer chain of includes than this is taken for a file that includes itself without end.
 constexpr int kMaximumDepth = 200;
 
 int include_depth(const SourceRange& where) {
@@ -31,7 +31,7 @@ class IncludeLaunchDescription : public Action {
       : Action(fields.where(), fields.condition()), namespace_(fields.optional_text("ns")) {
     declaration_.file = fields.text("file");
     declaration_.where = fields.where();
-    // All `arg` come first, then all `let`, whatever their order in the file: ros2 launch does so.
+    // All `arg` come first, then all `let`, whatever their order in the file, as in ros2 launch.
     for (const char* const tag : {"arg", "let"}) {
       for (const Fields* item : fields.items(tag)) {
         declaration_.arguments.emplace_back(item->text("name"), item->text("value"));
@@ -86,7 +86,7 @@ class IncludeLaunchDescription : public Action {
     }
   }
 
-  // What a Python launch file that is missing would do is unknown: a plan goes on without it.
+  // It is not known what a missing Python launch file would do, so a plan goes on without it.
   void note_missing_python(const std::string& path, LaunchContext& context) const {
     context.message(LogLevel::kWarning, "launch",
                     fmt::format("{}: what the Python launch file asks for is not known, it does not exist: {}",

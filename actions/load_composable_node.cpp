@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <load_composable_node target="…">: loads nodes into a container that runs already.
+// <load_composable_node target="…">: loads nodes into a running container.
 #include "actions/composable_nodes.hpp"
 
 namespace launch {

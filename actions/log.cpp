@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <log message="…" level="…"/> and <log_info message="…"/> with its sisters: print a message.
+// <log message="…" level="…"/>, <log_info message="…"/> and the other levels: print a message.
 #include <fmt/format.h>
 
 #include "launcher/language/fields.hpp"
@@ -20,7 +20,7 @@ const std::vector<std::pair<std::string, LogLevel>>& level_names() {
 
 class Log : public Action {
  public:
-  // `fallback` counts when the tag doesn't take a level or none is given.
+  // `fallback` is the level when the tag doesn't take one or none is given.
   Log(const Fields& fields, LogLevel fallback)
       : Action(fields.where(), fields.condition()),
         message_(fields.text("message")),

@@ -18,7 +18,7 @@ constexpr char kSeparator = ';';
 
 using LoopVariables = std::map<std::string, std::string>;
 
-// Visits the actions of one turn. Only the loop's variables end with it: a loop is no scope.
+// Visits the actions of one turn. Only the variables of the loop end with the turn: a loop is no scope.
 void visit_turn(LaunchContext& context, const LoopVariables& variables, const std::vector<ActionPtr>& actions) {
   LoopVariables outer = context.scope().loop_variables;
   for (const auto& [name, value] : variables) {
@@ -115,7 +115,7 @@ class ForEach : public Action {
     return variables;
   }
 
-  // A value as Python's str() gives it, for $(for-var x) shows that.
+  // A value as Python's str() gives it, because $(for-var x) shows this text.
   std::string python_text(const YamlNode& node) const {
     if (node.is_null()) {
       return "None";

@@ -13,7 +13,7 @@ namespace launch {
 
 namespace {
 
-// The arguments by which a process is given what the scope sets for every node.
+// Appends the arguments for what the scope sets for every node.
 void append_global_parameters(ProcessSpec& spec, const Scope& scope) {
   for (const GlobalParameter& parameter : scope.global_parameters) {
     if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
@@ -139,7 +139,7 @@ std::string NodeProcess::program(Scope& scope) const {
   try {
     return scope.packages->executable(executable, package, scope.environment);
   } catch (const std::runtime_error& error) {
-    // The package is at fault when it can't be found by itself.
+    // If the package itself can't be found, the error is at the package.
     try {
       scope.packages->prefix(package, scope.environment);
     } catch (const std::runtime_error&) {

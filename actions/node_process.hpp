@@ -14,14 +14,14 @@ namespace launch {
 
 class NodeProcess {
  public:
-  // Declarations for an ActionType. With `named`, name and namespace are required.
+  // Declarations for an ActionType. With `named`, the attributes name and namespace are required.
   static std::vector<AttributeSpec> attributes(bool named);
   static std::vector<ItemSpec> items();
 
   explicit NodeProcess(const Fields& fields);
 
-  // Asks the context to start it. Returns the node's fully qualified name, empty while a part of it is left to the
-  // program.
+  // Asks the context to start the process. Returns the node's fully qualified name, or an empty text when the program
+  // chooses a part of the name.
   std::string request(LaunchContext& context) const;
 
  private:

@@ -44,7 +44,7 @@ bool matches(std::span<const std::string> pattern, std::span<const std::string> 
          matches(pattern.subspan(1), name.subspan(1));
 }
 
-// Calls `found` with the pattern and the value of each `ros__parameters`.
+// Calls `found` with the pattern and the value of each `ros__parameters` section.
 void each_section(const YamlNode& node, const std::string& pattern,
                   const std::function<void(const std::string&, const YamlNode&)>& found) {
   for (const YamlEntry& entry : node.entries) {

@@ -284,7 +284,7 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
   return typed_parameter(text, where);
 }
 
-// The text of a whole list, which only a Python launch file can ask for.
+// The value of a text that holds a whole list. Only a Python launch file can ask for this.
 ParameterValue ParameterValueSource::typed_list(const std::string& text, const SourceRange& where) const {
   ParameterValue value = typed_parameter(text, where);
   const auto* const items = std::get_if<std::vector<ParameterScalar>>(&value);
@@ -340,7 +340,7 @@ ParameterValue typed_parameter(const std::string& text, const SourceRange& where
   if (text.empty()) {
     return ParameterScalar(std::string());
   }
-  // The performed text stands in no file: errors point at the template that gave it.
+  // The performed text is in no file, so errors point at the template that gave it.
   std::optional<Value> typed;
   try {
     typed = yaml11_value(LocatedText(text));

@@ -13,7 +13,7 @@ namespace launch {
 
 namespace {
 
-// Whether a node reads the text, unquoted, as the string that it is.
+// Whether a node reads the unquoted text as this string.
 bool reads_as_string(const std::string& text) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:@+-";
   constexpr std::string_view kOtherTypes[] = {"y",    "n",     "yes",  "no",  "on",       "off",
@@ -93,7 +93,7 @@ std::string to_argument(const ParameterValue& value) {
   if (const auto* const text = std::get_if<std::string>(scalar)) {
     return reads_as_string(*text) ? *text : to_yaml(value);
   }
-  // "True" is a boolean for nodes too; not-a-number and infinity aren't written alike.
+  // "True" is a boolean for nodes, too; not-a-number and infinity have other names in Python and in YAML.
   return std::holds_alternative<bool>(*scalar) ? to_python_text(value) : to_yaml(value);
 }
 

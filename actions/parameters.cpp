@@ -91,7 +91,7 @@ void Parameters::perform_tree(const Tree& tree, const std::string& prefix, Scope
     parameters.push_back({name, tree.value->perform(scope)});
     return;
   }
-  // An empty name is that of a whole file: what it holds has no prefix.
+  // The name is empty for a whole file: its parameters have no prefix.
   for (const Tree& child : tree.nested) {
     perform_tree(child, name.empty() ? name : name + ".", scope, parameters);
   }
@@ -160,7 +160,7 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
   }
   spec.argv.push_back("--params-file");
   spec.files.push_back({spec.argv.size(), "launch_params.yaml", std::move(content)});
-  spec.argv.push_back("");  // the path of the generated file, known when it is written
+  spec.argv.push_back("");  // the path of the generated file, which is known when the file is written
 }
 
 }  // namespace launch

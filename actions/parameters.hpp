@@ -13,7 +13,7 @@
 
 namespace launch {
 
-// One <param>, which gives a node one parameter file.
+// One <param>: it gives a node one parameter file.
 class Parameters {
  public:
   static ItemSpec item();
@@ -22,14 +22,14 @@ class Parameters {
   explicit Parameters(const Fields& fields);
 
   // Appends --params-file and its file to a node's argv: the named file, or one to be generated. `qualified_name` is
-  // the node's, or empty when it isn't known; the parameters are then for whatever the node is called.
+  // the name of the node, or empty when it isn't known; the parameters then hold for any name of the node.
   void append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const;
-  // Appends typed values, as a node that is loaded into a container is given them; files are read now.
+  // Appends typed values, as nodes that are loaded into a container get them; files are read now.
   void append_to(std::vector<NamedParameter>& parameters, LaunchContext& context,
                  const std::string& qualified_name) const;
 
  private:
-  // A value with its name, or a name with nested ones.
+  // A name with a value, or a name with nested parameters.
   struct Tree {
     Template name;
     std::optional<ParameterValueSource> value;
@@ -38,7 +38,7 @@ class Parameters {
   static Tree parse_tree(const Fields& fields);
   static void perform_tree(const Tree& tree, const std::string& prefix, Scope& scope,
                            std::vector<NamedParameter>& parameters);
-  // The text of a file with the substitutions in it performed.
+  // The text of a file, with its substitutions performed.
   LocatedText performed_file(const std::string& path, Scope& scope) const;
 
   std::optional<Template> file_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <stop>, <restart>, <signal>: end, start again or signal a process that runs.
+// <stop>, <restart>, <signal>: end, start again or signal a running process.
 #include <fmt/format.h>
 
 #include "launcher/language/exit_code_filter.hpp"

@@ -24,7 +24,7 @@ std::optional<NumberField> not_negative(std::optional<NumberField> field) {
   return field;
 }
 
-// "screen,log", "none"
+// Reads "screen,log", "none" and the like.
 OutputTargets targets(const Template& given, Scope& scope) {
   const std::string text = given.perform(scope);
   OutputTargets targets;

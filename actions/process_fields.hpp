@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What <executable> and <node> have in common: how a process runs, where its output goes, when it runs again.
+// The attributes that <executable> and <node> share: how a process runs, where its output goes, when it runs again.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ class ProcessFields {
 
   explicit ProcessFields(const Fields& fields);
 
-  // Fills everything of the spec but its argv and its name, both of which must be set before, and asks the context to
-  // start it. The launch prefix is put in front of argv. An empty name becomes the base name of argv[0].
+  // Fills everything of the spec but its argv and its name, which must be set before, and asks the context to start the
+  // process. The launch prefix is put in front of argv. An empty name becomes the base name of argv[0].
   void request(LaunchContext& context, ProcessSpec spec) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scheduling and limits of a process, as <executable> and <node> tell them.
+// The attributes of <executable> and <node> for the scheduling and limits of a process.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ class ResourceFields {
   // Declarations for an ActionType.
   static std::vector<AttributeSpec> attributes();
 
-  // Throws LaunchError for what is literal and wrong.
+  // Throws LaunchError for literal values that are wrong.
   explicit ResourceFields(const Fields& fields);
 
   // Throws LaunchError at the attribute that is wrong.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A condition of the ROS graph, as <depends_on> and <wait_for> write it: a node, a topic or a service, and what of it.
+// A condition of the ROS graph, as <depends_on> and <wait_for> have it: a node, a topic or a service, and its state.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,20 @@
 
 namespace launch {
 
-// The value of a literal attribute, which must be one of `names` (the first when it isn't given), by its number there.
+// The value of a literal attribute as its index in `names`. It must be one of them; without a value it is the first.
 // Throws LaunchError.
 std::size_t choice(const Fields& fields, const std::string& attribute, const std::vector<std::string>& names);
 
 class RosCondition {
  public:
-  // node, topic, service and state. `condition` is left to the tag.
+  // The attributes node, topic, service and state. The tag itself declares `condition`.
   static std::vector<AttributeSpec> attributes();
 
-  // Which attribute names the subject: one of these, or one of `others`. Throws LaunchError at `fields` when none is
-  // given, at the second when there are two.
+  // The name of the attribute that gives the subject: one of these, or one of `others`. Throws LaunchError at `fields`
+  // when none is given, at the second when there are two.
   static std::string subject_of(const Fields& fields, const std::vector<std::string>& others);
 
-  // For a subject of the graph. Throws LaunchError when attributes don't go together.
+  // Makes a condition for a subject of the graph. Throws LaunchError when attributes don't go together.
   RosCondition(const Fields& fields, const std::string& subject);
 
   std::shared_ptr<ReadinessCondition> perform(LaunchContext& context) const;

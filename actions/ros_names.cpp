@@ -30,7 +30,7 @@ bool is_valid_namespace(std::string_view text) {
   return true;
 }
 
-// The namespace `given` means below `base`: absolute, without a slash at its end.
+// Combines the namespace `given` with `base`: the result is absolute, without a slash at its end.
 std::string combine_namespaces(const std::string& base, const std::string& given) {
   std::string combined;
   if (base.empty() || given.starts_with('/')) {

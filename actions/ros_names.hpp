@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the ROS graph: which are valid, and how namespaces combine.
+// Names of the ROS graph: which of them are valid, and how namespaces combine.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,10 @@ bool is_valid_node_name(std::string_view name);
 std::optional<std::string> resolve_namespace(const std::optional<Template>& given, Scope& scope,
                                              const SourceRange& where);
 
-// Makes a namespace that of the scope.
+// Makes this the namespace of the scope.
 void push_namespace(const Template& given, Scope& scope);
 
-// The namespace of the scope, and the way back to it after push_namespace(); nothing when none was pushed.
+// The namespace of the scope, with which push_namespace() can be undone; nothing when none was pushed.
 std::optional<std::string> pushed_namespace(const Scope& scope);
 void restore_namespace(const std::optional<std::string>& pushed, Scope& scope);
 

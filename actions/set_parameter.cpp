@@ -35,7 +35,7 @@ class SetParametersFromFile : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    // Whether there is such a file matters once a node is given it.
+    // A missing file is an error only when a node gets it.
     const std::string name = filename_.perform(context.scope());
     const std::filesystem::path path = name.empty() ? "" : std::filesystem::absolute(name);
     context.scope().global_parameters.push_back(ParameterFilePath{path.lexically_normal().string(), filename_.where()});

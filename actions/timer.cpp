@@ -52,7 +52,7 @@ ActionType timer_action() {
   return timer("timer", "Visits its actions once, a while after the system has started.");
 }
 
-// The launcher is no ROS node and hears no /clock, so ROS time is the system's time here.
+// The launcher is no ROS node and receives no /clock, so ROS time is the system's time here.
 ActionType ros_timer_action() {
   return timer("ros_timer", "Like timer: this launcher counts system time, never simulated time.");
 }

@@ -247,7 +247,7 @@ class Trace : public Action {
   BooleanField dual_session_;
 };
 
-// What ros2 launch does not know.
+// An attribute that ros2 launch does not know.
 AttributeSpec extension(const char* name, AttributeType type, const std::string& fallback, const char* help) {
   return {name, type, false, fallback, help, true};
 }

@@ -19,7 +19,7 @@ std::vector<std::string> at_blanks(const std::string& text) {
   return {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()};
 }
 
-// No word of a rule that was written wrongly.
+// Whether the text is a name, and not a word of a rule that was written wrongly.
 bool is_name(const std::string& text, Tracepoints of) {
   return of == Tracepoints::kUserspace ? text.find(':') != std::string::npos
                                        : text != "if" && text != "except" && text != "level";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <channel> in <trace>: buffers of their own for some events.
+// <channel> in <trace>: separate buffers for some events.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@ namespace launch {
 
 enum class Tracepoints { kUserspace /* PROVIDER:NAME */, kKernel /* NAME */ };
 
-// A list of words that may be given, and its place.
+// An optional list of words, and its place.
 class WordsField {
  public:
   WordsField(const Fields& fields, std::string_view attribute);
 
   bool given() const { return words_.has_value(); }
   const SourceRange& where() const { return where_; }
-  // Names, without the empty ones that empty substitutions leave. One that a substitution gives may be several, as in
-  // context-fields="$(var fields)". Empty when none are given.
+  // The names, without empty ones that empty substitutions leave. A substitution may give several names at once, as in
+  // context-fields="$(var fields)". Empty when the attribute is not given.
   std::vector<std::string> perform(Scope& scope) const;
-  // Event rules. What a substitution gives may be a rule with blanks, or several names. Throws LaunchError.
+  // The event rules. A substitution may give a rule with blanks, or several names. Throws LaunchError.
   std::vector<std::string> perform_events(Scope& scope, Tracepoints of) const;
 
  private:
@@ -34,7 +34,7 @@ class WordsField {
   SourceRange where_;
 };
 
-// A number that must not be negative. LTTng's timers are 32 bits wide: more than 71 minutes are as good as never.
+// A number that must not be negative. LTTng's timers are 32 bits wide, so more than 71 minutes count as never.
 std::optional<NumberField> count_field(const Fields& fields, std::string_view attribute);
 std::uint64_t count(const NumberField& field, Scope& scope);
 std::uint32_t microseconds(const NumberField& field, Scope& scope);

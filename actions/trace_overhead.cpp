@@ -21,7 +21,7 @@ namespace launch {
 
 namespace {
 
-// The launcher's own events are in the same library, see LaunchTracepoints; opened again it is the same one.
+// The library also holds the launcher's other events, see LaunchTracepoints. dlopen() gives the same library again.
 void put_into_trace(const std::string& prefix, const tracing::EventCut& cut) {
   void* const library = ::dlopen((prefix + "/lib/launch/liblaunch_trace.so").c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const function = library != nullptr ? ::dlsym(library, "launch_trace_cut") : nullptr;

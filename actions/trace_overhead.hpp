@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// max-overhead of a <trace>: watches what recording costs, and puts every cut into the trace itself.
+// The attribute max-overhead of <trace>: watches what recording costs, and puts every cut into the trace itself.
 #pragma once
 
 #include <functional>
@@ -13,13 +13,13 @@
 
 namespace launch {
 
-// "2%" as 0.02. Throws LaunchError.
+// Reads "2%" as 0.02. Throws LaunchError.
 double perform_percentage(const Template& text, Scope& scope);
 
-// Throws LaunchError for what is neither a class of events nor a pattern with its provider.
+// Throws LaunchError for an entry that is neither a class of events nor a pattern with its provider.
 void check_drop_order(const std::vector<std::string>& order, const SourceRange& where);
 
-// For a session that records. Measures the cost of an event where that is not known yet. `tell` is called on the loop's
+// Watches a session that records. Measures the cost of an event if it is not known yet. Calls `tell` on the loop's
 // thread. Throws tracing::TraceError.
 std::unique_ptr<tracing::OverheadGuard> watch_overhead(const tracing::TraceConfig& config, const std::string& prefix,
                                                        EventLoop& loop, const RunScope::Tell& tell);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which processes a <trace> records, and what they are given for it.
+// Chooses the processes that a <trace> records, and prepares their environment.
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/sysinfo.h>
@@ -17,7 +17,7 @@ namespace launch {
 
 namespace {
 
-// By the process's label, or by the name of its node.
+// Compares the pattern with the label of the process and with the name of its node.
 bool matches(const std::string& pattern, const ProcessSpec& spec) {
   const auto is_meant = [&pattern](const std::string& name) {
     return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
@@ -71,12 +71,12 @@ void TraceScope::prepare(ProcessSpec& spec) const {
     if (variable.find(library) == std::string::npos) {
       variable = tracing::append_preload(variable, {library});
     }
-    // There is nothing to wait for.
+    // The process must not wait for a session daemon.
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
     return;
   }
   if (!tracing::session_daemon_can_answer()) {
-    // It would wait for three seconds, three times, before its main().
+    // Otherwise the process would wait for three seconds, three times, before its main().
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
   }
   if (!preload_.empty()) {

@@ -23,15 +23,15 @@ namespace launch {
 
 namespace {
 
-// After the start of a launch; no more than a guess, on which only the duration of the end depends.
+// Time after the start of a launch. It is a guess, and only the duration of the end depends on it.
 constexpr std::chrono::milliseconds kNodesHaveRegistered{500};
-// Bytes of a complete trace that are read to describe it in a line: a tenth of a second.
+// To describe a complete trace in one line, up to this many bytes are read: a tenth of a second.
 constexpr std::uint64_t kLargestSummarized = 8'000'000;
 
-// Of the stack (docs/tracetools.md): it looks at the times itself and fires nothing else.
+// An event of the stack (docs/tracetools.md): the stack compares the times itself and fires only this.
 constexpr const char* kLateCallback = "ros2_deadline:callback";
 constexpr const char* kLateMessage = "ros2_deadline:message";
-// Why a snapshot was taken, for people.
+// The reason for a snapshot, for people.
 std::string reason(const TraceChoices& choices, const std::string& rule) {
   if (rule == kLateCallback && choices.callback_deadline != 0) {
     return fmt::format("a callback took more than {} ms", choices.callback_deadline);
@@ -98,7 +98,7 @@ void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
 
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   if (choices_.snapshot_on_signal != 0) {
-    // Before any thread is started: the signal must be blocked in all of them.
+    // Before any thread is started, because the signal must be blocked in all threads.
     signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](int signal) {
       if (flight_recorder_) {
         flight_recorder_->request(fmt::format("SIG{}", ::sigabbrev_np(signal)));
@@ -140,7 +140,7 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
       });
 }
 
-// Leaves no session behind when it fails.
+// Ends the session if this fails.
 void TraceScope::guard_overhead(EventLoop& loop, const Tell& tell) {
   if (config_.max_overhead == 0) {
     return;
@@ -153,8 +153,8 @@ void TraceScope::guard_overhead(EventLoop& loop, const Tell& tell) {
   }
 }
 
-// Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c). And
-// tells of programs that can't be recorded, for which all of /proc is looked through.
+// Saves 200 ms at the end of every launch that takes longer than this (tracing/launch_provider/trace_probe.c). It also
+// warns of programs that can't be recorded, for which it searches all of /proc.
 void TraceScope::look_around_later(EventLoop& loop, const Tell& tell) {
   if (config_.events_ust.empty()) {
     return;
@@ -172,7 +172,7 @@ void TraceScope::look_around_later(EventLoop& loop, const Tell& tell) {
   });
 }
 
-// Called on the loop's thread; what it registers takes the session daemon a millisecond.
+// Called on the loop's thread. The session daemon takes a millisecond for what is registered here.
 void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
   flight_recorder_ =
       std::make_unique<tracing::FlightRecorder>(config_, [&loop, tell](const tracing::TakenSnapshot& taken) {
@@ -265,10 +265,10 @@ void TraceScope::tell_result(const Tell& tell) const {
 }
 
 std::vector<std::string> TraceScope::clean_up_command() {
-  // Whoever asks is going to run this: a dry run makes no directory.
+  // Only a real run asks for this command, so a dry run makes no directory.
   counters_ = tracing::EventCounterDirectory::shared();
   config_.event_counters = counters_ ? counters_->path().string() : "";
-  // It is told before the session is created: one that has the name already is somebody else's.
+  // The command is chosen before the session is created. A session that has the name already belongs to somebody else.
   std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),
                                       fmt::format("--created-since={}", created_)};
   if (counters_) {

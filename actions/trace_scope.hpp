@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A trace session around a run: started before the first process, finished after the last one has gone.
+// A trace session around a run: it starts before the first process and is finished after the last process has gone.
 #pragma once
 
 #include <atomic>
@@ -20,28 +20,28 @@
 
 namespace launch {
 
-// What a <trace> asks of the launcher rather than of the tracer.
+// The attributes of <trace> that concern the launcher rather than the tracer.
 struct TraceChoices {
-  // The patterns of the nodes and processes that alone are recorded; all when not given.
+  // Patterns of the nodes and processes to record; all are recorded when this is not given.
   std::optional<std::vector<std::string>> nodes = {};
-  // When to take a snapshot: a process dies unasked, the launcher gets this signal (0: none), an event matches.
   bool auto_buffers = false;  // userspace buffers sized from the number of processes and processors
+  // Reasons for a snapshot: a process dies unasked, the launcher gets this signal (0: none), an event matches.
   bool snapshot_on_crash = false;
   int snapshot_on_signal = 0;
   std::vector<std::string> snapshot_on_events = {};
-  // A callback takes longer, a message is older than so many milliseconds; 0: however long.
+  // Further reasons: a callback takes longer, or a message is older, than so many milliseconds; 0: no such reason.
   double callback_deadline = 0;
   double message_deadline = 0;
 
   bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !watched_events().empty(); }
-  // Those whose coming means a snapshot.
+  // The events that cause a snapshot.
   std::vector<std::string> watched_events() const;
 };
 
 class TraceScope : public RunScope {
  public:
-  // Below `prefix` stand bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report, which
-  // describes a finished trace in one line.
+  // `prefix` is the folder of bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report,
+  // which describes a finished trace in one line.
   TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
              SourceRange origin, TraceChoices choices = {});
   ~TraceScope() override;
@@ -74,7 +74,7 @@ class TraceScope : public RunScope {
   std::string prefix_;
   SourceRange origin_;
   TraceChoices choices_;
-  std::int64_t created_;  // this scope, seconds since the epoch
+  std::int64_t created_;  // when this scope was made, in seconds since the epoch
   std::vector<std::string> preload_;
   std::shared_ptr<tracing::EventCounterDirectory> counters_;
   tracing::SetupReport setup_;

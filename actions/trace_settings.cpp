@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a <trace> was evaluated to, for --dry-run.
+// The evaluated attributes of a <trace>, for --dry-run.
 #include <fmt/format.h>
 
 #include "actions/trace_scope.hpp"

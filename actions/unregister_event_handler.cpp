@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <unregister_event_handler name="…"/>: an event handler hears of nothing more.
+// <unregister_event_handler name="…"/>: an event handler gets no more events.
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 
