@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thing that is ready to be executed. At most one of the entities is set.
+// One entity that is ready to be executed. At most one of the members is set.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace rclcpp {
 
-// Holds its group: while it lives, nothing else of a mutually exclusive group is executed.
+// Holds its group: while it lives, no other entity of a mutually exclusive group is executed.
 struct AnyExecutable {
   AnyExecutable() = default;
   ~AnyExecutable() { release_group(); }
@@ -32,7 +32,7 @@ struct AnyExecutable {
   ServiceBase::SharedPtr service;
   ClientBase::SharedPtr client;
   Waitable::SharedPtr waitable;
-  std::shared_ptr<void> data;  // of the timer or the waitable
+  std::shared_ptr<void> data;  // for the timer or the waitable
   CallbackGroup::SharedPtr callback_group;
 };
 

@@ -3,10 +3,10 @@
 //
 //   void(std::shared_ptr<Request>, std::shared_ptr<Response>)
 //   void(std::shared_ptr<rmw_request_id_t>, std::shared_ptr<Request>, std::shared_ptr<Response>)
-// fill in the response, which is sent when they return;
+// fill in the response, which is sent when the callback returns;
 //   void(std::shared_ptr<rmw_request_id_t>, std::shared_ptr<Request>)
 //   void(std::shared_ptr<Service>, std::shared_ptr<rmw_request_id_t>, std::shared_ptr<Request>)
-// defer it: they, or somebody later, call Service::send_response().
+// defer the response: the callback, or other code later, calls Service::send_response().
 #pragma once
 
 #include <rmw/types.h>
@@ -23,8 +23,8 @@ namespace rclcpp {
 template <typename ServiceT>
 class Service;
 
-// What does not depend on the service type. The address of this object is the `callback` of the trace events, so it
-// must not move after trace_registration().
+// The part that does not depend on the service type. The address of this object is the `callback` of the trace events,
+// so it must not move after trace_registration().
 class AnyServiceCallbackBase {
  public:
   void trace_registration() const { symbol_.trace_registration(this); }
@@ -78,7 +78,7 @@ class AnyServiceCallback : public AnyServiceCallbackBase {
     }
   }
 
-  // Runs the callback. Null if it defers the response.
+  // Runs the callback. Returns null if the callback defers the response.
   std::shared_ptr<Response> dispatch(const std::shared_ptr<Service<ServiceT>>& service, const Header& header,
                                      std::shared_ptr<Request> request) {
     trace_start();

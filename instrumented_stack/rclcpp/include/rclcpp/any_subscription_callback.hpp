@@ -3,7 +3,7 @@
 //
 // With M the message type, the custom type of a TypeAdapter, or SerializedMessage, a callback takes one of
 //   const M &   std::shared_ptr<const M>   std::shared_ptr<M>   std::unique_ptr<M>
-// and, if it likes, a const MessageInfo & after it.
+// and optionally a const MessageInfo & after it.
 #pragma once
 
 #include <functional>
@@ -21,23 +21,23 @@
 
 namespace rclcpp {
 
-// What does not depend on the message type. The address of this object is the `callback` of the trace events, so it
-// must not move after trace_registration().
+// The part that does not depend on the message type. The address of this object is the `callback` of the trace events,
+// so it must not move after trace_registration().
 class AnySubscriptionCallbackBase {
  public:
   virtual ~AnySubscriptionCallbackBase() = default;
 
-  // Whether the callback wants the bytes.
+  // Whether the callback takes the message as bytes.
   bool is_serialized_message_callback() const { return is_serialized_; }
 
-  // Whether the callback cannot keep the message, so that the next one may come in the same memory.
+  // Whether the callback cannot keep the message. Then the next message may use the same memory.
   bool takes_reference() const { return takes_reference_; }
 
-  // Whether the callback does not change the message, so that it may be shared with other subscriptions.
+  // Whether the callback does not change the message. Then it may be shared with other subscriptions.
   bool use_take_shared_method() const { return use_take_shared_; }
 
-  // Runs the callback. `message` is a ROS message, or a SerializedMessage if the callback wants that, and must belong
-  // to nobody else: it may be moved from.
+  // Runs the callback. `message` is a ROS message, or a SerializedMessage if the callback takes that. Nobody else may
+  // own it, because it may be moved from.
   virtual void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) = 0;
 
   void trace_registration() const { symbol_.trace_registration(this); }
@@ -66,8 +66,8 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
   template <typename CallbackT>
   AnySubscriptionCallback& set(CallbackT callback) {
     symbol_ = detail::CallbackSymbol::of(callback);
-    // The order decides for a callback that several forms would fit: by reference before shared before owned, the
-    // custom type before the ROS type.
+    // The order decides for a callback that fits several forms: by reference before shared before owned, the custom
+    // type before the ROS type.
     choose<std::decay_t<CallbackT>, const SubscribedType&, std::shared_ptr<const SubscribedType>,
            std::shared_ptr<SubscribedType>, UniquePtr<SubscribedType>, const ROSMessageType&,
            std::shared_ptr<const ROSMessageType>, std::shared_ptr<ROSMessageType>, UniquePtr<ROSMessageType>,
@@ -80,7 +80,8 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
     run(Message(&message), message_info, false);
   }
 
-  // The same for a message from a publisher of this context, which others may read too, or which is the callback's own.
+  // Like dispatch(), for a message from a publisher of this context. Others may read the message too, or the callback
+  // owns it.
   void dispatch_intra_process(std::shared_ptr<const SubscribedType> message, const MessageInfo& message_info) {
     run(Message(std::move(message)), message_info, true);
   }
@@ -89,7 +90,7 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
   }
 
  private:
-  // As taken from the middleware, ours alone; or from a publisher of this context.
+  // The source of the message: the middleware (we are the only owner), or a publisher of this context.
   using Taken = const std::shared_ptr<void>*;
   using Shared = std::shared_ptr<const SubscribedType>;
   using Owned = UniquePtr<SubscribedType>;
@@ -108,10 +109,10 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
     using type = T;
   };
 
-  // Whether the middleware gives an M.
+  // Whether the middleware provides an M.
   template <typename M>
   static constexpr bool kIsTaken = std::is_same_v<M, ROSMessageType> || std::is_same_v<M, SerializedMessage>;
-  // Whether a publisher of this context gives an M.
+  // Whether a publisher of this context provides an M.
   template <typename M>
   static constexpr bool kIsPassed = std::is_same_v<M, SubscribedType>;
 
@@ -121,7 +122,7 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
     trace_end();
   }
 
-  // An M of the callback's own, made or copied if need be.
+  // An M that the callback owns; made or copied if needed.
   template <typename M>
   UniquePtr<M> owned(Message& message) const {
     if (const Taken* taken = std::get_if<Taken>(&message)) {
@@ -163,7 +164,7 @@ class AnySubscriptionCallback : public AnySubscriptionCallbackBase {
     return owned<M>(message);
   }
 
-  // `temporary` keeps what had to be made.
+  // `temporary` keeps an object that had to be made.
   template <typename M>
   const M& reference(Message& message, std::shared_ptr<const M>& temporary) const {
     if constexpr (kIsTaken<M>) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The entities (timers, subscriptions, services, clients, waitables) whose callbacks belong together, and the unit that
-// an executor serves.
+// A group of entities (timers, subscriptions, services, clients, waitables) with common execution rules. Executors
+// serve groups.
 #pragma once
 
 #include <atomic>
@@ -22,15 +22,15 @@ class Waitable;
 
 enum class CallbackGroupType {
   MutuallyExclusive,  // one callback at a time
-  Reentrant,          // callbacks may run beside one another
+  Reentrant,          // callbacks may run at the same time
 };
 
-// Refers to its entities weakly: users own them. Thread safe.
+// Holds its entities weakly: users own them. Thread safe.
 class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(CallbackGroup)
 
-  // Groups that are not added to the executor together with their node are added by Executor::add_callback_group().
+  // If a group is not added to the executor together with its node, add it with Executor::add_callback_group().
   explicit CallbackGroup(CallbackGroupType group_type, bool automatically_add_to_executor_with_node = true);
   ~CallbackGroup() { notify(); }
 
@@ -38,9 +38,9 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   bool automatically_add_to_executor_with_node() const { return automatically_add_to_executor_with_node_; }
   // True while an executor has the group. Executors set it.
   std::atomic_bool& get_associated_with_executor_atomic() { return associated_with_executor_; }
-  // False while a callback of a mutually exclusive group runs, or is about to. Executors set it.
+  // False while a callback of a mutually exclusive group runs or is about to run. Executors set it.
   std::atomic_bool& can_be_taken_from() { return *can_be_taken_from_; }
-  // The same, for who may outlive the group.
+  // The same flag, for code that may outlive the group.
   std::shared_ptr<const std::atomic_bool> shared_can_be_taken_from() const { return can_be_taken_from_; }
 
   void add_subscription(const std::shared_ptr<SubscriptionBase>& subscription);
@@ -57,11 +57,11 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
     std::vector<std::shared_ptr<ClientBase>> clients;
     std::vector<std::shared_ptr<Waitable>> waitables;
   };
-  // Appends the living entities. Release them outside of every lock: they may be the last owners.
+  // Appends the living entities. Release them without a lock held, because these pointers may be the last owners.
   void collect(Entities& entities) const;
   size_t size() const;
 
-  // The first living entity of the kind for which `function` is true, else null.
+  // The first living entity of the kind for which `function` returns true; else null.
   template <typename FunctionT>
   std::shared_ptr<SubscriptionBase> find_subscription_ptrs_if(FunctionT function) const {
     return find_if(living().subscriptions, function);
@@ -83,15 +83,15 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
     return find_if(living().waitables, function);
   }
 
-  // Calls the function of its kind with every living entity.
+  // Calls the function for its kind with every living entity.
   void collect_all_ptrs(const std::function<void(const std::shared_ptr<SubscriptionBase>&)>& subscription_function,
                         const std::function<void(const std::shared_ptr<ServiceBase>&)>& service_function,
                         const std::function<void(const std::shared_ptr<ClientBase>&)>& client_function,
                         const std::function<void(const std::shared_ptr<TimerBase>&)>& timer_function,
                         const std::function<void(const std::shared_ptr<Waitable>&)>& waitable_function) const;
 
-  // What happens after an entity was added or destroyed, and when the group is: the executor's business. Called under
-  // no lock.
+  // Sets the function that is called after an entity was added or destroyed, and when the group is destroyed. Executors
+  // use it. It is called without a lock held.
   void set_on_change(std::function<void()> on_change);
 
   // Entities call it when they are destroyed.

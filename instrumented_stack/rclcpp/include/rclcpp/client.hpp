@@ -24,7 +24,7 @@ namespace rclcpp {
 
 namespace detail {
 
-// What async_send_request() returns: usable as the future it holds.
+// The result of async_send_request(). It can be used like the future it holds.
 template <typename FutureT>
 struct FutureAndRequestId {
   FutureAndRequestId(FutureT future_, int64_t request_id_) : future(std::move(future_)), request_id(request_id_) {}
@@ -47,7 +47,7 @@ struct FutureAndRequestId {
 
 }  // namespace detail
 
-// An executor must spin the node for responses to arrive. Thread safe.
+// Responses arrive only while an executor spins the node. Thread safe.
 template <typename ServiceT>
 class Client : public ClientBase {
  public:
@@ -69,7 +69,7 @@ class Client : public ClientBase {
   struct FutureAndRequestId : detail::FutureAndRequestId<Future> {
     using detail::FutureAndRequestId<Future>::FutureAndRequestId;
     SharedFuture share() { return this->future.share(); }
-    // The name of the time before this struct, which programs still use.
+    // Before this struct the result was a SharedFuture; programs still use that name.
     operator SharedFuture() { return share(); }  // NOLINT
   };
   struct SharedFutureAndRequestId : detail::FutureAndRequestId<SharedFuture> {
@@ -83,7 +83,7 @@ class Client : public ClientBase {
       : ClientBase(node_base, *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>(), service_name, qos) {
   }
 
-  // A request that is never answered stays pending until it is removed. Throw exceptions::RCLError.
+  // A request without an answer stays pending until it is removed. Throw exceptions::RCLError.
   FutureAndRequestId async_send_request(SharedRequest request) {
     Promise promise;
     Future future = promise.get_future();
@@ -91,7 +91,7 @@ class Client : public ClientBase {
     return FutureAndRequestId(std::move(future), request_id);
   }
 
-  // The callback takes a SharedFuture or a SharedFutureWithRequest, which has its value when the callback runs.
+  // The callback takes a SharedFuture or a SharedFutureWithRequest. The future has its value when the callback runs.
   template <typename CallbackT>
   auto async_send_request(SharedRequest request, CallbackT&& callback) {
     if constexpr (std::is_invocable_v<CallbackT&, SharedFuture>) {
@@ -111,7 +111,7 @@ class Client : public ClientBase {
     }
   }
 
-  // True if the request was still pending. A response that comes later is dropped.
+  // Returns true if the request was still pending. A response that comes later is dropped.
   bool remove_pending_request(int64_t request_id) { return pending_.remove(request_id); }
   bool remove_pending_request(const FutureAndRequestId& future) { return remove_pending_request(future.request_id); }
   bool remove_pending_request(const SharedFutureAndRequestId& future) {
@@ -121,7 +121,7 @@ class Client : public ClientBase {
     return remove_pending_request(future.request_id);
   }
 
-  // Both give the number of requests that were removed, and the second their ids.
+  // Both return the number of requests that were removed; the second also gets their ids.
   size_t prune_pending_requests() { return pending_.prune(); }
   template <typename AllocatorT = std::allocator<int64_t>>
   size_t prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all clients have in common, and what an executor needs to know of one.
+// The common part of all clients, and the interface of a client for executors.
 #pragma once
 
 #include <rcl/client.h>
@@ -34,40 +34,41 @@ class ClientBase {
   virtual ~ClientBase();
   RCLCPP_DISABLE_COPY(ClientBase)
 
-  // The full name, after remapping.
+  // The full, remapped name.
   const char* get_service_name() const;
   QoS get_request_publisher_actual_qos() const;
   QoS get_response_subscription_actual_qos() const;
 
-  // Whether a request would be answered.
+  // Whether a service would answer a request.
   bool service_is_ready() const;
-  // Waits until that is so; false after `timeout`, or when the context ends. Negative waits for ever.
+  // Waits until a service is ready. Returns false after `timeout`, or when the context ends. A negative timeout waits
+  // forever.
   template <typename RepT = int64_t, typename RatioT = std::milli>
   bool wait_for_service(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
     return wait_for_service_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
 
-  // The next response into `response_out`, which points to a response of this client's type. False if there is none, or
-  // it was for another client.
+  // Takes the next response into `response_out`, which points to a response of this client's type. Returns false if
+  // there is none, or if it was for another client.
   bool take_type_erased_response(void* response_out, rmw_request_id_t& request_header_out);
 
-  // What an executor does with a client that is ready: one response, from the middleware to whoever waits for it.
+  // Executors call it for a client that is ready. It takes one response and passes it to the caller that waits for it.
   void execute();
 
   std::shared_ptr<rcl_client_t> get_client_handle() { return client_handle_; }
   std::shared_ptr<const rcl_client_t> get_client_handle() const { return client_handle_; }
 
-  // For executors that are told instead of waiting: `callback` gets the number of new responses, also of those that
-  // wait to be taken when it is set. It is called by threads of the middleware and must only take note. Throws
-  // std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  // For executors that are notified instead of waiting. `callback` gets the number of new responses; it is also called
+  // for those that already wait to be taken when it is set. Threads of the middleware call it, so it must only take
+  // note. Throws std::invalid_argument for an empty callback. Do not call either function from the callback.
   void set_on_new_response_callback(std::function<void(size_t)> callback);
   void clear_on_new_response_callback();
-  // Sets whether a wait set uses this; the former state.
+  // Sets whether a wait set uses this client; returns the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
-  // Lets the client publish what happens to its calls (requests sent and responses taken) on its name and
-  // "/_service_event", or ends that. `qos_service_event_pub` counts when it is off so far; the clock gives the events
-  // their times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a clock that is null.
+  // Turns service introspection on or off: the client publishes requests sent and responses taken on its name and
+  // "/_service_event". `qos_service_event_pub` only applies when it is turned on. The clock gives the events their
+  // times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a null clock.
   void configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
                                rcl_service_introspection_state_t introspection_state);
 
@@ -78,7 +79,7 @@ class ClientBase {
   virtual std::shared_ptr<void> create_response() = 0;
   virtual void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) = 0;
 
-  // The sequence number of the request. Throws exceptions::RCLError.
+  // Returns the sequence number of the request. Throws exceptions::RCLError.
   int64_t send_type_erased_request(const void* request);
 
  private:
@@ -91,8 +92,8 @@ class ClientBase {
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
   const rosidl_service_type_support_t* const introspected_type_;
-  std::mutex introspection_mutex_;              // of the clock
-  std::shared_ptr<Clock> introspection_clock_;  // rcl has a pointer to what is in it
+  std::mutex introspection_mutex_;              // guards the clock
+  std::shared_ptr<Clock> introspection_clock_;  // rcl points into it
 };
 
 }  // namespace rclcpp

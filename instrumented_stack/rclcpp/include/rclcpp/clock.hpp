@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the time comes from: the system's clock, a steady one, or ROS time, which a simulation may set.
+// A source of time: the system's clock, a steady one, or ROS time, which a simulation may set.
 #pragma once
 
 #include <rcl/time.h>
@@ -17,7 +17,8 @@
 
 namespace rclcpp {
 
-// Functions that are called around a jump of a clock, as long as this lives. See Clock::create_jump_callback().
+// Functions that are called before and after jumps of a clock, while this object lives. See
+// Clock::create_jump_callback().
 class JumpHandler {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(JumpHandler)
@@ -42,21 +43,22 @@ class Clock {
 
   Time now() const;
 
-  // True when the time was reached, false when the context ended first. `until` must be a time of this clock's type.
+  // Returns true when the time was reached, false if the context ended first. `until` must be a time of this clock's
+  // type.
   bool sleep_until(Time until, Context::SharedPtr context = contexts::get_global_default_context());
   bool sleep_for(Duration duration, Context::SharedPtr context = contexts::get_global_default_context());
 
   // False while a simulation drives this clock and has not set a time yet.
   bool started() const;
 
-  // True once it has started, false when the context or the time ended first. Throw std::runtime_error unless it is a
-  // ROS time clock and the context valid.
+  // Return true once the clock has started, false if the context or the time ended first. Throw std::runtime_error
+  // unless it is a ROS time clock and the context is valid.
   bool wait_until_started(Context::SharedPtr context = contexts::get_global_default_context());
   bool wait_until_started(const Duration& timeout, Context::SharedPtr context = contexts::get_global_default_context(),
                           const Duration& wait_tick_ns = Duration(0, 1'000'000));
 
-  // Calls `pre_callback` before and `post_callback` after a jump that the threshold lets through, in the thread that
-  // sets the time; either may be null. They must not use the clock. They live as long as what is returned. Throws
+  // Calls `pre_callback` before and `post_callback` after a jump that exceeds the threshold, in the thread that sets
+  // the time. Either may be null. They must not use the clock. They are called while the returned object lives. Throws
   // exceptions::RCLError.
   [[nodiscard]] JumpHandler::SharedPtr create_jump_callback(JumpHandler::pre_callback_t pre_callback,
                                                             JumpHandler::post_callback_t post_callback,

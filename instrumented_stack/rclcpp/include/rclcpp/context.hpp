@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One initialisation of ROS: the command line arguments, the middleware, and the moment at which all of it ends.
+// One initialisation of ROS: the command line arguments, the middleware, and their common end.
 //
 // A process normally has one, which rclcpp::init() sets up. Nodes, executors and guard conditions keep their context
 // alive. A context that was shut down can be initialised again.
@@ -30,7 +30,7 @@ class ContextAlreadyInitialized : public std::runtime_error {
   ContextAlreadyInitialized() : std::runtime_error("context is already initialized") {}
 };
 
-// Names a registered callback for its removal.
+// Identifies a registered callback, so that it can be removed.
 class ShutdownCallbackHandle {
   friend class Context;
   std::weak_ptr<std::function<void()>> callback;
@@ -43,7 +43,7 @@ class Context : public std::enable_shared_from_this<Context> {
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(Context)
 
   Context();
-  // Shuts the context down if that has not happened.
+  // Shuts the context down unless that has happened already.
   virtual ~Context();
 
   // Parses the arguments after --ros-args and starts the middleware. Throws ContextAlreadyInitialized,
@@ -54,11 +54,12 @@ class Context : public std::enable_shared_from_this<Context> {
   const InitOptions& get_init_options() const { return init_options_; }
   size_t get_domain_id() const;
 
-  // Empty until the context was shut down.
+  // Empty until the context is shut down.
   std::string shutdown_reason() const;
 
   // Runs the pre-shutdown callbacks, invalidates the context, runs the on-shutdown callbacks and ends every
-  // sleep_for(). Callable from any thread, not from a signal handler. False when the context was not valid.
+  // sleep_for(). May be called from any thread, but not from a signal handler. Returns false if the context was not
+  // valid.
   virtual bool shutdown(const std::string& reason);
 
   // On-shutdown callbacks run in the thread that calls shutdown(), in the order of their registration.
@@ -67,19 +68,19 @@ class Context : public std::enable_shared_from_this<Context> {
   OnShutdownCallbackHandle add_on_shutdown_callback(OnShutdownCallback callback);
   bool remove_on_shutdown_callback(const OnShutdownCallbackHandle& handle);
 
-  // Pre-shutdown callbacks find the context still valid.
+  // While pre-shutdown callbacks run, the context is still valid.
   using PreShutdownCallback = std::function<void()>;
   PreShutdownCallbackHandle add_pre_shutdown_callback(PreShutdownCallback callback);
   bool remove_pre_shutdown_callback(const PreShutdownCallbackHandle& handle);
 
-  // True after the whole time has passed, false when the context ended first.
+  // Returns true after the whole time, false if the context ended first.
   bool sleep_for(const std::chrono::nanoseconds& nanoseconds);
   // Ends every sleep_for() of this context.
   void interrupt_all_sleep_for();
 
   std::shared_ptr<rcl_context_t> get_rcl_context() const { return rcl_context_; }
 
-  // The one object of this type that belongs to the context, made at the first call.
+  // The one object of this type in the context. The first call makes it.
   template <typename SubContextT, typename... ArgumentTs>
   std::shared_ptr<SubContextT> get_sub_context(ArgumentTs&&... arguments) {
     const std::lock_guard lock(sub_contexts_mutex_);
@@ -98,7 +99,7 @@ class Context : public std::enable_shared_from_this<Context> {
   void run(const Callbacks& callbacks);
 
   mutable std::recursive_mutex init_mutex_;  // recursive: shutdown callbacks may call back
-  std::atomic<bool> valid_{false};           // beside the mutex, so that ok() never waits for a running shutdown
+  std::atomic<bool> valid_{false};           // not under the mutex, so that ok() never waits for a running shutdown
   std::shared_ptr<rcl_context_t> rcl_context_;
   std::shared_ptr<void> logging_;
   InitOptions init_options_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients for anything that has node interfaces.
+// Creates clients for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ typename Client<ServiceT>::SharedPtr create_client(
   return client;
 }
 
-// The same; the graph is not needed.
+// Like the function above; the graph is not needed.
 template <typename ServiceT>
 typename Client<ServiceT>::SharedPtr create_client(
     std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
@@ -33,7 +33,7 @@ typename Client<ServiceT>::SharedPtr create_client(
   return create_client<ServiceT>(std::move(node_base), std::move(node_services), service_name, qos, std::move(group));
 }
 
-// `node` is a Node, a pointer to one, or the like.
+// `node` is a Node, a pointer to one, or a similar class.
 template <typename ServiceT, typename NodeT>
 typename Client<ServiceT>::SharedPtr create_client(NodeT& node, const std::string& service_name,
                                                    const QoS& qos = ServicesQoS(),

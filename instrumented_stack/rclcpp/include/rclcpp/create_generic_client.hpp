@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients of services of types by name, for anything that has node interfaces.
+// Creates clients of services whose type is given by name, for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace rclcpp {
 
-// `service_type` is "std_srvs/srv/SetBool" or the like. Throws what the constructor of GenericClient throws.
+// `service_type` looks like "std_srvs/srv/SetBool". Throws what the constructor of GenericClient throws.
 GenericClient::SharedPtr create_generic_client(std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
                                                std::shared_ptr<node_interfaces::NodeGraphInterface> node_graph,
                                                std::shared_ptr<node_interfaces::NodeServicesInterface> node_services,
@@ -19,7 +19,7 @@ GenericClient::SharedPtr create_generic_client(std::shared_ptr<node_interfaces::
                                                const QoS& qos = ServicesQoS(),
                                                CallbackGroup::SharedPtr group = nullptr);
 
-// `node` is a Node, a pointer to one, or the like.
+// `node` is a Node, a pointer to one, or a similar class.
 template <typename NodeT>
 GenericClient::SharedPtr create_generic_client(NodeT node, const std::string& service_name,
                                                const std::string& service_type, const QoS& qos = ServicesQoS(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishers of types by name, for anything that has node interfaces.
+// Creates publishers whose type is given by name, for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace rclcpp {
 
-// `topic_type` is "std_msgs/msg/String" or the like. Throws std::runtime_error for a type that cannot be found, and
-// what create_publisher() throws.
+// `topic_type` looks like "std_msgs/msg/String". Throws std::runtime_error if the type cannot be found, and what
+// create_publisher() throws.
 template <typename AllocatorT = std::allocator<void>>
 std::shared_ptr<GenericPublisher> create_generic_publisher(
     const node_interfaces::NodeTopicsInterface::SharedPtr& topics, const std::string& topic_name,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services of types by name, for anything that has node interfaces.
+// Creates services whose type is given by name, for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace rclcpp {
 
-// `service_type` is "std_srvs/srv/SetBool" or the like. Throws what the constructor of GenericService throws.
+// `service_type` looks like "std_srvs/srv/SetBool". Throws what the constructor of GenericService throws.
 template <typename CallbackT>
 GenericService::SharedPtr create_generic_service(std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
                                                  std::shared_ptr<node_interfaces::NodeServicesInterface> node_services,

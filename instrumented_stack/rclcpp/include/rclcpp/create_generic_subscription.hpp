@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subscriptions of types by name, for anything that has node interfaces.
+// Creates subscriptions whose type is given by name, for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -12,9 +12,9 @@
 
 namespace rclcpp {
 
-// `topic_type` is "std_msgs/msg/String" or the like; the callback takes a SerializedMessage in one of the forms of
-// any_subscription_callback.hpp. Throws std::runtime_error for a type that cannot be found, and what
-// create_subscription() throws.
+// `topic_type` looks like "std_msgs/msg/String". The callback takes a SerializedMessage in one of the forms of
+// any_subscription_callback.hpp. Throws std::runtime_error if the type cannot be found, and what create_subscription()
+// throws.
 template <typename CallbackT, typename AllocatorT = std::allocator<void>>
 std::shared_ptr<GenericSubscription> create_generic_subscription(
     const node_interfaces::NodeTopicsInterface::SharedPtr& topics, const std::string& topic_name,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishers for anything that has node interfaces.
+// Creates publishers for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace rclcpp {
 
-// `node_parameters` may be null if no policy is to be overridden. Throws exceptions::InvalidTopicNameError,
+// `node_parameters` may be null if no policy can be overridden. Throws exceptions::InvalidTopicNameError,
 // exceptions::InvalidQosOverridesException, exceptions::RCLError, and what the constructor of PublisherT throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename PublisherT = Publisher<MessageT, AllocatorT>>
@@ -31,7 +31,7 @@ std::shared_ptr<PublisherT> create_publisher(
   return publisher;
 }
 
-// `node` is a Node, a pointer to one, or the like, or the topics interface of one alone.
+// `node` is a Node, a pointer to one, a similar class, or only its topics interface.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename PublisherT = Publisher<MessageT, AllocatorT>, typename NodeT>
 std::shared_ptr<PublisherT> create_publisher(

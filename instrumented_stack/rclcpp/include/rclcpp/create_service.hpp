@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services for anything that has node interfaces.
+// Creates services for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ typename Service<ServiceT>::SharedPtr create_service(
   return service;
 }
 
-// `node` is a Node, a pointer to one, or the like.
+// `node` is a Node, a pointer to one, or a similar class.
 template <typename ServiceT, typename NodeT, typename CallbackT>
 typename Service<ServiceT>::SharedPtr create_service(NodeT& node, const std::string& service_name, CallbackT&& callback,
                                                      const QoS& qos = ServicesQoS(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subscriptions for anything that has node interfaces.
+// Creates subscriptions for any object that has node interfaces.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace rclcpp {
 
-// `node_parameters` may be null if no policy is to be overridden. Without timers there are no statistics. Throws
+// `node_parameters` may be null if no policy can be overridden. Without timers there are no statistics. Throws
 // exceptions::InvalidTopicNameError, exceptions::InvalidQosOverridesException, exceptions::RCLError, and what the
 // constructor of SubscriptionT throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
@@ -41,8 +41,8 @@ std::shared_ptr<SubscriptionT> create_subscription(
   return subscription;
 }
 
-// `node` is a Node, a pointer to one, or the like, or the topics interface of one alone. Throws std::invalid_argument
-// for topic statistics with a period that is not positive, and what the function above throws.
+// `node` is a Node, a pointer to one, a similar class, or only its topics interface. Throws std::invalid_argument for
+// topic statistics whose period is not positive, and what the function above throws.
 template <typename MessageT, typename AllocatorT = std::allocator<void>,
           typename SubscriptionT = Subscription<MessageT, AllocatorT>, typename CallbackT, typename NodeT>
 std::shared_ptr<SubscriptionT> create_subscription(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timers for anything that has node interfaces.
+// Creates timers for any object that has node interfaces.
 #pragma once
 
 #include <chrono>
@@ -30,8 +30,8 @@ inline void require_node_interfaces(const node_interfaces::NodeBaseInterface* no
 
 }  // namespace detail
 
-// On the steady clock. `group` may be null: the default group. Throws std::invalid_argument for a null interface and a
-// period that is negative or too long.
+// Uses the steady clock. A null `group` means the default group. Throws std::invalid_argument for a null interface and
+// for a period that is negative or too long.
 template <typename RepT, typename RatioT, typename CallbackT>
 typename WallTimer<std::decay_t<CallbackT>>::SharedPtr create_wall_timer(
     std::chrono::duration<RepT, RatioT> period, CallbackT&& callback, CallbackGroup::SharedPtr group,
@@ -44,7 +44,7 @@ typename WallTimer<std::decay_t<CallbackT>>::SharedPtr create_wall_timer(
   return timer;
 }
 
-// On the given clock, which must not be null either.
+// Uses the given clock, which must not be null either.
 template <typename RepT, typename RatioT, typename CallbackT>
 typename GenericTimer<std::decay_t<CallbackT>>::SharedPtr create_timer(
     Clock::SharedPtr clock, std::chrono::duration<RepT, RatioT> period, CallbackT&& callback,
@@ -70,7 +70,7 @@ TimerBase::SharedPtr create_timer(std::shared_ptr<node_interfaces::NodeBaseInter
                       std::move(group), node_base.get(), node_timers.get(), autostart);
 }
 
-// `node` is a Node, a pointer to one, or the like.
+// `node` is a Node, a pointer to one, or a similar class.
 template <typename NodeT, typename CallbackT>
 TimerBase::SharedPtr create_timer(NodeT node, Clock::SharedPtr clock, Duration period, CallbackT&& callback,
                                   CallbackGroup::SharedPtr group = nullptr, bool autostart = true) {

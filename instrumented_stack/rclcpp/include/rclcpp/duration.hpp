@@ -13,7 +13,7 @@ namespace rclcpp {
 
 class Duration {
  public:
-  // `nanoseconds` counts up from `seconds`, also when these are negative.
+  // `nanoseconds` are added to `seconds`, even if `seconds` is negative.
   Duration(int32_t seconds, uint32_t nanoseconds);
   Duration(std::chrono::nanoseconds nanoseconds) : nanoseconds_(nanoseconds.count()) {}  // NOLINT: as std::chrono
   template <class Rep, class Period>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set when the graph changes: see Node::get_graph_event().
+// A flag that is set when the graph changes: see Node::get_graph_event().
 #pragma once
 
 #include <atomic>
@@ -27,13 +27,13 @@ class Event {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(Event)
 
-  // Set by set() alone.
+  // Only set() sets it.
   Event() = default;
-  // Set also when `count`, called by the functions below, gives another number than at the construction or the last
-  // check_and_clear().
+  // It is also set if `count` returns a number that differs from the one at construction or at the last
+  // check_and_clear(). The functions below call `count`.
   explicit Event(std::function<uint64_t()> count) : count_(std::move(count)), seen_(count_()) {}
 
-  // These give whether it was set before.
+  // These return whether it was set before.
   bool set() { return set_.exchange(true) || changed(); }
   bool check() const { return set_ || changed(); }
   bool check_and_clear() {

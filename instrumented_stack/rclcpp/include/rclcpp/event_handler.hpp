@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events of publishers and subscriptions beside messages: missed deadlines, liveliness, incompatible endpoints, lost
+// Events of publishers and subscriptions besides messages: missed deadlines, liveliness, incompatible endpoints, lost
 // messages, matches. Their callbacks are in PublisherOptions and SubscriptionOptions.
 #pragma once
 
@@ -39,8 +39,8 @@ using IncompatibleTypeCallbackType = std::function<void(IncompatibleTypeInfo&)>;
 using PublisherMatchedCallbackType = std::function<void(MatchedInfo&)>;
 using SubscriptionMatchedCallbackType = std::function<void(MatchedInfo&)>;
 
-// Empty ones are not called. With use_default_callbacks of the options, an empty incompatible_qos_callback becomes a
-// warning in the log.
+// Empty callbacks are not called. With use_default_callbacks in the options, an empty incompatible_qos_callback becomes
+// a warning in the log.
 struct PublisherEventCallbacks {
   QOSDeadlineOfferedCallbackType deadline_callback;
   QOSLivelinessLostCallbackType liveliness_callback;
@@ -63,7 +63,7 @@ class UnsupportedEventTypeException : public exceptions::RCLErrorBase, public st
   UnsupportedEventTypeException(rcl_ret_t ret, const rcl_error_state_t* error_state, const std::string& prefix);
 };
 
-// Executors wait for its rcl event and run the callback in the group of the publisher or subscription.
+// Executors wait for the rcl event and run the callback in the group of the publisher or subscription.
 class EventHandlerBase : public Waitable {
  public:
   enum class EntityType { Event };
@@ -74,19 +74,19 @@ class EventHandlerBase : public Waitable {
   void add_to_wait_set(rcl_wait_set_t& wait_set) override;
   bool is_ready(const rcl_wait_set_t& wait_set) override;
 
-  // `callback` gets the number of events, also of one from before, and EntityType::Event.
+  // `callback` gets the number of events, including one that came before, and EntityType::Event.
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
 
-  // Keeps the publisher or subscription.
+  // The handle keeps the publisher or subscription alive.
   std::shared_ptr<const rcl_event_t> get_event_handle() const { return event_handle_; }
 
  protected:
-  // `init` gets the rcl event to initialise. `parent` is kept as long as the event.
-  // Throws UnsupportedEventTypeException or exceptions::RCLError.
+  // `init` gets the rcl event to initialise. The event keeps `parent` alive. Throws UnsupportedEventTypeException or
+  // exceptions::RCLError.
   EventHandlerBase(std::shared_ptr<const void> parent, const std::function<rcl_ret_t(rcl_event_t*)>& init);
 
-  // Copies the status into `info`, of this event's type. False, with a line in the log, on failure.
+  // Copies the status into `info`, which must be of this event's type. On failure logs a line and returns false.
   bool take_event(void* info);
 
  private:

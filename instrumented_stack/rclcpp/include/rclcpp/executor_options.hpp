@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an executor is created with.
+// The options for creating an executor.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace rclcpp {
 
 struct ExecutorOptions {
   Context::SharedPtr context = contexts::get_global_default_context();
-  size_t max_conditions = 0;  // of rclcpp's interface; wait sets here grow as needed
+  size_t max_conditions = 0;  // part of rclcpp's interface; wait sets here grow as needed
 };
 
 }  // namespace rclcpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spinning in one line: a single-threaded executor for one node. And every executor.
+// Spins one node with a single-threaded executor, in one line. Includes every executor.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace rclcpp {
 void spin(node_interfaces::NodeBaseInterface::SharedPtr node);
 void spin(Node::SharedPtr node);
 
-// Runs what is ready now.
+// Runs the callbacks that are ready now.
 void spin_some(node_interfaces::NodeBaseInterface::SharedPtr node);
 void spin_some(Node::SharedPtr node);
 void spin_all(node_interfaces::NodeBaseInterface::SharedPtr node, std::chrono::nanoseconds max_duration);

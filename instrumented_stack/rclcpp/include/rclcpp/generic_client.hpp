@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends requests to a service of a type that is known by name at run time only. Created by
-// Node::create_generic_client().
+// Sends requests to a service whose type is known only by name, at run time. Created by Node::create_generic_client().
 #pragma once
 
 #include <chrono>
@@ -21,8 +20,8 @@
 
 namespace rclcpp {
 
-// Requests and responses are messages in memory, as for a Client of the type: cast them, or read and write them as
-// bytes with a SerializationBase. An executor must spin the node for responses to arrive. Thread safe.
+// Requests and responses are messages in memory, as for a Client of the type. Cast them, or read and write them as
+// bytes with a SerializationBase. Responses arrive only while an executor spins the node. Thread safe.
 class GenericClient : public ClientBase {
  public:
   using Request = void*;   // a message of the service's request type
@@ -44,29 +43,29 @@ class GenericClient : public ClientBase {
     using detail::FutureAndRequestId<SharedFuture>::FutureAndRequestId;
   };
 
-  // `service_type` is "std_srvs/srv/SetBool" or the like. Throws std::runtime_error for a type that cannot be found,
-  // and what the constructor of ClientBase throws.
+  // `service_type` looks like "std_srvs/srv/SetBool". Throws std::runtime_error if the type cannot be found, and what
+  // the constructor of ClientBase throws.
   GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                 const std::string& service_type, const QoS& qos = ServicesQoS());
 
   // A new request with the defaults of its type.
   SharedRequest create_request();
   std::shared_ptr<void> create_response() override;
-  // Of the two messages, for a SerializationBase.
+  // The type support of the two messages, for a SerializationBase.
   const rosidl_service_type_support_t& get_service_type_support_handle() const { return *type_support_; }
 
-  // A request that is never answered stays pending until it is removed. Throw exceptions::RCLError.
+  // A request without an answer stays pending until it is removed. Throw exceptions::RCLError.
   FutureAndRequestId async_send_request(const Request request);
-  // The callback's future has its value when the callback runs.
+  // The future has its value when the callback runs.
   SharedFutureAndRequestId async_send_request(const Request request, CallbackType callback);
 
-  // Whether there was such a request.
+  // Whether the request was pending.
   bool remove_pending_request(int64_t request_id) { return pending_.remove(request_id); }
   bool remove_pending_request(const FutureAndRequestId& future) { return remove_pending_request(future.request_id); }
   bool remove_pending_request(const SharedFutureAndRequestId& future) {
     return remove_pending_request(future.request_id);
   }
-  // Both give the number of requests that were removed, and the second their ids.
+  // Both return the number of requests that were removed; the second also gets their ids.
   size_t prune_pending_requests() { return pending_.prune(); }
   size_t prune_requests_older_than(std::chrono::time_point<std::chrono::system_clock> time_point,
                                    std::vector<int64_t>* pruned_requests = nullptr) {

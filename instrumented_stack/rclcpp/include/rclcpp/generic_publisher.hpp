@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends messages of a type that is known by name at run time only, as bytes. Created by
-// Node::create_generic_publisher().
+// Sends messages as bytes; their type is known only by name, at run time. Created by Node::create_generic_publisher().
 #pragma once
 
 #include <memory>
@@ -18,7 +17,7 @@ class GenericPublisher : public PublisherBase {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(GenericPublisher)
 
-  // `library` is that of `topic_type`, see get_typesupport_library().
+  // `library` is the type support library of `topic_type`; see get_typesupport_library().
   template <typename AllocatorT = std::allocator<void>>
   GenericPublisher(
       node_interfaces::NodeBaseInterface* node_base, const std::shared_ptr<SharedLibrary>& library,
@@ -28,10 +27,10 @@ class GenericPublisher : public PublisherBase {
                       *get_message_typesupport_handle(topic_type, "rosidl_typesupport_cpp", *library), qos, options),
         type_support_(get_message_typesupport_handle(topic_type, "rosidl_typesupport_cpp", *library)) {}
 
-  // The bytes of a message: the encapsulation header, then CDR.
+  // Publishes the bytes of a message: the encapsulation header, then CDR.
   void publish(const SerializedMessage& message);
 
-  // The same through memory of the middleware. Throws exceptions::RCLError if the type cannot be loaned.
+  // The same in memory of the middleware. Throws exceptions::RCLError if the type cannot be loaned.
   void publish_as_loaned_msg(const SerializedMessage& message);
 
  private:

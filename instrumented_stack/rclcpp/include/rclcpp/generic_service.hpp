@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers requests of a type that is known by name at run time only. Created by Node::create_generic_service().
+// Answers requests whose type is known only by name, at run time. Created by Node::create_generic_service().
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ namespace rclcpp {
 
 class GenericService;
 
-// A user's callback in any of the forms of any_service_callback.hpp, where requests and responses are
-// std::shared_ptr<void>, and the service a std::shared_ptr<GenericService>.
+// A user's callback in any of the forms of any_service_callback.hpp. Requests and responses are std::shared_ptr<void>,
+// the service is a std::shared_ptr<GenericService>.
 class GenericServiceCallback : public AnyServiceCallbackBase {
  public:
   using Header = std::shared_ptr<rmw_request_id_t>;
@@ -59,7 +59,7 @@ class GenericServiceCallback : public AnyServiceCallbackBase {
     }
   }
 
-  // Runs the callback. Null if it defers the response.
+  // Runs the callback. Returns null if the callback defers the response.
   SharedResponse dispatch(const ServicePtr& service, const Header& header, SharedRequest request);
 
  private:
@@ -68,7 +68,7 @@ class GenericServiceCallback : public AnyServiceCallbackBase {
   std::function<SharedResponse(const ServicePtr&, const Header&, SharedRequest)> answer_;
 };
 
-// Requests and responses are messages in memory, as for a Service of the type: cast them, or read and write them as
+// Requests and responses are messages in memory, as for a Service of the type. Cast them, or read and write them as
 // bytes with a SerializationBase.
 class GenericService : public ServiceBase, public std::enable_shared_from_this<GenericService> {
  public:
@@ -78,16 +78,16 @@ class GenericService : public ServiceBase, public std::enable_shared_from_this<G
   using SharedResponse = std::shared_ptr<void>;
   RCLCPP_SMART_PTR_DEFINITIONS(GenericService)
 
-  // `service_type` is "std_srvs/srv/SetBool" or the like. Throws std::runtime_error for a type that cannot be found,
-  // and what the constructor of ServiceBase throws.
+  // `service_type` looks like "std_srvs/srv/SetBool". Throws std::runtime_error if the type cannot be found, and what
+  // the constructor of ServiceBase throws.
   GenericService(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                  const std::string& service_type, GenericServiceCallback any_callback, const QoS& qos = ServicesQoS());
 
-  // The next request, without the callback. False if there is none.
+  // Takes the next request without running the callback. Returns false if there is none.
   bool take_request(SharedRequest request_out, rmw_request_id_t& request_id_out) {
     return take_type_erased_request(request_out.get(), request_id_out);
   }
-  // For callbacks that defer the response: any thread, once per request.
+  // For callbacks that defer the response. May be called from any thread, once per request.
   void send_response(rmw_request_id_t& request_id, SharedResponse& response) {
     send_type_erased_response(request_id, response.get());
   }
@@ -95,7 +95,7 @@ class GenericService : public ServiceBase, public std::enable_shared_from_this<G
   // New messages with the defaults of their types.
   std::shared_ptr<void> create_request() override;
   SharedResponse create_response();
-  // Of the two messages, for a SerializationBase.
+  // The type support of the two messages, for a SerializationBase.
   const rosidl_service_type_support_t& get_service_type_support_handle() const { return *type_support_; }
 
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Receives messages of a type that is known by name at run time only, as bytes. Created by
+// Receives messages as bytes; their type is known only by name, at run time. Created by
 // Node::create_generic_subscription().
 #pragma once
 
@@ -19,7 +19,7 @@ class GenericSubscription : public SubscriptionBase {
   RCLCPP_SMART_PTR_DEFINITIONS(GenericSubscription)
   using CallbackType = AnySubscriptionCallback<SerializedMessage>;
 
-  // `library` is that of `topic_type`, see get_typesupport_library().
+  // `library` is the type support library of `topic_type`; see get_typesupport_library().
   template <typename AllocatorT = std::allocator<void>>
   GenericSubscription(
       node_interfaces::NodeBaseInterface* node_base, const std::shared_ptr<SharedLibrary>& library,

@@ -21,23 +21,23 @@ class GuardCondition {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(GuardCondition)
 
-  // The context must be initialized: throws exceptions::RCLInvalidArgument or std::invalid_argument.
+  // The context must be initialized. Throws exceptions::RCLInvalidArgument or std::invalid_argument.
   explicit GuardCondition(const Context::SharedPtr& context = contexts::get_global_default_context());
   ~GuardCondition();
 
-  // Thread safe. Not to be called from a signal handler.
+  // Thread safe. Must not be called from a signal handler.
   void trigger();
 
-  // For executors that are told instead of waiting: from now on trigger() calls `callback` with 1, in its own thread,
-  // and wakes nobody else. It is called at once with the number of earlier triggers that nobody was told of. An empty
-  // one ends the calls. Not to be called from the callback of another thread's trigger.
+  // For executors that are notified instead of waiting. From now on trigger() only calls `callback` with 1, in its own
+  // thread. The callback is called at once with the number of earlier triggers that had no effect. An empty callback
+  // ends the calls. Do not call this from the callback of another thread's trigger.
   void set_on_trigger_callback(std::function<void(size_t)> callback);
 
   // Throws exceptions::RCLError.
   void add_to_wait_set(rcl_wait_set_t& wait_set);
 
   const rcl_guard_condition_t& get_rcl_guard_condition() const { return rcl_guard_condition_; }
-  // Sets whether a wait set uses this; the former state.
+  // Sets whether a wait set uses this; returns the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
  private:

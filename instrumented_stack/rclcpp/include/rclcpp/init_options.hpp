@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a Context needs to know beyond the command line.
+// The options of a Context besides the command line.
 #pragma once
 
 #include <rcl/init_options.h>
@@ -11,7 +11,7 @@ namespace rclcpp {
 
 class InitOptions {
  public:
-  // If true, the context is shut down by SIGINT and SIGTERM as far as the signal handlers are installed.
+  // If true, SIGINT and SIGTERM shut the context down, provided that the signal handlers are installed.
   bool shutdown_on_signal = true;
 
   explicit InitOptions(rcl_allocator_t allocator = rcl_get_default_allocator());
@@ -23,7 +23,7 @@ class InitOptions {
   bool auto_initialize_logging() const { return auto_initialize_logging_; }
   InitOptions& auto_initialize_logging(bool initialize_logging);
 
-  // Without a call the domain comes from ROS_DOMAIN_ID.
+  // By default the domain comes from ROS_DOMAIN_ID.
   void set_domain_id(size_t domain_id);
   void use_default_domain_id();
   size_t get_domain_id() const;

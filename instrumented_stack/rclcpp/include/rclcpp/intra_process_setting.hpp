@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a publisher or subscription uses the short way to its counterparts in the same context.
+// Whether a publisher or subscription uses intra-process communication within its context.
 #pragma once
 
 namespace rclcpp {
@@ -7,7 +7,7 @@ namespace rclcpp {
 enum class IntraProcessSetting {
   Enable,
   Disable,
-  NodeDefault,  // NodeOptions::use_intra_process_comms()
+  NodeDefault,  // as in NodeOptions::use_intra_process_comms()
 };
 
 }  // namespace rclcpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A message that is made where the middleware sends it from, so that publishing does not copy it:
+// A message in the memory from which the middleware sends it, so that publishing does not copy it:
 //
 //   auto loan = publisher->borrow_loaned_message();
 //   loan.get().data = 1;
@@ -21,9 +21,8 @@
 
 namespace rclcpp {
 
-// What a borrowed message holds at first is not defined. Of types that are not plain, which
-// PublisherBase::can_loan_messages() tells, it holds an ordinary message. The publisher must live longer. Not thread
-// safe.
+// The initial content of a borrowed message is undefined. For types that are not plain (see
+// PublisherBase::can_loan_messages()) it holds an ordinary message. The publisher must outlive it. Not thread safe.
 template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class LoanedMessage {
  public:
@@ -51,7 +50,7 @@ class LoanedMessage {
   LoanedMessage& operator=(const LoanedMessage&) = delete;
   LoanedMessage& operator=(LoanedMessage&&) = delete;
 
-  // Gives back what was not published.
+  // Returns the loan if it was not published.
   virtual ~LoanedMessage() {
     if (loan_ && rcl_return_loaned_message_from_publisher(publisher_handle_.get(), loan_) != RCL_RET_OK) {
       RCLCPP_ERROR(get_logger("rclcpp"), "failed to return a loaned message: %s", rcl_get_error_string().str);
@@ -62,7 +61,7 @@ class LoanedMessage {
   bool is_valid() const { return loan_ || own_; }
   MessageT& get() const { return loan_ ? *loan_ : *own_; }
 
-  // What publishers do with it: they take the loan, null if it is none, or the ordinary message.
+  // For publishers: they take the loan (null if there is none) or the ordinary message.
   MessageT* release_loan() { return std::exchange(loan_, nullptr); }
   allocator::UniquePtr<MessageT, AllocatorT> release_own() { return std::move(own_); }
 

@@ -24,7 +24,7 @@ class Logger {
   const char* get_name() const { return name_ ? name_->c_str() : nullptr; }
   Logger get_child(const std::string& suffix) const;
 
-  // Unset takes the level back, so that the parent's counts again.
+  // Unset removes the level, so that the parent's level applies again.
   void set_level(Level level);
   Level get_effective_level() const;
 
@@ -37,7 +37,7 @@ class Logger {
 
 Logger get_logger(const std::string& name);
 
-// Where the log files of this process are, also before there are any.
+// The folder of this process's log files, even before any exist.
 std::filesystem::path get_logging_directory();
 
 }  // namespace rclcpp

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// RCLCPP_{DEBUG,INFO,WARN,ERROR,FATAL}: one log line, in the manner of printf, to the console and to /rosout.
+// RCLCPP_{DEBUG,INFO,WARN,ERROR,FATAL}: write one log line, like printf, to the console and to /rosout.
 //
 //   RCLCPP_INFO(get_logger(), "got %d", 3);
 //   RCLCPP_INFO_STREAM(get_logger(), "got " << 3);
 //
-// Each also with a condition, which together with the level decides whether the line is written and its arguments are
-// evaluated:
+// Each also exists with a condition. Level and condition together decide whether the line is written and its arguments
+// are evaluated:
 //   _ONCE(logger, …)                           the first time only
 //   _EXPRESSION(logger, expression, …)         if the expression is true
 //   _FUNCTION(logger, function, …)             if function() is true
 //   _SKIPFIRST(logger, …)                      from the second time on
 //   _THROTTLE(logger, clock, duration_ms, …)   if duration_ms have passed on the clock since the last line
 //   _SKIPFIRST_THROTTLE(logger, clock, duration_ms, …)
-// and each of these with _STREAM. A condition with a memory counts only lines that the level lets pass, per place in
-// the source.
+// Each of these also exists with _STREAM. Conditions with a memory have one for each place in the source, and only
+// count lines that the level lets pass.
 #pragma once
 
 #include <rcutils/logging.h>
@@ -26,7 +26,7 @@
 
 namespace rclcpp::detail {
 
-// Memory of the conditions, one object per place in the source. Not synchronised: in a race a line is lost or doubled.
+// The memory of the conditions, one object per place in the source. Not synchronised: a race can lose or double a line.
 struct LogOnce {
   bool first = true;
   bool operator()() {
@@ -40,7 +40,7 @@ struct LogThrottle {
   bool started = false;
   int64_t last = 0;
   bool operator()(int64_t now, int64_t duration_ms) {
-    // A clock that jumped back (simulated time restarted) counts as elapsed.
+    // If the clock has jumped back (simulated time restarted), the time counts as elapsed.
     if (started && now >= last && now - last < duration_ms * 1'000'000) {
       return false;
     }
@@ -77,7 +77,7 @@ struct LogThrottle {
     }                                                                                                    \
   } while (0)
 
-// One memory per place in the source: a lambda's local static.
+// The memory is a local static of a lambda: one per place in the source.
 #define RCLCPP_LOG_ONCE_CONDITION_         \
   ([]() -> ::rclcpp::detail::LogOnce& {    \
     static ::rclcpp::detail::LogOnce once; \

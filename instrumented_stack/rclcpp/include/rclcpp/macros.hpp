@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pointer aliases that every rclcpp class carries (`Node::SharedPtr`), and `make_shared` for it.
+// The pointer aliases that every rclcpp class has (`Node::SharedPtr`), and `make_shared` for it.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where in the network the messages of a publisher come from, or those of a subscription arrive.
+// The network address from which a publisher sends, or at which a subscription receives.
 #pragma once
 
 #include <rmw/network_flow_endpoint.h>
@@ -34,12 +34,12 @@ class NetworkFlowEndpoint {
 
 bool operator==(const NetworkFlowEndpoint& left, const NetworkFlowEndpoint& right);
 bool operator!=(const NetworkFlowEndpoint& left, const NetworkFlowEndpoint& right);
-// As JSON.
+// Writes it as JSON.
 std::ostream& operator<<(std::ostream& stream, const NetworkFlowEndpoint& network_flow_endpoint);
 
 namespace detail {
 
-// What `get`, one of rmw's functions, tells. Throws exceptions::RCLError.
+// Returns the result of `get`, one of rmw's functions. Throws exceptions::RCLError.
 std::vector<NetworkFlowEndpoint> network_flow_endpoints(
     const std::function<rmw_ret_t(rcutils_allocator_t*, rmw_network_flow_endpoint_array_t*)>& get);
 

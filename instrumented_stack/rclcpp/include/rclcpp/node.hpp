@@ -59,8 +59,9 @@ class Node : public std::enable_shared_from_this<Node> {
   const char* get_fully_qualified_name() const { return node_base_->get_fully_qualified_name(); }
   const NodeOptions& get_node_options() const { return options_; }
 
-  // The same node, as far as others see it; but the relative names of what is created by it are in a sub-namespace.
-  // Throws exceptions::NameValidationError for one that is empty or begins with a slash, and
+  // Creates a node that others see as this one. The relative names of its entities are in a sub-namespace. Throws
+  // exceptions::NameValidationError if the sub-namespace is empty or begins with a slash, and
+  // exceptions::InvalidNamespaceError.
   // exceptions::InvalidNamespaceError.
   std::shared_ptr<Node> create_sub_node(const std::string& sub_namespace);
   // Empty unless this is a sub-node: `a/b` for create_sub_node("a")->create_sub_node("b").
@@ -75,7 +76,7 @@ class Node : public std::enable_shared_from_this<Node> {
   Clock::ConstSharedPtr get_clock() const { return std::as_const(*node_clock_).get_clock(); }
   Time now() const { return get_clock()->now(); }
 
-  // Keep the group: the node refers to it weakly.
+  // Keep the group: the node holds it weakly.
   CallbackGroup::SharedPtr create_callback_group(CallbackGroupType group_type,
                                                  bool automatically_add_to_executor_with_node = true);
   void for_each_callback_group(const std::function<void(CallbackGroup::SharedPtr)>& function);
@@ -100,8 +101,8 @@ class Node : public std::enable_shared_from_this<Node> {
                                                                             std::forward<CallbackT>(callback), options);
   }
 
-  // For types that are known by name only: "std_msgs/msg/String". They throw std::runtime_error, too, for a type that
-  // cannot be found.
+  // For types that are known only by name: "std_msgs/msg/String". They also throw std::runtime_error if the type cannot
+  // be found.
   template <typename AllocatorT = std::allocator<void>>
   std::shared_ptr<GenericPublisher> create_generic_publisher(
       const std::string& topic_name, const std::string& topic_type, const QoS& qos,
@@ -125,7 +126,7 @@ class Node : public std::enable_shared_from_this<Node> {
     return rclcpp::create_service<ServiceT>(node_base_, node_services_, extend_name(service_name),
                                             std::forward<CallbackT>(callback), qos, std::move(group));
   }
-  // The older forms, with a profile of the middleware.
+  // The older forms, which take a profile of the middleware.
   template <typename ServiceT, typename CallbackT>
   [[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Service<ServiceT>::SharedPtr create_service(
       const std::string& service_name, CallbackT&& callback, const rmw_qos_profile_t& qos_profile,
@@ -146,7 +147,7 @@ class Node : public std::enable_shared_from_this<Node> {
                                            std::move(group));
   }
 
-  // For types that are known by name only: "std_srvs/srv/SetBool". They throw std::runtime_error, too, for a type that
+  // For types that are known only by name: "std_srvs/srv/SetBool". They also throw std::runtime_error if the type
   // cannot be found.
   GenericClient::SharedPtr create_generic_client(const std::string& service_name, const std::string& service_type,
                                                  const QoS& qos = ServicesQoS(),
@@ -162,7 +163,7 @@ class Node : public std::enable_shared_from_this<Node> {
                                           std::forward<CallbackT>(callback), qos, std::move(group));
   }
 
-  // On the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative
+  // Uses the steady clock. The callback takes nothing or a TimerBase &. Throws std::invalid_argument for a negative
   // period.
   template <typename RepT, typename RatioT, typename CallbackT>
   typename WallTimer<std::decay_t<CallbackT>>::SharedPtr create_wall_timer(std::chrono::duration<RepT, RatioT> period,
@@ -173,7 +174,7 @@ class Node : public std::enable_shared_from_this<Node> {
                                      node_timers_.get(), autostart);
   }
 
-  // On the node's clock.
+  // Uses the node's clock.
   template <typename RepT, typename RatioT, typename CallbackT>
   typename GenericTimer<std::decay_t<CallbackT>>::SharedPtr create_timer(std::chrono::duration<RepT, RatioT> period,
                                                                          CallbackT&& callback,
@@ -185,14 +186,14 @@ class Node : public std::enable_shared_from_this<Node> {
   // A parameter exists from its declaration on. Its first value is the override from NodeOptions, command line or
   // parameter file if there is one, else the default. Its type stays that of the default unless the descriptor says
   // dynamic_typing. Throw exceptions::ParameterAlreadyDeclaredException, exceptions::InvalidParametersException (empty
-  // name), exceptions::InvalidParameterTypeException (override of another type), exceptions::
-  // InvalidParameterValueException (refused by range or callback).
+  // name), exceptions::InvalidParameterTypeException (override of another type),
+  // exceptions::InvalidParameterValueException (refused by range or callback).
   template <typename ParameterT>
   auto declare_parameter(
       const std::string& name, const ParameterT& default_value,
       const rcl_interfaces::msg::ParameterDescriptor& descriptor = rcl_interfaces::msg::ParameterDescriptor(),
       bool ignore_override = false);
-  // Without default: throws exceptions::ParameterUninitializedException when there is no override.
+  // Without a default: throws exceptions::ParameterUninitializedException if there is no override.
   template <typename ParameterT>
   auto declare_parameter(
       const std::string& name,
@@ -206,32 +207,32 @@ class Node : public std::enable_shared_from_this<Node> {
       const std::string& name, ParameterType type,
       const rcl_interfaces::msg::ParameterDescriptor& descriptor = rcl_interfaces::msg::ParameterDescriptor(),
       bool ignore_override = false);
-  // Several with a common prefix.
+  // Declares several parameters with a common prefix.
   template <typename ParameterT>
   std::vector<ParameterT> declare_parameters(const std::string& parameter_namespace,
                                              const std::map<std::string, ParameterT>& parameters,
                                              bool ignore_overrides = false);
-  // Only for dynamically typed ones. Throws exceptions::ParameterNotDeclaredException,
+  // Works only for dynamically typed parameters. Throws exceptions::ParameterNotDeclaredException,
   // exceptions::ParameterImmutableException or exceptions::InvalidParameterTypeException.
   void undeclare_parameter(const std::string& name);
   bool has_parameter(const std::string& name) const;
 
-  // A refusal (type, range, read-only, callback) is in the result. Throw exceptions::ParameterNotDeclaredException.
+  // The result contains a refusal (type, range, read-only, callback). Throw exceptions::ParameterNotDeclaredException.
   rcl_interfaces::msg::SetParametersResult set_parameter(const Parameter& parameter);
   std::vector<rcl_interfaces::msg::SetParametersResult> set_parameters(const std::vector<Parameter>& parameters);
-  // All or none.
+  // Sets all parameters or none.
   rcl_interfaces::msg::SetParametersResult set_parameters_atomically(const std::vector<Parameter>& parameters);
 
   // Throw exceptions::ParameterNotDeclaredException or exceptions::ParameterUninitializedException.
   Parameter get_parameter(const std::string& name) const;
   std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const;
-  // False, and nothing changed, when the parameter is not set. The typed ones throw ParameterTypeException.
+  // Returns false and changes nothing if the parameter is not set. The typed ones throw ParameterTypeException.
   bool get_parameter(const std::string& name, Parameter& parameter) const;
   template <typename ParameterT>
   bool get_parameter(const std::string& name, ParameterT& parameter) const;
   template <typename ParameterT>
   bool get_parameters(const std::string& prefix, std::map<std::string, ParameterT>& values) const;
-  // False, and the alternative in `parameter`, when the parameter is not set.
+  // If the parameter is not set, returns false and stores the alternative in `parameter`.
   template <typename ParameterT>
   bool get_parameter_or(const std::string& name, ParameterT& parameter, const ParameterT& alternative_value) const;
   template <typename ParameterT>
@@ -245,7 +246,7 @@ class Node : public std::enable_shared_from_this<Node> {
                                                             uint64_t depth) const;
 
   // Callbacks live as long as the handle. The order of a change: pre-set (may alter the list), on-set (may refuse),
-  // post-set. They must not change parameters themselves: exceptions::ParameterModifiedInCallbackException.
+  // post-set. Callbacks must not change parameters themselves: exceptions::ParameterModifiedInCallbackException.
   using OnSetParametersCallbackHandle = node_interfaces::OnSetParametersCallbackHandle;
   using PreSetParametersCallbackHandle = node_interfaces::PreSetParametersCallbackHandle;
   using PostSetParametersCallbackHandle = node_interfaces::PostSetParametersCallbackHandle;
@@ -259,7 +260,7 @@ class Node : public std::enable_shared_from_this<Node> {
   void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle);
   void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle);
 
-  // What is known of the whole system so far. Topic names are expanded and remapped as for a publisher.
+  // The known graph of the whole system. Topic names are expanded and remapped as for a publisher.
   std::vector<std::string> get_node_names() const { return node_graph_->get_node_names(); }
   std::map<std::string, std::vector<std::string>> get_topic_names_and_types() const {
     return node_graph_->get_topic_names_and_types();
@@ -285,9 +286,9 @@ class Node : public std::enable_shared_from_this<Node> {
   size_t count_services(const std::string& service_name) const { return node_graph_->count_services(service_name); }
   size_t count_clients(const std::string& service_name) const { return node_graph_->count_clients(service_name); }
 
-  // An event that is set by every change of the graph from now on, and waiting for it. Any number of threads may wait.
+  // An event that every later change of the graph sets, and waiting for it. Any number of threads may wait.
   Event::SharedPtr get_graph_event() { return node_graph_->get_graph_event(); }
-  // Throws exceptions::InvalidEventError for null. A negative time is without end; shutdown ends every wait.
+  // Throws exceptions::InvalidEventError for null. A negative timeout has no limit. Shutdown ends every wait.
   void wait_for_graph_change(Event::SharedPtr event, std::chrono::nanoseconds timeout) {
     node_graph_->wait_for_graph_change(event, timeout);
   }
@@ -312,10 +313,10 @@ class Node : public std::enable_shared_from_this<Node> {
   Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
        const rcl_node_options_t& rcl_options);
 
-  // Absolute and private names stay as they are.
+  // Absolute and private names do not change.
   std::string extend_name(const std::string& name) const;
 
-  std::shared_ptr<Node> parent_;  // of a sub-node
+  std::shared_ptr<Node> parent_;  // set for a sub-node
   NodeOptions options_;
   node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   node_interfaces::NodeLoggingInterface::SharedPtr node_logging_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node is created with beside its name.
+// The options for creating a node besides its name.
 #pragma once
 
 #include <rcl/node_options.h>
@@ -22,7 +22,7 @@ class NodeOptions {
   Context::SharedPtr context() const { return context_; }
   NodeOptions& context(Context::SharedPtr context);
 
-  // Arguments of this node alone, as on a command line: {"--ros-args", "-r", "__node:=name"}. They come before those of
+  // Arguments of only this node, as on a command line: {"--ros-args", "-r", "__node:=name"}. They come before those of
   // the process.
   const std::vector<std::string>& arguments() const { return arguments_; }
   NodeOptions& arguments(const std::vector<std::string>& arguments);
@@ -31,7 +31,7 @@ class NodeOptions {
   bool use_global_arguments() const { return use_global_arguments_; }
   NodeOptions& use_global_arguments(bool use_global_arguments);
 
-  // Values that parameters get when they are declared. They win over those of the command line.
+  // Values that parameters get when they are declared. They replace those of the command line.
   const std::vector<Parameter>& parameter_overrides() const { return parameter_overrides_; }
   NodeOptions& parameter_overrides(const std::vector<Parameter>& parameter_overrides);
   template <typename ValueT>
@@ -44,7 +44,7 @@ class NodeOptions {
   bool use_intra_process_comms() const { return use_intra_process_comms_; }
   NodeOptions& use_intra_process_comms(bool use_intra_process_comms);
 
-  // Whether subscriptions that do not say otherwise publish statistics. Default false.
+  // Whether subscriptions publish statistics by default. Default false.
   bool enable_topic_statistics() const { return enable_topic_statistics_; }
   NodeOptions& enable_topic_statistics(bool enable_topic_statistics);
 
@@ -68,11 +68,11 @@ class NodeOptions {
   const QoS& parameter_event_qos() const { return parameter_event_qos_; }
   NodeOptions& parameter_event_qos(const QoS& parameter_event_qos);
 
-  // Beside the QoS; its event callbacks, for instance.
+  // Options besides the QoS, for instance the event callbacks.
   const PublisherOptionsBase& parameter_event_publisher_options() const { return parameter_event_publisher_options_; }
   NodeOptions& parameter_event_publisher_options(const PublisherOptionsBase& parameter_event_publisher_options);
 
-  // Whether parameters may be set without having been declared. Default false.
+  // Whether undeclared parameters may be set. Default false.
   bool allow_undeclared_parameters() const { return allow_undeclared_parameters_; }
   NodeOptions& allow_undeclared_parameters(bool allow_undeclared_parameters);
 
@@ -82,26 +82,26 @@ class NodeOptions {
   }
   NodeOptions& automatically_declare_parameters_from_overrides(bool automatically_declare_parameters_from_overrides);
 
-  // Of Node::get_clock(). Default RCL_ROS_TIME.
+  // The type of Node::get_clock(). Default RCL_ROS_TIME.
   rcl_clock_type_t clock_type() const { return clock_type_; }
   NodeOptions& clock_type(rcl_clock_type_t clock_type);
 
-  // Of the subscription of /clock while time is simulated.
+  // The QoS of the subscription of /clock while time is simulated.
   const QoS& clock_qos() const { return clock_qos_; }
   NodeOptions& clock_qos(const QoS& clock_qos);
 
-  // Whether a thread receives simulated time, or whoever spins the node. Default true.
+  // Whether a thread of its own receives simulated time. Otherwise the spinning thread does. Default true.
   bool use_clock_thread() const { return use_clock_thread_; }
   NodeOptions& use_clock_thread(bool use_clock_thread);
 
-  // Of the memory of rcl's options.
+  // The allocator for rcl's options.
   const rcl_allocator_t& allocator() const { return allocator_; }
   NodeOptions& allocator(rcl_allocator_t allocator);
 
-  // The same for rcl, which owns the parsed arguments; valid until these options are changed or destroyed. Not thread
-  // safe. Throws exceptions::UnknownROSArgsError and exceptions::RCLInvalidROSArgsError.
+  // These options for rcl, which owns the parsed arguments; valid until these options are changed or destroyed. Not
+  // thread safe. Throws exceptions::UnknownROSArgsError and exceptions::RCLInvalidROSArgsError.
   const rcl_node_options_t* get_rcl_node_options() const;
-  // The same, of which the caller is an owner.
+  // The same options; the caller shares the ownership.
   std::shared_ptr<const rcl_node_options_t> make_rcl_node_options() const;
 
  private:
@@ -124,7 +124,7 @@ class NodeOptions {
   QoS clock_qos_ = ClockQoS();
   bool use_clock_thread_ = true;
   rcl_allocator_t allocator_ = rcl_get_default_allocator();
-  mutable std::shared_ptr<const rcl_node_options_t> rcl_node_options_;  // null: not made since a change
+  mutable std::shared_ptr<const rcl_node_options_t> rcl_node_options_;  // null: not made since the last change
 };
 
 }  // namespace rclcpp

@@ -68,7 +68,7 @@ class Parameter {
   ParameterValue value_;
 };
 
-// As JSON: {"name": "speed", "type": "double", "value": "1.500000"}.
+// Returns JSON: {"name": "speed", "type": "double", "value": "1.500000"}.
 std::string to_string(const Parameter& parameter);
 std::ostream& operator<<(std::ostream& stream, const Parameter& parameter);
 

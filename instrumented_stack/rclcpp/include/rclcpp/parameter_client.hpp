@@ -30,8 +30,8 @@
 
 namespace rclcpp {
 
-// Returns futures, and calls a callback if there is one, when the answer has come: an executor must spin the node. An
-// answer about parameters that the remote node has not declared is empty, or says so in its result.
+// Functions return futures, and call the callback, if any, when the answer has come; an executor must spin the node. If
+// the remote node has not declared the parameters, the answer is empty, or its result says so.
 class AsyncParametersClient {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(AsyncParametersClient)
@@ -42,7 +42,7 @@ class AsyncParametersClient {
   using Descriptor = rcl_interfaces::msg::ParameterDescriptor;
   using ListResult = rcl_interfaces::msg::ListParametersResult;
 
-  // An empty remote name: the node itself.
+  // An empty remote name means the node itself.
   AsyncParametersClient(node_interfaces::NodeBaseInterface::SharedPtr node_base,
                         node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
                         node_interfaces::NodeServicesInterface::SharedPtr node_services,
@@ -67,18 +67,18 @@ class AsyncParametersClient {
       const std::vector<std::string>& names, Callback<std::vector<ParameterType>> callback = nullptr);
   std::shared_future<std::vector<SetResult>> set_parameters(const std::vector<Parameter>& parameters,
                                                             Callback<std::vector<SetResult>> callback = nullptr);
-  // All or none.
+  // Sets all parameters or none.
   std::shared_future<SetResult> set_parameters_atomically(const std::vector<Parameter>& parameters,
                                                           Callback<SetResult> callback = nullptr);
   std::shared_future<std::vector<SetResult>> delete_parameters(const std::vector<std::string>& names);
-  // Sets what the file, or the map, holds for the remote node. Throw exceptions::InvalidParametersException when that
-  // is nothing, and what parameter_map_from_yaml_file() throws.
+  // Sets the parameters that the file, or the map, has for the remote node. Throw
+  // exceptions::InvalidParametersException if it has none, and what parameter_map_from_yaml_file() throws.
   std::shared_future<std::vector<SetResult>> load_parameters(const std::string& yaml_filename);
   std::shared_future<std::vector<SetResult>> load_parameters(const ParameterMap& parameter_map);
   std::shared_future<ListResult> list_parameters(const std::vector<std::string>& prefixes, uint64_t depth,
                                                  Callback<ListResult> callback = nullptr);
 
-  // Hears of the changes of all nodes' parameters.
+  // Subscribes to the parameter changes of all nodes.
   template <typename CallbackT>
   Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr on_parameter_event(
       CallbackT&& callback, const QoS& qos = ParameterEventsQoS()) {
@@ -90,9 +90,9 @@ class AsyncParametersClient {
     return subscription;
   }
 
-  // Whether all six services are there.
+  // Whether all six services are available.
   bool service_is_ready() const;
-  // False after `timeout` (negative: never) or when the context ends.
+  // Returns false after `timeout` (negative: never) or when the context ends.
   template <typename RepT = int64_t, typename RatioT = std::milli>
   bool wait_for_service(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
     return wait_for_service_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
@@ -115,8 +115,8 @@ class AsyncParametersClient {
   Client<rcl_interfaces::srv::ListParameters>::SharedPtr list_;
 };
 
-// Spins the node until the answer has come. The node must be in no executor, except the one given here. An answer that
-// does not come in time (negative: no limit) is empty.
+// Spins the node until the answer has come. The node must not be in an executor other than the one given here. An
+// answer that does not come in time (negative timeout: no limit) is empty.
 class SyncParametersClient {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(SyncParametersClient)
@@ -129,7 +129,7 @@ class SyncParametersClient {
   explicit SyncParametersClient(const std::shared_ptr<NodeT>& node, const std::string& remote_node_name = "",
                                 const QoS& qos = ParametersQoS())
       : SyncParametersClient(own_executor(*node), node, remote_node_name, qos) {}
-  // As constructors of nodes need it.
+  // For use in constructors of nodes.
   template <typename NodeT>
   explicit SyncParametersClient(NodeT* node, const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
       : executor_(own_executor(*node)), client_(node, remote_node_name, qos) {}
@@ -182,7 +182,7 @@ class SyncParametersClient {
       std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
     return result_of(client_.set_parameters(parameters), timeout);
   }
-  // Throws std::runtime_error when there is no answer.
+  // Throws std::runtime_error if there is no answer.
   template <typename RepT = int64_t, typename RatioT = std::milli>
   SetResult set_parameters_atomically(
       const std::vector<Parameter>& parameters,
@@ -205,7 +205,7 @@ class SyncParametersClient {
       std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
     return result_of(client_.load_parameters(yaml_filename), timeout);
   }
-  // Throws std::runtime_error when there is no answer.
+  // Throws std::runtime_error if there is no answer.
   template <typename RepT = int64_t, typename RatioT = std::milli>
   ListResult list_parameters(const std::vector<std::string>& prefixes, uint64_t depth,
                              std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {

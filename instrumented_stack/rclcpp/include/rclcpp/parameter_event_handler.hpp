@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hears of changes of parameters, of the own node and of others.
+// Calls back when parameters change, those of the own node and of others.
 //
 //   auto handler = std::make_shared<rclcpp::ParameterEventHandler>(node);
 //   auto handle = handler->add_parameter_callback("rate", [](const rclcpp::Parameter& p) { … }, "/other_node");
 //
-// Callbacks run in whoever spins the node, as long as their handle lives; the last one added runs first.
+// Callbacks run in the thread that spins the node, as long as their handle lives. The last one added runs first.
 #pragma once
 
 #include <functional>
@@ -47,7 +47,7 @@ class ParameterEventHandler {
   using ParameterCallbackType = ParameterCallbackHandle::ParameterCallbackType;
   using ParameterEventCallbackType = ParameterEventCallbackHandle::ParameterEventCallbackType;
 
-  // `node` is a node or points to one.
+  // `node` is a node or a pointer to one.
   template <typename NodeT>
   explicit ParameterEventHandler(NodeT&& node, const QoS& qos = ParameterEventsQoS())
       : node_base_(node_interfaces::dereferenced(node).get_node_base_interface()),
@@ -56,27 +56,27 @@ class ParameterEventHandler {
             node, "/parameter_events", qos,
             [callbacks = callbacks_](const rcl_interfaces::msg::ParameterEvent& event) { callbacks->call(event); })) {}
 
-  // For every event, after the callbacks for single parameters.
+  // Called for every event, after the callbacks for single parameters.
   [[nodiscard]] ParameterEventCallbackHandle::SharedPtr add_parameter_event_callback(
       ParameterEventCallbackType callback);
-  // Throws std::runtime_error for a handle that is not registered.
+  // Throws std::runtime_error if the handle is not registered.
   void remove_parameter_event_callback(const ParameterEventCallbackHandle::SharedPtr& handle);
 
-  // For new and changed values of a parameter. A node name without a leading slash is one in the own namespace; empty:
-  // the own node.
+  // Called for new and changed values of a parameter. A node name without a leading slash is in the own namespace. An
+  // empty name means the own node.
   [[nodiscard]] ParameterCallbackHandle::SharedPtr add_parameter_callback(const std::string& parameter_name,
                                                                           ParameterCallbackType callback,
                                                                           const std::string& node_name = "");
-  // Throws std::runtime_error for a handle that is not registered.
+  // Throws std::runtime_error if the handle is not registered.
   void remove_parameter_callback(const ParameterCallbackHandle::SharedPtr& handle);
 
-  // Whether `event` has a new or changed value of that parameter of that node, a fully qualified name.
+  // Whether `event` has a new or changed value of that parameter and node. The node's name is fully qualified.
   static bool get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event, Parameter& parameter,
                                        const std::string& parameter_name, const std::string& node_name = "");
-  // Throws std::runtime_error if it has none.
+  // Throws std::runtime_error if the event has no such value.
   static Parameter get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event,
                                             const std::string& parameter_name, const std::string& node_name = "");
-  // The new ones, then the changed ones.
+  // New parameters first, then changed ones.
   static std::vector<Parameter> get_parameters_from_event(const rcl_interfaces::msg::ParameterEvent& event);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages in the memory of a user's allocator: how the AllocatorT of publishers and subscriptions is used.
+// Creates messages in the memory of a user's allocator: the AllocatorT of publishers and subscriptions.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace rclcpp::allocator {
 
-// The allocator for T that belongs to a user's `AllocatorT`, which is one for void.
+// The allocator for T, made from a user's `AllocatorT`, which is an allocator for void.
 template <typename T, typename AllocatorT>
 using Rebound = typename std::allocator_traits<AllocatorT>::template rebind_alloc<T>;
 
@@ -22,8 +22,8 @@ struct IsStandardAllocator : std::false_type {};
 template <typename T>
 struct IsStandardAllocator<std::allocator<T>> : std::true_type {};
 
-// What deletes a T of that allocator. The standard one stays std::default_delete, so that users can write
-// std::unique_ptr<T>.
+// The deleter for a T of that allocator. For the standard allocator it stays std::default_delete, so that users can
+// write std::unique_ptr<T>.
 template <typename AllocatorT, typename T>
 using Deleter = std::conditional_t<IsStandardAllocator<AllocatorT>::value, std::default_delete<T>,
                                    AllocatorDeleter<Rebound<std::remove_const_t<T>, AllocatorT>>>;

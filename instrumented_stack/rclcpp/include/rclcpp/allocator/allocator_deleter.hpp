@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives an object back to the allocator that it came from.
+// Returns an object to the allocator that it came from.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The context that rclcpp::init() initialises and that everything uses unless told otherwise.
+// The context that rclcpp::init() initialises. Everything uses it by default.
 #pragma once
 
 #include "rclcpp/context.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readable name of a callback for the event rclcpp_callback_register, kept in two words until somebody wants it.
+// The readable name of a callback for the event rclcpp_callback_register. It is kept in two words until it is needed.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace rclcpp::detail {
 
-// A function's own name; of everything else the type, which for a lambda names the function around it.
+// The name of a function, or the type of any other callable. The type of a lambda names the function around it.
 class CallbackSymbol {
  public:
   template <typename CallbackT>

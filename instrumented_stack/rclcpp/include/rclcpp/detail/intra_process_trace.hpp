@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace events of intra-process delivery that templates fire: here, so that users of rclcpp need no tracetools.
+// The trace events that templates of intra-process delivery fire. They are here so that users of rclcpp need no
+// tracetools.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@ void trace_ring_buffer_clear(const void* buffer);
 void trace_buffer_to_ipb(const void* buffer, const void* ipb);
 void trace_ipb_to_subscription(const void* ipb, const void* subscription);
 
-// The ends of these objects.
+// Record the end of these objects.
 void trace_ring_buffer_fini(const void* buffer);
 void trace_ipb_fini(const void* ipb);
 void trace_intra_process_fini(const void* subscription, const void* callback);

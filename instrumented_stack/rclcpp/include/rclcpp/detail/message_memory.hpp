@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of types that are known at run time only.
+// Messages of types that are known only at run time.
 #pragma once
 
 #include <rosidl_runtime_c/message_type_support_struct.h>

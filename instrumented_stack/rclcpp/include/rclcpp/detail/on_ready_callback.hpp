@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's callback at an address that rcl can call.
+// Keeps a user's callback at an address that rcl can call.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace rclcpp::detail {
 
 class OnReadyCallback {
  public:
-  // `set_in_rcl` gets a C function and its user data and hands them to rcl, which calls the former ones no more when it
-  // returns. `what` names the entity in the log when the callback throws: exceptions must not pass through C.
-  // Throws std::invalid_argument for an empty callback, with `function` as the name of the one that was called.
+  // `set_in_rcl` gets a C function and its user data and passes them to rcl. When it returns, rcl no longer calls the
+  // former ones. Exceptions must not pass through C, so they are logged; `what` names the entity in the log. Throws
+  // std::invalid_argument for an empty callback, with `function` as the name of the called function.
   template <typename SetInRclT>
   void set(std::function<void(size_t)> callback, const char* function, const char* what, SetInRclT set_in_rcl) {
     std::unique_ptr<Target> target = make_target(std::move(callback), function, what);

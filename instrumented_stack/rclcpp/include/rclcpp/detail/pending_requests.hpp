@@ -13,21 +13,21 @@
 
 namespace rclcpp::detail {
 
-// With each request what its response is for. Thread safe.
+// Keeps for each request the receiver of its response. Thread safe.
 template <typename AnswerT>
 class PendingRequests {
  public:
   // Calls `send`, which returns the id of the request.
   template <typename SendT>
   int64_t add(SendT send, AnswerT answer) {
-    // Locked until the request is registered: its response may come before this function returns.
+    // Locked until the request is registered, because its response may come before this function returns.
     const std::lock_guard lock(mutex_);
     const int64_t request_id = send();
     requests_.emplace(request_id, Request{std::chrono::system_clock::now(), std::move(answer)});
     return request_id;
   }
 
-  // Nothing for a request that is not pending.
+  // Empty if the request is not pending.
   std::optional<AnswerT> take(int64_t request_id) {
     const std::lock_guard lock(mutex_);
     auto node = requests_.extract(request_id);
@@ -39,7 +39,7 @@ class PendingRequests {
     return requests_.erase(request_id) != 0;
   }
 
-  // Both give the number of requests that were removed, and the second their ids.
+  // Both return the number of requests that were removed; the second also gets their ids.
   size_t prune() {
     const std::lock_guard lock(mutex_);
     const size_t count = requests_.size();

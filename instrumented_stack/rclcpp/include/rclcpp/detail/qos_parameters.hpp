@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of qos_overriding_options.hpp.
+// Declares the parameters described in qos_overriding_options.hpp.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@ namespace rclcpp::detail {
 
 enum class QosEntity { Publisher, Subscription };
 
-// Declares a read-only parameter for each policy of `options` that the entity has, and gives `qos` with their values.
-// `topic_name` is the full one. Throws exceptions::InvalidQosOverridesException for a refused or unknown value, and
+// Declares a read-only parameter for each policy of `options` that the entity has. Returns `qos` with their values.
+// `topic_name` is the full name. Throws exceptions::InvalidQosOverridesException for a refused or unknown value, and
 // what declaring parameters throws.
 QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces::NodeParametersInterface& parameters,
                            const std::string& topic_name, const QoS& qos, QosEntity entity);
 
-// The same for an entity on `topic_name` as its creator gave it; `qos` itself if `options` has no policy. Without
-// parameters no policy can be overridden: std::runtime_error.
+// The same for an entity on `topic_name` as its creator gave it. Returns `qos` unchanged if `options` has no policy.
+// Throws std::runtime_error if there are policies to override but no parameters interface.
 QoS overridden_qos(const QosOverridingOptions& options,
                    const std::shared_ptr<node_interfaces::NodeParametersInterface>& parameters,
                    const node_interfaces::NodeBaseInterface& node_base, const std::string& topic_name, const QoS& qos,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Command lines as rcl parses them, with C++ ownership.
+// Command lines, parsed by rcl and owned by C++ objects.
 #pragma once
 
 #include <rcl/arguments.h>
@@ -9,7 +9,7 @@
 
 namespace rclcpp::detail {
 
-// The arguments after --ros-args that rcl did not understand.
+// The arguments after --ros-args that rcl did not recognise.
 std::vector<std::string> unparsed_ros_arguments(const char* const* argv, const rcl_arguments_t& arguments);
 
 // The arguments outside of `--ros-args … [--]`.

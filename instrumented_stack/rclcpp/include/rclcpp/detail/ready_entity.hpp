@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an executor's wait can find ready. Weak, so that a user's reset() destroys it at once.
+// An entity that an executor's wait can find ready. Held weakly, so that a user's reset() destroys it at once.
 #pragma once
 
 #include <variant>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The statistics of a subscription, from its options.
+// Creates the statistics of a subscription from its options.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class SubscriptionTopicStatistics;
 
 namespace detail {
 
-// With a publisher and a timer of their own; null unless options or node want them. Throws std::invalid_argument for a
+// They have their own publisher and timer. Null unless options or node enable them. Throws std::invalid_argument for a
 // period that is not positive, and what creating a publisher throws.
 std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> make_topic_statistics(
     const SubscriptionOptionsBase& options, node_interfaces::NodeBaseInterface& node_base,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rclcpp throws. Failures of rcl arrive here at one place: throw_from_rcl_error().
+// The exceptions of rclcpp. Failures of rcl become exceptions in one place: throw_from_rcl_error().
 #pragma once
 
 #include <rcl/error_handling.h>
@@ -94,7 +94,7 @@ class RCLInvalidArgument : public RCLErrorBase, public std::invalid_argument {
   RCLInvalidArgument(const RCLErrorBase& base_exc, const std::string& prefix);
 };
 
-// A token after --ros-args was recognised and is malformed.
+// A token after --ros-args was recognised but is malformed.
 class RCLInvalidROSArgsError : public RCLErrorBase, public std::runtime_error {
  public:
   RCLInvalidROSArgsError(rcl_ret_t ret, const rcl_error_state_t* error_state, const std::string& prefix);
@@ -153,8 +153,8 @@ class ParameterModifiedInCallbackException : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws the exception that stands for `ret`: RCLBadAlloc, RCLInvalidArgument, RCLInvalidROSArgsError, else RCLError.
-// `error_state` defaults to the error of this thread, which is then cleared by `reset_error`, and before that copied.
+// Throws the exception for `ret`: RCLBadAlloc, RCLInvalidArgument, RCLInvalidROSArgsError, else RCLError. `error_state`
+// defaults to the error of this thread. It is copied and then cleared with `reset_error`.
 [[noreturn]] void throw_from_rcl_error(rcl_ret_t ret, const std::string& prefix = "",
                                        const rcl_error_state_t* error_state = nullptr,
                                        void (*reset_error)() = rcl_reset_error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs callbacks in several threads: those of a reentrant group beside one another, those of a mutually exclusive group
-// one at a time.
+// Runs callbacks in several threads. Callbacks of a reentrant group may run at the same time, those of a mutually
+// exclusive group run one at a time.
 #pragma once
 
 #include <chrono>
@@ -12,18 +12,19 @@
 
 namespace rclcpp::executors {
 
-// One thread at a time waits for work; the others execute, or stand in line to wait.
+// One thread at a time waits for work. The others execute, or queue for their turn to wait.
 class MultiThreadedExecutor : public Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(MultiThreadedExecutor)
 
-  // `number_of_threads` counts the one that calls spin(); 0: one per processor, at least 2. `yield_before_execute` lets
-  // other threads go first before each callback. `timeout` limits each wait for work, negative: no limit.
+  // `number_of_threads` includes the thread that calls spin(); 0: one per processor, at least 2. With
+  // `yield_before_execute` a thread yields to others before each callback. `timeout` limits each wait for work;
+  // negative: no limit.
   explicit MultiThreadedExecutor(const ExecutorOptions& options = ExecutorOptions(), size_t number_of_threads = 0,
                                  bool yield_before_execute = false,
                                  std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
 
-  // After an exception of a callback the threads end, and the first exception comes out here.
+  // If a callback throws, all threads end, and spin() throws the first exception.
   void spin() override;
 
   size_t get_number_of_threads() const { return number_of_threads_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kept for programs written for it: every executor here rebuilds its list of entities only after a change, which is
-// what this one was made for.
+// Exists for programs that use it. It was made to rebuild the list of entities only after a change; every executor here
+// does that.
 #pragma once
 
 #include "rclcpp/executors/single_threaded_executor.hpp"

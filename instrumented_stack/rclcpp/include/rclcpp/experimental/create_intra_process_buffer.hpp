@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The buffer that a subscription, or a transient local publisher, needs.
+// Creates the buffer of a subscription or of a transient local publisher.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace rclcpp::experimental {
 
-// Throws std::invalid_argument for a depth of 0, std::runtime_error for a type that is not resolved.
+// Throws std::invalid_argument for a depth of 0, std::runtime_error if the buffer type is not resolved.
 template <typename MessageT, typename AllocatorT>
 typename buffers::IntraProcessBuffer<MessageT, AllocatorT>::SharedPtr create_intra_process_buffer(
     IntraProcessBufferType buffer_type, const QoS& qos, const AllocatorT& allocator) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who can reach whom within a context without the middleware, and the delivery itself.
+// Delivers messages within a context without the middleware, and knows which publishers and subscriptions match.
 //
-// Each context has one (Context::get_sub_context<IntraProcessManager>()). A publisher that was added hands its messages
-// to do_intra_process_publish(), which puts them into the buffers of the subscriptions that match by topic and QoS:
+// Each context has one manager (Context::get_sub_context<IntraProcessManager>()). A publisher that was added passes its
+// messages to do_intra_process_publish(), which puts them into the buffers of the subscriptions that match by topic and
+// QoS:
 //
-// - All of them share messages: one message for all, no copy.
-// - Some want their own: they get copies, the last one gets the message itself. So one subscription alone never costs a
-//   copy.
+// - All subscriptions share messages: there is one message for all and no copy.
+// - Some subscriptions own their messages: they get copies, and the last one gets the message itself. So a single
+//   subscription never costs a copy.
 #pragma once
 
 #include <array>
@@ -37,26 +38,26 @@ class IntraProcessManager {
   IntraProcessManager() = default;
   RCLCPP_DISABLE_COPY(IntraProcessManager)
 
-  // Both must be removed before they are destroyed. `replay`, of a transient local publisher, gives a late subscription
-  // what was published before.
+  // Remove both before they are destroyed. `replay`, of a transient local publisher, gives earlier messages to a late
+  // subscription.
   using Replay = std::function<void(SubscriptionIntraProcessBase&)>;
   uint64_t add_publisher(const PublisherBase& publisher, Replay replay = nullptr);
   uint64_t add_subscription(const SubscriptionIntraProcessBase::SharedPtr& subscription);
   void remove_publisher(uint64_t intra_process_publisher_id);
   void remove_subscription(uint64_t intra_process_subscription_id);
 
-  // Whether a message of that sender came, or will come, through a buffer too.
+  // Whether a message of that sender also came, or will come, through a buffer.
   bool matches_any_publishers(const rmw_gid_t& id) const;
   // 0 for an unknown publisher.
   size_t get_subscription_count(uint64_t intra_process_publisher_id) const;
-  // Null for an unknown one, or one that is gone.
+  // Null if it is unknown or gone.
   SubscriptionIntraProcessBase::SharedPtr get_subscription_intra_process(uint64_t intra_process_subscription_id) const;
-  // How many messages every subscription of the publisher can take without losing one; 0 for an unknown publisher or
-  // one without subscriptions.
+  // The number of messages that every subscription of the publisher can take without losing one. 0 for an unknown
+  // publisher and for one without subscriptions.
   size_t lowest_available_capacity(uint64_t intra_process_publisher_id) const;
 
   // MessageT is the ROS message type or the custom type of a TypeAdapter. Does nothing for an unknown publisher. Throws
-  // std::runtime_error when a subscription has another allocator.
+  // std::runtime_error if a subscription has another allocator.
   template <typename MessageT, typename ROSMessageT, typename AllocatorT>
   void do_intra_process_publish(uint64_t id, allocator::UniquePtr<MessageT, AllocatorT> message,
                                 const AllocatorT& allocator) const {
@@ -71,7 +72,7 @@ class IntraProcessManager {
       share<MessageT, ROSMessageT, AllocatorT>(sharing, std::move(message));
       return;
     }
-    // One that shares can as well have its own: that saves a copy.
+    // A single sharing subscription can own its message instead: that saves a copy.
     if (sharing.size() > 1) {
       share<MessageT, ROSMessageT, AllocatorT>(sharing, allocator::make_unique<MessageT>(allocator, *message));
     } else if (!sharing.empty()) {
@@ -81,7 +82,8 @@ class IntraProcessManager {
     give<MessageT, ROSMessageT, AllocatorT>(owning, std::move(message), allocator);
   }
 
-  // The same, and the message stays readable. `keep` is called with it before subscriptions can come or go.
+  // Like the function above, and the message stays readable. `keep` is called with it before subscriptions can come or
+  // go.
   template <typename MessageT, typename ROSMessageT, typename AllocatorT, typename KeepT>
   std::shared_ptr<const MessageT> do_intra_process_publish_and_return_shared(
       uint64_t id, allocator::UniquePtr<MessageT, AllocatorT> message, const AllocatorT& allocator, KeepT keep) const {
@@ -156,7 +158,7 @@ class IntraProcessManager {
     }
   }
 
-  // `recipients` is not empty.
+  // `recipients` must not be empty.
   template <typename MessageT, typename ROSMessageT, typename AllocatorT>
   static void give(const Recipients& recipients, allocator::UniquePtr<MessageT, AllocatorT> message,
                    const AllocatorT& allocator) {
@@ -170,7 +172,7 @@ class IntraProcessManager {
   uint64_t last_id_ = 0;
   std::unordered_map<uint64_t, PublisherEntry> publishers_;
   std::unordered_map<uint64_t, SubscriptionIntraProcessBase::WeakPtr> subscriptions_;
-  std::set<std::array<uint8_t, RMW_GID_STORAGE_SIZE>> gids_;  // of the publishers
+  std::set<std::array<uint8_t, RMW_GID_STORAGE_SIZE>> gids_;  // ids of the publishers
 };
 
 }  // namespace rclcpp::experimental

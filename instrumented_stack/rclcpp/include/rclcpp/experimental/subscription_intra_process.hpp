@@ -24,7 +24,7 @@ class SubscriptionROSMsgIntraProcessBuffer : public SubscriptionIntraProcessBase
   virtual void provide_intra_process_message(allocator::UniquePtr<ROSMessageT, AllocatorT> message) = 0;
 };
 
-// Takes messages of the type that the subscription was created for; they are the same unless there is a TypeAdapter.
+// Takes messages of the type that the subscription was created for. Without a TypeAdapter this is the type on the wire.
 template <typename SubscribedT, typename ROSMessageT, typename AllocatorT>
 class SubscriptionIntraProcessBuffer : public SubscriptionROSMsgIntraProcessBuffer<ROSMessageT, AllocatorT> {
  public:
@@ -107,7 +107,7 @@ class SubscriptionIntraProcess
 
   const AnySubscriptionCallbackBase& get_callback() const { return any_callback_; }
 
-  // Null if another thread was faster.
+  // Null if another thread has already taken the message.
   std::shared_ptr<void> take_data() override {
     auto taken = std::make_shared<Taken>();
     if (this->buffer()->use_take_shared_method()) {
@@ -119,7 +119,7 @@ class SubscriptionIntraProcess
       return nullptr;
     }
     if (this->has_data()) {
-      this->guard_condition_.trigger();  // for another thread that waits
+      this->guard_condition_.trigger();  // for another waiting thread
     }
     return taken;
   }

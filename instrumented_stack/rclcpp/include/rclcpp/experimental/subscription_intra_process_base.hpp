@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The side of a subscription that receives from publishers of the same context, as a waitable beside the subscription
-// itself.
+// The part of a subscription that receives from publishers of the same context. It is a waitable besides the
+// subscription itself.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class SubscriptionIntraProcessBase : public Waitable {
   const QoS& get_actual_qos() const { return qos_; }
   bool is_durability_transient_local() const { return qos_.durability() == DurabilityPolicy::TransientLocal; }
 
-  // Whether messages may be shared with other subscriptions: no copy then.
+  // Whether messages may be shared with other subscriptions, which saves a copy.
   virtual bool use_take_shared_method() const = 0;
   virtual size_t available_capacity() const = 0;
 
@@ -46,15 +46,16 @@ class SubscriptionIntraProcessBase : public Waitable {
   bool is_ready(const rcl_wait_set_t& wait_set) override;
   std::shared_ptr<void> take_data_by_entity_id(size_t id) override;
 
-  // Runs the callback with what take_data() returned; nothing for null.
+  // Runs the callback with the result of take_data(); does nothing for null.
   void execute(const std::shared_ptr<void>& data) override;
 
-  // What measures these messages too, whose age is not known; null: nothing. To be called before the first execute().
+  // Sets the statistics that also measure these messages; their age is not known. Null: no statistics. Call it before
+  // the first execute().
   void set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics) {
     statistics_ = std::move(statistics);
   }
 
-  // Messages that came before are reported at once, at most as many as the queue holds.
+  // Earlier messages are reported at once, at most as many as the queue holds.
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
 
@@ -62,7 +63,7 @@ class SubscriptionIntraProcessBase : public Waitable {
   virtual bool has_data() const = 0;
   virtual void dispatch(const std::shared_ptr<void>& data, const MessageInfo& message_info) = 0;
 
-  // After a message was put into the buffer.
+  // Call it after a message was put into the buffer.
   void notify();
 
   GuardCondition guard_condition_;

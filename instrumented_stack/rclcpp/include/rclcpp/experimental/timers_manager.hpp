@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs timers without a wait set: either asked, by an executor in its own thread, or in a thread of its own.
+// Runs timers without a wait set. Either an executor calls it in its own thread, or it uses a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -19,12 +19,12 @@
 
 namespace rclcpp::experimental {
 
-// Thread safe. Refers to timers weakly. Looks at all timers to find the next one: meant for some hundreds, not more.
+// Thread safe. Holds timers weakly. Looks at all timers to find the next one, so it suits some hundreds, not more.
 class TimersManager {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(TimersManager)
 
-  // `on_change` is called when get_head_timeout() may have become shorter, by the thread that made it so: it must only
+  // `on_change` is called when get_head_timeout() may have become shorter, by the thread that caused it. It must only
   // take note.
   explicit TimersManager(std::shared_ptr<rclcpp::Context> context, std::function<void()> on_change = nullptr);
   ~TimersManager();
@@ -34,16 +34,16 @@ class TimersManager {
   void remove_timer(const TimerBase::SharedPtr& timer);
   void clear();
 
-  // Executes timers in a thread of this object until stop(). Throws std::runtime_error if that goes on already. An
+  // Executes timers in a thread of this object until stop(). Throws std::runtime_error if the thread runs already. An
   // exception of a callback ends the program, as in any thread.
   void start();
   void stop();
 
-  // Executes the timer that is longest due. False if none is.
+  // Executes the timer that has been due longest. Returns false if none is due.
   bool execute_head_timer();
   size_t get_number_ready_timers();
 
-  // Until the next timer is due, on its clock; negative if it is overdue, the largest value if there is none.
+  // The time until the next timer is due, on its clock. Negative if it is overdue, the largest value if there is none.
   std::chrono::nanoseconds get_head_timeout();
 
  private:

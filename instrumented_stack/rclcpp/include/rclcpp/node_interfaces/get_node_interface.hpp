@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the free functions of rclcpp take for a node: a Node, a LifecycleNode, or a plain, shared or unique pointer to
+// What the free functions of rclcpp accept as a node: a Node, a LifecycleNode, or a plain, shared or unique pointer to
 // one.
 #pragma once
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_interfaces::get_node_timers_interface(node), for anything that has that interface or points to something that
-// has.
+// node_interfaces::get_node_timers_interface(node), for any class that has that interface, or a pointer to one.
 #pragma once
 
 #include <memory>

@@ -31,17 +31,17 @@ class NodeBase {
   const char* get_namespace() const { return rcl_node_get_namespace(node_handle_.get()); }
   const char* get_fully_qualified_name() const { return rcl_node_get_fully_qualified_name(node_handle_.get()); }
   Context::SharedPtr get_context() const { return context_; }
-  // Whether publishers and subscriptions that do not say otherwise use intra-process communication.
+  // Whether publishers and subscriptions use intra-process communication by default.
   bool get_use_intra_process_default() const { return use_intra_process_default_; }
-  // Whether subscriptions that do not say otherwise publish statistics.
+  // Whether subscriptions publish statistics by default.
   bool get_enable_topic_statistics_default() const { return enable_topic_statistics_default_; }
 
   rcl_node_t* get_rcl_node_handle() { return node_handle_.get(); }
   const rcl_node_t* get_rcl_node_handle() const { return node_handle_.get(); }
-  // Publishers, subscriptions and so on hold it: the rcl node goes when the last of them has gone.
+  // Publishers, subscriptions and other entities hold it. The rcl node is destroyed with the last of them.
   std::shared_ptr<rcl_node_t> get_shared_rcl_node_handle() const { return node_handle_; }
 
-  // The node keeps groups weakly, except the default one.
+  // The node holds groups weakly, except the default one.
   CallbackGroup::SharedPtr create_callback_group(CallbackGroupType group_type,
                                                  bool automatically_add_to_executor_with_node = true);
   CallbackGroup::SharedPtr get_default_callback_group() const { return default_callback_group_; }
@@ -51,7 +51,7 @@ class NodeBase {
 
   // True while an executor has the node. Executors set it.
   std::atomic_bool& get_associated_with_executor_atomic() { return associated_with_executor_; }
-  // What happens after a callback group was created or the node was destroyed: the executor's business.
+  // Sets the function that is called after a callback group was created or the node was destroyed. Executors use it.
   void set_on_change(std::function<void()> on_change);
 
   std::string resolve_topic_or_service_name(const std::string& name, bool is_service, bool only_expand = false) const;
@@ -71,7 +71,7 @@ class NodeBase {
   std::function<void()> on_change_;
 };
 
-// There is one implementation. The name of rclcpp's interface stays.
+// There is one implementation. The name comes from rclcpp's interface.
 using NodeBaseInterface = NodeBase;
 
 }  // namespace rclcpp::node_interfaces

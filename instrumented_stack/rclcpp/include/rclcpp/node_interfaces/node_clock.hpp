@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock of a node, for whoever is given interfaces instead of a node.
+// The clock of a node, for code that gets interfaces instead of a node.
 #pragma once
 
 #include <utility>

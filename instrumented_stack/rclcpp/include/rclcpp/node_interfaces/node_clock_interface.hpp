@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place where ROS 2 declares node_interfaces::NodeClockInterface; here it is the class itself.
+// ROS 2 declares node_interfaces::NodeClockInterface here. In this stack it is the class itself.
 #pragma once
 
 #include "rclcpp/node_interfaces/node_clock.hpp"

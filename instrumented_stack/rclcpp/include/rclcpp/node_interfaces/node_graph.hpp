@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node knows of the whole system: other nodes, topics, how many publish and subscribe.
+// The graph as a node sees it: other nodes, topics, numbers of publishers and subscriptions.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace rclcpp::node_interfaces {
 
-// Discovery takes time: what has just been created elsewhere may be missing. Throws exceptions::RCLError.
+// Discovery takes time: entities created elsewhere just now may be missing. Throws exceptions::RCLError.
 class NodeGraph {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeGraph)
@@ -31,7 +31,7 @@ class NodeGraph {
   std::vector<std::pair<std::string, std::string>> get_node_names_and_namespaces() const;
   NamesAndTypes get_topic_names_and_types(bool no_demangle = false) const;
 
-  // What one node has. Throw exceptions::RCLError with RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
+  // The entities of one node. Throw exceptions::RCLError with RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
   NamesAndTypes get_publisher_names_and_types_by_node(const std::string& node_name, const std::string& namespace_,
                                                       bool no_demangle = false) const;
   NamesAndTypes get_subscriber_names_and_types_by_node(const std::string& node_name, const std::string& namespace_,
@@ -43,7 +43,7 @@ class NodeGraph {
   size_t count_publishers(const std::string& topic_name) const;
   size_t count_subscribers(const std::string& topic_name) const;
 
-  // The topic name likewise; with `no_mangle` it is taken as DDS has it.
+  // The topic name is expanded and remapped, too. With `no_mangle` it is the name in DDS.
   std::vector<TopicEndpointInfo> get_publishers_info_by_topic(const std::string& topic_name,
                                                               bool no_mangle = false) const;
   std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string& topic_name,
@@ -54,9 +54,9 @@ class NodeGraph {
   size_t count_services(const std::string& service_name) const;
   size_t count_clients(const std::string& service_name) const;
 
-  // An event that is set by every change of the graph from now on.
+  // An event that every later change of the graph sets.
   Event::SharedPtr get_graph_event() const;
-  // Returns when the event is set, the time is over (negative: never), or the context has ended. Throws
+  // Returns when the event is set, the timeout is over (negative: never), or the context has ended. Throws
   // exceptions::InvalidEventError for null.
   void wait_for_graph_change(const Event::SharedPtr& event, std::chrono::nanoseconds timeout) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NodeInterfaces: the part of a node that a function needs, so that it takes nodes of every class.
+// NodeInterfaces: the interfaces that a function needs of a node, so that it accepts nodes of every class.
 //
 //   using Interfaces = rclcpp::node_interfaces::NodeInterfaces<NodeBaseInterface, NodeLoggingInterface>;
 //   void inspect(Interfaces node) { RCLCPP_INFO(node.get_node_logging_interface()->get_logger(), "…"); }
@@ -26,7 +26,7 @@ namespace rclcpp::node_interfaces {
 
 namespace detail {
 
-// How to get an interface of a node, and the getter that a NodeInterfaces with this interface has.
+// How to get an interface from a node, and the getter for it in NodeInterfaces.
 template <typename InterfaceT, typename InterfacesT>
 struct NodeInterfaceAccess;
 
@@ -66,10 +66,10 @@ class NodeInterfaces : public detail::NodeInterfaceAccess<InterfaceTs, NodeInter
   static_assert(sizeof...(InterfaceTs) > 0, "NodeInterfaces needs at least one interface");
 
  public:
-  // All null.
+  // All interfaces are null.
   NodeInterfaces() = default;
 
-  // Those of a node, or of other NodeInterfaces that have them.
+  // Takes the interfaces from a node, or from other NodeInterfaces that have them.
   template <typename NodeT,
             typename = std::enable_if_t<!std::is_same_v<std::decay_t<NodeT>, NodeInterfaces> &&
                                         (detail::HasNodeBase<NodeT>::value || std::is_class_v<std::decay_t<NodeT>>)&&!(

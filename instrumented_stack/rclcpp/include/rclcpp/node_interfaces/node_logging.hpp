@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The logger of a node, and the services by which others read and change log levels.
+// The logger of a node, and the services that read and change log levels.
 #pragma once
 
 #include <utility>

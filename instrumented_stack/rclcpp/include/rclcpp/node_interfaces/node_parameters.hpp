@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of a node: declared ones with their values and descriptions, the services for them, and who wants to
-// know of changes.
+// The parameters of a node: the declared ones with values and descriptions, their services, and the callbacks for
+// changes.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class NodeParameters {
                  Clock::SharedPtr clock, const NodeOptions& options, const rcl_node_options_t& rcl_options);
   ~NodeParameters();
 
-  // See Node for what these throw.
+  // Node documents the exceptions.
   const ParameterValue& declare_parameter(const std::string& name, const ParameterValue& default_value,
                                           const Descriptor& descriptor = Descriptor(), bool ignore_override = false);
   const ParameterValue& declare_parameter(const std::string& name, ParameterType type,
@@ -65,12 +65,12 @@ class NodeParameters {
   Parameter get_parameter(const std::string& name) const;
   bool get_parameter(const std::string& name, Parameter& parameter) const;
   std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const;
-  // The set parameters `prefix.x` by the name x.
+  // Gets the set parameters `prefix.x` by the name x.
   bool get_parameters_by_prefix(const std::string& prefix, std::map<std::string, Parameter>& parameters) const;
 
   std::vector<Descriptor> describe_parameters(const std::vector<std::string>& names) const;
   std::vector<uint8_t> get_parameter_types(const std::vector<std::string>& names) const;
-  // Names below the prefixes, at most `depth` levels down (0: all).
+  // Lists the names below the prefixes, at most `depth` levels down (0: all).
   rcl_interfaces::msg::ListParametersResult list_parameters(const std::vector<std::string>& prefixes,
                                                             uint64_t depth) const;
 
@@ -80,12 +80,12 @@ class NodeParameters {
       decltype(PreSetParametersCallbackHandle::callback) callback);
   PostSetParametersCallbackHandle::SharedPtr add_post_set_parameters_callback(
       decltype(PostSetParametersCallbackHandle::callback) callback);
-  // Throw std::runtime_error for a handle that is not registered.
+  // Throw std::runtime_error if the handle is not registered.
   void remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle);
   void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle);
   void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle);
 
-  // By name: from the command line, parameter files and NodeOptions, as far as they are for this node.
+  // Overrides by name, from the command line, parameter files and NodeOptions. Only those for this node.
   const std::map<std::string, ParameterValue>& get_parameter_overrides() const { return overrides_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts services and clients where an executor finds them.
+// Adds services and clients to callback groups, where executors find them.
 #pragma once
 
 #include <string>
@@ -19,11 +19,11 @@ class NodeServices {
 
   explicit NodeServices(NodeBaseInterface::SharedPtr node_base) : node_base_(std::move(node_base)) {}
 
-  // Null: the default group. Throw std::runtime_error for a group of another node.
+  // Null means the default group. Throw std::runtime_error if the group belongs to another node.
   void add_service(const ServiceBase::SharedPtr& service, const CallbackGroup::SharedPtr& group);
   void add_client(const ClientBase::SharedPtr& client, const CallbackGroup::SharedPtr& group);
 
-  // Expanded and, unless `only_expand`, remapped.
+  // Expands the name and, unless `only_expand`, remaps it.
   std::string resolve_service_name(const std::string& name, bool only_expand = false) const {
     return node_base_->resolve_topic_or_service_name(name, true, only_expand);
   }

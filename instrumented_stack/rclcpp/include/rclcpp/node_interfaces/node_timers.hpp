@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts timers where an executor finds them.
+// Adds timers to callback groups, where executors find them.
 #pragma once
 
 #include <utility>
@@ -17,7 +17,7 @@ class NodeTimers {
 
   explicit NodeTimers(NodeBaseInterface::SharedPtr node_base) : node_base_(std::move(node_base)) {}
 
-  // Null: the default group. Throws std::runtime_error for a group of another node.
+  // Null means the default group. Throws std::runtime_error if the group belongs to another node.
   void add_timer(const TimerBase::SharedPtr& timer, const CallbackGroup::SharedPtr& group);
 
   const NodeBaseInterface::SharedPtr& get_node_base_interface() const { return node_base_; }

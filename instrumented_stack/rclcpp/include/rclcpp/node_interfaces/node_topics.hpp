@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts subscriptions, and the event handlers of publishers and subscriptions, where an executor finds them.
+// Adds subscriptions, and the event handlers of publishers and subscriptions, to callback groups, where executors find
+// them.
 #pragma once
 
 #include <string>
@@ -19,11 +20,11 @@ class NodeTopics {
 
   explicit NodeTopics(NodeBaseInterface::SharedPtr node_base) : node_base_(std::move(node_base)) {}
 
-  // Null: the default group. Throw std::runtime_error for a group of another node.
+  // Null means the default group. Throw std::runtime_error if the group belongs to another node.
   void add_publisher(const PublisherBase::SharedPtr& publisher, const CallbackGroup::SharedPtr& group);
   void add_subscription(const SubscriptionBase::SharedPtr& subscription, const CallbackGroup::SharedPtr& group);
 
-  // Expanded and, unless `only_expand`, remapped.
+  // Expands the name and, unless `only_expand`, remaps it.
   std::string resolve_topic_name(const std::string& name, bool only_expand = false) const {
     return node_base_->resolve_topic_or_service_name(name, false, only_expand);
   }

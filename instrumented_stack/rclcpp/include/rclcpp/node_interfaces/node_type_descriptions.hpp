@@ -10,8 +10,8 @@
 
 namespace rclcpp::node_interfaces {
 
-// It exists unless the parameter start_type_description_service, which is declared here, is false. It tells of the
-// types that the node's publishers, subscriptions, services, clients and actions have at the time, found by their hash.
+// It exists unless the parameter start_type_description_service, which is declared here, is false. It describes the
+// types of the node's current publishers, subscriptions, services, clients and actions, by their hash.
 class NodeTypeDescriptions {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeTypeDescriptions)

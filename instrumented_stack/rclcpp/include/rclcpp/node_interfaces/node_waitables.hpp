@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts waitables where an executor finds them.
+// Adds waitables to callback groups, where executors find them.
 #pragma once
 
 #include <utility>
@@ -17,10 +17,10 @@ class NodeWaitables {
 
   explicit NodeWaitables(NodeBaseInterface::SharedPtr node_base) : node_base_(std::move(node_base)) {}
 
-  // Null: the default group. The group refers to the waitable weakly. Throws std::runtime_error for a group of another
-  // node.
+  // Null means the default group. The group holds the waitable weakly. Throws std::runtime_error if the group belongs
+  // to another node.
   void add_waitable(const Waitable::SharedPtr& waitable, const CallbackGroup::SharedPtr& group);
-  // Does nothing if the group, null for the default one, is not of this node or does not have the waitable.
+  // Does nothing if the group (null: the default one) belongs to another node or does not have the waitable.
   void remove_waitable(const Waitable::SharedPtr& waitable, const CallbackGroup::SharedPtr& group) noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where messages wait between publisher and callback of one process.
+// Keeps messages between publisher and callback of one process.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ class BufferImplementationBase {
  public:
   virtual ~BufferImplementationBase() = default;
 
-  // The oldest, null if there is none.
+  // Removes the oldest message; null if there is none.
   virtual BufferT dequeue() = 0;
   virtual void enqueue(BufferT request) = 0;
 
-  // All of them, oldest first; they stay. Unique pointers are copied with what they point to.
+  // All messages, oldest first. They stay in the buffer. For unique pointers the messages are copied.
   virtual std::vector<BufferT> get_all_data() = 0;
 
   virtual void clear() = 0;

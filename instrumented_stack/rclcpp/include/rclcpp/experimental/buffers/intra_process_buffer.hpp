@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A subscription's buffer as publishers and the subscription see it: messages go in and come out as shared or unique
-// pointers, whichever of the two the buffer holds. Where the two differ, a message is copied.
+// The interface of a subscription's buffer for publishers and the subscription. Messages go in and come out as shared
+// or unique pointers; the buffer holds one of the two. If the kinds differ, the message is copied.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class IntraProcessBufferBase {
 
   virtual void clear() = 0;
   virtual bool has_data() const = 0;
-  // Whether taking shared pointers costs no copy.
+  // Whether messages can be taken as shared pointers without a copy.
   virtual bool use_take_shared_method() const = 0;
   virtual size_t available_capacity() const = 0;
 };
@@ -38,15 +38,15 @@ class IntraProcessBuffer : public IntraProcessBufferBase {
   virtual void add_shared(MessageSharedPtr message) = 0;
   virtual void add_unique(MessageUniquePtr message) = 0;
 
-  // The oldest message, null if there is none.
+  // Removes the oldest message; null if there is none.
   virtual MessageSharedPtr consume_shared() = 0;
   virtual MessageUniquePtr consume_unique() = 0;
 
-  // All messages, oldest first. They stay.
+  // All messages, oldest first. They stay in the buffer.
   virtual std::vector<MessageSharedPtr> get_all_data_shared() = 0;
 };
 
-// Holds pointers of type BufferT, one of the two.
+// Holds pointers of type BufferT: shared or unique.
 template <typename MessageT, typename AllocatorT, typename BufferT>
 class TypedIntraProcessBuffer : public IntraProcessBuffer<MessageT, AllocatorT> {
  public:
@@ -76,7 +76,7 @@ class TypedIntraProcessBuffer : public IntraProcessBuffer<MessageT, AllocatorT> 
   MessageSharedPtr consume_shared() override { return buffer_->dequeue(); }
   MessageUniquePtr consume_unique() override {
     if constexpr (kHoldsShared) {
-      // Others may hold it too.
+      // Others may own it too.
       const MessageSharedPtr message = buffer_->dequeue();
       return message ? copy(*message) : nullptr;
     } else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A buffer of fixed capacity in which a new message takes the place of the oldest: history "keep last".
+// A buffer of fixed capacity. A new message replaces the oldest: history "keep last".
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ class RingBufferImplementation : public BufferImplementationBase<BufferT> {
   RCLCPP_DISABLE_COPY(RingBufferImplementation)
 
   void enqueue(BufferT request) override {
-    // What is overwritten leaves in `request`, to be destroyed after the lock.
+    // An overwritten message moves to `request`, which is destroyed after the lock is released.
     const std::lock_guard lock(mutex_);
     write_index_ = next(write_index_);
     std::swap(ring_buffer_[write_index_], request);
@@ -72,7 +72,7 @@ class RingBufferImplementation : public BufferImplementationBase<BufferT> {
 
   void clear() override {
     rclcpp::detail::trace_ring_buffer_clear(this);
-    std::vector<BufferT> cleared(ring_buffer_.size());  // destroyed after the lock
+    std::vector<BufferT> cleared(ring_buffer_.size());  // destroyed after the lock is released
     const std::lock_guard lock(mutex_);
     ring_buffer_.swap(cleared);
     write_index_ = ring_buffer_.size() - 1;
@@ -102,7 +102,7 @@ class RingBufferImplementation : public BufferImplementationBase<BufferT> {
 
   mutable std::mutex mutex_;
   std::vector<BufferT> ring_buffer_;
-  size_t write_index_;  // of the newest
+  size_t write_index_;  // position of the newest message
   size_t read_index_ = 0;
   size_t size_ = 0;
 };

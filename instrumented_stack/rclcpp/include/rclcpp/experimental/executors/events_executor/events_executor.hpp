@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An executor that does not wait for entities, but is told by the middleware what has arrived and keeps that in a
-// queue: the work per message does not depend on the number of entities.
+// An executor that does not wait for entities. The middleware notifies it of arrivals, and it keeps them in a queue. So
+// the work per message does not depend on the number of entities.
 #pragma once
 
 #include <atomic>
@@ -16,9 +16,9 @@
 
 namespace rclcpp::experimental::executors {
 
-// It executes in the thread that calls spin(), except, with `execute_timers_separate_thread`, timers in a thread of
-// their own, beside the callbacks of their group. Waitables must override set_on_ready_callback(). It fires none of
-// ros2's rclcpp_executor_* tracepoints, which tell of waiting; those of ros2_ext tell what it executes.
+// Callbacks run in the thread that calls spin(). With `execute_timers_separate_thread`, timers run in their own thread,
+// at the same time as other callbacks of their group. Waitables must override set_on_ready_callback(). It fires no
+// rclcpp_executor_* tracepoint of ros2, because they describe waiting. Those of ros2_ext record what it executes.
 class EventsExecutor : public rclcpp::Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(EventsExecutor)
@@ -38,15 +38,15 @@ class EventsExecutor : public rclcpp::Executor {
   template <typename EntityT>
   using Served = std::unordered_map<const void*, std::weak_ptr<EntityT>>;
 
-  // Adds a wake-up to the queue, after which the entities are looked at again.
+  // Adds a wake-up to the queue. It makes the executor check its entities again.
   void wake();
   bool is_wake_up(const ExecutorEvent& event) const { return event.entity_key == this; }
-  // Has the entities that came since tell the queue, and those that went tell it no more.
+  // Connects new entities to the queue and disconnects removed ones.
   void refresh();
   template <typename EntityT, typename StartT, typename StopT>
   void update(Served<EntityT>& served, Served<EntityT> found, StartT start, StopT stop);
   void enqueue(const void* entity, ExecutorEventType type, size_t count, int waitable_data = 0);
-  // False if the queue stayed empty for the time.
+  // Returns false if the queue stayed empty for the time.
   bool execute_next(std::chrono::nanoseconds timeout, bool& was_wake_up);
   void execute_event(const ExecutorEvent& event);
 
@@ -54,7 +54,7 @@ class EventsExecutor : public rclcpp::Executor {
   const bool execute_timers_separate_thread_;
   std::atomic_bool wake_up_queued_{false};
   TimersManager timers_;
-  // Of the spinning thread.
+  // Used only by the spinning thread.
   bool timers_thread_runs_ = false;
   bool timer_was_last_ = false;
   Served<SubscriptionBase> subscriptions_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an events executor keeps in its queue.
+// The events in the queue of an events executor.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace rclcpp::experimental::executors {
 enum ExecutorEventType { CLIENT_EVENT, SUBSCRIPTION_EVENT, SERVICE_EVENT, TIMER_EVENT, WAITABLE_EVENT };
 
 struct ExecutorEvent {
-  const void* entity_key;  // the address of the entity, which may be gone
-  int waitable_data;       // which of a waitable's entities
+  const void* entity_key;  // the address of the entity, which may be destroyed
+  int waitable_data;       // which entity of a waitable
   ExecutorEventType type;
   size_t num_events;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an events executor gets its events from. Derive from it for another order than that of arrival.
+// The queue of an events executor. Derive from it to use another order than that of arrival.
 #pragma once
 
 #include <chrono>
@@ -22,11 +22,12 @@ class EventsQueue {
   // Called by threads of the middleware: it must not block.
   virtual void enqueue(const ExecutorEvent& event) = 0;
 
-  // The next event; waits for it up to `timeout`, the largest value for ever. False if there was none.
+  // Takes the next event. Waits for it up to `timeout`; the largest value waits forever. Returns false if there was
+  // none.
   virtual bool dequeue(ExecutorEvent& event, std::chrono::nanoseconds timeout = std::chrono::nanoseconds::max()) = 0;
 
   virtual bool empty() const = 0;
-  // In events, each for one execution.
+  // The number of events. Each counts for one execution.
   virtual size_t size() const = 0;
 };
 
