@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "rclcpp/contexts/default_context.hpp"
 #include "rclcpp/detail/rcl_arguments.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -224,11 +223,6 @@ std::vector<Context::SharedPtr> get_contexts() {
     }
   }
   return contexts;
-}
-
-contexts::DefaultContext::SharedPtr contexts::get_global_default_context() {
-  static const auto context = std::make_shared<DefaultContext>();
-  return context;
 }
 
 }  // namespace rclcpp

@@ -149,4 +149,22 @@ void SignalHandler::run() {
   }
 }
 
+// The functions of rclcpp/utilities.hpp.
+
+bool install_signal_handlers(SignalHandlerOptions signal_handler_options) {
+  return SignalHandler::instance().install(signal_handler_options);
+}
+
+bool signal_handlers_installed() {
+  return SignalHandler::instance().is_installed();
+}
+
+SignalHandlerOptions get_current_signal_handler_options() {
+  return SignalHandler::instance().current_options();
+}
+
+bool uninstall_signal_handlers() {
+  return SignalHandler::instance().uninstall();
+}
+
 }  // namespace rclcpp

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "context/signal_handler.hpp"
 #include "rclcpp/detail/rcl_arguments.hpp"
 
 namespace rclcpp {
@@ -20,22 +19,6 @@ void init(int argc, char const* const* argv, const InitOptions& init_options,
           SignalHandlerOptions signal_handler_options) {
   contexts::get_global_default_context()->init(argc, argv, init_options);
   install_signal_handlers(signal_handler_options);
-}
-
-bool install_signal_handlers(SignalHandlerOptions signal_handler_options) {
-  return SignalHandler::instance().install(signal_handler_options);
-}
-
-bool signal_handlers_installed() {
-  return SignalHandler::instance().is_installed();
-}
-
-SignalHandlerOptions get_current_signal_handler_options() {
-  return SignalHandler::instance().current_options();
-}
-
-bool uninstall_signal_handlers() {
-  return SignalHandler::instance().uninstall();
 }
 
 std::vector<std::string> init_and_remove_ros_arguments(int argc, char const* const* argv,
