@@ -38,7 +38,7 @@ void CallbackGroup::add(std::vector<std::weak_ptr<EntityT>> CallbackGroup::*list
   {
     const std::lock_guard lock(mutex_);
     auto& entities = this->*list;
-    // Forgets the dead in the same go, so that the list stays as long as what lives.
+    // Expired entries are removed here as well, so that the list is as long as the living entities are many.
     std::erase_if(entities, [](const auto& weak) { return weak.expired(); });
     entities.push_back(entity);
   }

@@ -63,7 +63,7 @@ void MultiThreadedExecutor::run() {
     execute_any_executable(any_executable);
     any_executable.release_group();
     if (was_exclusive) {
-      interrupt();  // whoever waits has left the group out
+      interrupt();  // the thread that waits passes over the group
     }
   }
 }

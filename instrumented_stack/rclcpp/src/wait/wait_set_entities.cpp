@@ -319,7 +319,7 @@ void WaitSetEntities::fill(const Owned& owned) {
     require_ok(rcl_wait_set_add_guard_condition(&wait_set_, &guard_condition->get_rcl_guard_condition(), nullptr),
                "Couldn't fill wait set");
   }
-  // After those of the user, who finds them by their index.
+  // After the entities of the user, which the user finds by their index.
   for (const auto& waitable : owned.entities.waitables) {
     waitable->add_to_wait_set(wait_set_);
   }

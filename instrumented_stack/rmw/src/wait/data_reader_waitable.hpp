@@ -26,7 +26,7 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     }
   }
 
-  // `callback` is told of samples that come, and of those that wait. Null: of none.
+  // `callback` is called for samples that come, and for samples that are waiting already. Null ends the calls.
   void set_on_new_data(rmw_event_callback_t callback, const void* user_data) {
     on_new_data_.set(callback, user_data);
     if (callback != nullptr) {
@@ -34,8 +34,8 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     }
   }
 
-  // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap, and not for the
-  // first sample after the reader was empty, which is on its way to a callback: at worst somebody looks once in vain.
+  // Asks the reader only after something has arrived, so that waiting for many idle readers is cheap. Does not ask for
+  // the first sample after the reader was empty: that sample is on its way to a callback. At worst one take is in vain.
   bool is_ready() override {
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     if (const auto known = is_known_to_be_ready(arrivals)) {
@@ -49,13 +49,13 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     return false;
   }
 
-  // Takes the next sample; false when there is none to take. The reader is then not ready until something arrives: it
-  // may hold a sample all the same, one behind another that is missing, which arrives once more when its writer has
-  // resent or given up the other.
+  // Takes the next sample. False if there is none to take; then the reader is not ready until something arrives. The
+  // reader may hold a sample behind another one that is missing. That sample counts as arriving when its writer has
+  // resent the missing one, or given it up.
   bool take_next(void* data, eprosima::fastdds::dds::SampleInfo& info) {
     return take([&] { return reader->take_next_sample(data, &info); });
   }
-  // The same for a sample that stays where the reader has it.
+  // Like take_next(), but the sample stays in the memory of the reader.
   bool take_next_loan(eprosima::fastdds::dds::LoanableCollection& samples,
                       eprosima::fastdds::dds::SampleInfoSeq& infos) {
     return take([&] { return reader->take(samples, infos, 1); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whom a Waitable tells that something came, beside those who wait for it.
+// The callback that a Waitable calls when something has come. Waiters are woken as well.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,7 @@ class ReadyCallback {
 
   bool is_set() const { return is_set_.load(std::memory_order_acquire); }
 
-  // Tells of `count` more.
+  // Calls the callback with `count`.
   void tell(std::size_t count) {
     const std::lock_guard lock(mutex_);
     if (callback_ != nullptr && count != 0) {
@@ -31,7 +31,8 @@ class ReadyCallback {
     }
   }
 
-  // Tells of what `available` exceeds those it was told of and that nobody has tried to take since.
+  // Calls the callback with the samples of `available` that are new: all but the samples that the callback was told of
+  // and that no thread has tried to take since.
   void tell_available(std::size_t available) {
     const std::lock_guard lock(mutex_);
     if (callback_ != nullptr && available > outstanding_) {
@@ -41,7 +42,8 @@ class ReadyCallback {
     }
   }
 
-  // To be called before every try to take: a count that comes between leads to one call too many, never to one too few.
+  // Call this before every attempt to take. A sample that arrives in between leads to one call too many, never to one
+  // too few.
   void about_to_take() {
     if (is_set()) {
       const std::lock_guard lock(mutex_);
