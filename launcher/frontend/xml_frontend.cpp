@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "launcher/frontend/frontend.hpp"
-#include "launcher/frontend/xml_markup.hpp"
+#include "launcher/frontend/read_xml_markup.hpp"
 #include "launcher/frontend/xml_nesting.hpp"
 #include "launcher/frontend/xml_value.hpp"
 
@@ -33,9 +33,9 @@ std::size_t count_children(const tinyxml2::XMLElement& element) {
 }
 
 // Makes entities of the elements, and gives them their places: both are in document order.
-class EntityBuilder {
+class XmlEntityBuilder {
  public:
-  explicit EntityBuilder(const XmlMarkup& markup) : markup_(markup) {}
+  explicit XmlEntityBuilder(const XmlMarkup& markup) : markup_(markup) {}
 
   Entity build(const tinyxml2::XMLElement& element) {
     Entity entity;
@@ -136,7 +136,7 @@ Entity parse_xml(const std::shared_ptr<const SourceFile>& file) {
   if (!markup.errors.empty()) {
     throw LaunchError(std::move(markup.errors));
   }
-  return EntityBuilder(markup).build(*document.RootElement());
+  return XmlEntityBuilder(markup).build(*document.RootElement());
 }
 
 }  // namespace launch

@@ -201,21 +201,6 @@ class TreeBuilder {
 
 }  // namespace
 
-std::string describe(const YamlNode& node) {
-  switch (node.kind) {
-    case YamlNode::Kind::kSequence:
-      return "a list";
-    case YamlNode::Kind::kMapping:
-      return "a mapping";
-    case YamlNode::Kind::kScalar:
-      break;
-  }
-  if (node.is_null()) {
-    return "nothing";
-  }
-  return fmt::format("{} '{}'", type_name(node.scalar.type), node.scalar.text.text());
-}
-
 YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors, const YamlListReader& list) {
   if (std::optional<Diagnostic> bad = find_bad_character(source)) {
     throw YamlSyntaxError(std::vector<Diagnostic>{std::move(*bad)});

@@ -3,37 +3,13 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/frontend/entity.hpp"
+#include "launcher/frontend/yaml_node.hpp"
 
 namespace launch {
-
-struct YamlEntry;
-
-struct YamlNode {
-  enum class Kind { kScalar, kSequence, kMapping };
-
-  Kind kind = Kind::kScalar;
-  Scalar scalar;                   // of a kScalar
-  std::vector<YamlNode> items;     // of a kSequence
-  std::vector<YamlEntry> entries;  // of a kMapping, keys are unique
-  SourceRange where;               // a scalar's text; the first character of a sequence or mapping
-  bool is_plain = false;           // a scalar without quotes or tag
-
-  bool is_null() const { return kind == Kind::kScalar && scalar.type == Scalar::Type::kNull; }
-};
-
-struct YamlEntry {
-  YamlNode key;
-  YamlNode value;
-};
-
-// "a list", "a mapping", "str 'text'", "null": what a message calls the node.
-std::string describe(const YamlNode& node);
 
 // The list that is the value of the document's first key, when that key is `key`. Each item is handed over as soon as
 // it is read, may be taken apart, and makes room for the next, so that a long list costs the memory of one item. In the

@@ -16,7 +16,7 @@ namespace launch {
 
 namespace {
 
-using Kind = YamlEvent::Kind;
+using EventKind = YamlEvent::Kind;
 
 // The text as a stream, not copied.
 class TextBuffer : public std::streambuf {
@@ -39,11 +39,11 @@ class Recorder : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(Kind::kNull, mark, anchor); }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(Kind::kAlias, mark, anchor); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(EventKind::kNull, mark, anchor); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(EventKind::kAlias, mark, anchor); }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
-    YamlEvent& event = add(Kind::kScalar, mark, anchor);
+    YamlEvent& event = add(EventKind::kScalar, mark, anchor);
     event.is_plain = tag.size() == 1 && tag.front() == '?';
     event.text = size();
     events_.texts += value;
@@ -55,19 +55,19 @@ class Recorder : public YAML::EventHandler {
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value style) override {
-    add(Kind::kSequence, mark, anchor).is_flow = style == YAML::EmitterStyle::Flow;
+    add(EventKind::kSequence, mark, anchor).is_flow = style == YAML::EmitterStyle::Flow;
   }
-  void OnSequenceEnd() override { events_.list.push_back({Kind::kEnd}); }
+  void OnSequenceEnd() override { events_.list.push_back({EventKind::kEnd}); }
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value style) override {
-    add(Kind::kMapping, mark, anchor).is_flow = style == YAML::EmitterStyle::Flow;
+    add(EventKind::kMapping, mark, anchor).is_flow = style == YAML::EmitterStyle::Flow;
   }
-  void OnMapEnd() override { events_.list.push_back({Kind::kEnd}); }
+  void OnMapEnd() override { events_.list.push_back({EventKind::kEnd}); }
 
  private:
   std::uint32_t size() const { return static_cast<std::uint32_t>(events_.texts.size()); }
 
-  YamlEvent& add(Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+  YamlEvent& add(EventKind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
     YamlEvent& event = events_.list.emplace_back();
     event.kind = kind;
     event.at = static_cast<std::uint32_t>(place_of(mark, text_));
@@ -83,9 +83,9 @@ class Recorder : public YAML::EventHandler {
 std::optional<std::size_t> open_bracket(const YamlEvents& events) {
   std::size_t closed = 0;
   for (auto event = events.list.rbegin(); event != events.list.rend(); ++event) {
-    if (event->kind == Kind::kEnd) {
+    if (event->kind == EventKind::kEnd) {
       ++closed;
-    } else if (event->kind == Kind::kSequence || event->kind == Kind::kMapping) {
+    } else if (event->kind == EventKind::kSequence || event->kind == EventKind::kMapping) {
       if (closed == 0) {
         return event->is_flow ? std::optional<std::size_t>(event->at) : std::nullopt;
       }

@@ -15,7 +15,7 @@ namespace {
 using Kind = YamlNode::Kind;
 
 // Turns the YAML tree into entities. Goes on after an error, so that all of them are found.
-class EntityBuilder {
+class YamlEntityBuilder {
  public:
   std::vector<Diagnostic> take_errors() { return std::move(errors_); }
 
@@ -237,7 +237,7 @@ Entity parse_yaml(const std::shared_ptr<const SourceFile>& file) {
   const auto size = static_cast<std::uint32_t>(file->text().size());
   const LocatedText source(file->text(), {file, 0, size});
   std::vector<Diagnostic> errors;
-  EntityBuilder builder;
+  YamlEntityBuilder builder;
   std::vector<Entity> actions;
   YamlNode document =
       read_yaml(source, errors, {"launch", [&](YamlNode& item) { builder.item_of_actions(item, actions); }});

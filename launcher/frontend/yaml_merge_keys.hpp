@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
-#include "launcher/frontend/yaml_document.hpp"
+#include "launcher/frontend/yaml_node.hpp"
 
 namespace launch {
 

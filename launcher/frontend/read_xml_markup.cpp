@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/frontend/xml_markup.hpp"
+#include "launcher/frontend/read_xml_markup.hpp"
 
 #include <fmt/format.h>
 
