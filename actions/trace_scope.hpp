@@ -60,7 +60,7 @@ class TraceScope : public RunScope {
   const SourceRange& origin() const override { return origin_; }
 
  private:
-  // Runs `work` on a thread of its own, then `finished` on the loop's. The tracer's calls block.
+  // Runs `work` on a thread of its own, because the tracer's calls block, then `finished` on the loop's thread.
   void in_background(EventLoop& loop, std::function<void()> work, std::function<void(std::exception_ptr)> finished);
   void tell_result(const Tell& tell) const;
   bool traces(const ProcessSpec& spec) const;

@@ -32,7 +32,7 @@ void remove_template(std::string& text, std::string_view prefix) {
   }
 }
 
-// "void (C::*(C*, std::_Placeholder<1>))(Arguments)" to "C::?(Arguments)"; anything else as it is.
+// Turns "void (C::*(C*, std::_Placeholder<1>))(Arguments)" into "C::?(Arguments)"; other text stays as it is.
 std::string method_of_bind(std::string_view bound) {
   constexpr std::string_view kPointerToMember = "::*";
   const std::size_t star = bound.find(kPointerToMember);
@@ -50,7 +50,7 @@ std::string readable_symbol(std::string_view symbol) {
   std::string text(symbol);
   replace_all(text, "__cxx11::", "");
   replace_all(text, "> >", ">>");
-  replace_all(text, "> >", ">>");  // three in a row leave one
+  replace_all(text, "> >", ">>");  // the call before leaves one of three in a row
   replace_all(text, "std::basic_string<char, std::char_traits<char>, std::allocator<char>>", "std::string");
   replace_all(text, "_<std::allocator<void>>", "");
   remove_template(text, ", std::allocator<");

@@ -9,7 +9,7 @@ namespace tracing {
 
 // "std::_Bind<void (Ping::*(Ping*, std::_Placeholder<1>))(std::shared_ptr<std_msgs::msg::String_<std::allocator<void>
 // >)>" becomes "Ping::?(std::shared_ptr<std_msgs::msg::String>)": std::bind records the class but not which method.
-// Library noise (allocators, deleters, ABI namespaces) goes, other symbols stay as they are.
+// Library noise (allocators, deleters, ABI namespaces) is removed; other symbols stay as they are.
 std::string readable_symbol(std::string_view symbol);
 
 }  // namespace tracing

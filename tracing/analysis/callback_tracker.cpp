@@ -15,8 +15,8 @@ auto find_active(std::vector<ActiveCallback>& thread, ros2::Handle address) {
 }  // namespace
 
 void CallbackTracker::start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback) {
-  // An exception left an earlier instance without an end. (A callback that spins and so runs itself in its own thread
-  // looks the same, and loses its outer instance.)
+  // An exception has left an earlier instance without an end. A callback that spins, and so runs itself in its own
+  // thread, looks the same; its outer instance is lost.
   const auto earlier = find_active(thread, callback.address);
   if (earlier != thread.end()) {
     ++record(earlier->callback).unfinished;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pairs the starts and ends of callbacks and measures the time between.
 //
-// An instance is known by process, thread and callback: a reentrant callback may run in several threads at once with
-// one address, and callbacks of two processes may have one.
+// An instance is identified by process, thread and callback: a reentrant callback may run in several threads at once
+// with the same address, and callbacks of two processes may have the same address.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace tracing {
 // A callback that is running in a thread.
 struct ActiveCallback {
   ros2::Handle address = 0;
-  ObjectId callback = kNoObject;  // the object of that address when it started
+  ObjectId callback = kNoObject;  // the object that had the address when it started
   std::int64_t start_ns = 0;
   bool intra_process = false;
 };
@@ -30,14 +30,14 @@ struct CallbackRecord {
 
 class CallbackTracker {
  public:
-  // `thread`: the callbacks that run in the event's thread, innermost last; kept by the caller between events.
+  // `thread`: the callbacks that run in the event's thread, innermost last. The caller keeps it between events.
   void start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback);
-  // An end without a start, at the begin of a trace, is ignored.
+  // An end without a start is ignored; it occurs at the begin of a trace.
   void end(std::vector<ActiveCallback>& thread, ros2::Handle address, std::int64_t time_ns);
-  // What still runs in a thread when the trace ends.
+  // Counts the callbacks that still run in a thread when the trace ends.
   void abandon(const std::vector<ActiveCallback>& thread);
 
-  // Index: the callback's ObjectId; may be shorter than the model's list.
+  // Indexed by the callback's ObjectId; may be shorter than the model's list.
   const std::vector<CallbackRecord>& records() const { return records_; }
 
  private:

@@ -8,9 +8,9 @@
 namespace tracing {
 
 struct DurationSummary {
-  std::uint64_t count = 0;  // the other members mean nothing when it is 0
+  std::uint64_t count = 0;  // the other members have no meaning when it is 0
   double mean_ns = 0;
-  double stddev_ns = 0;  // of the sample (n - 1); 0 for a single one
+  double stddev_ns = 0;  // of the sample (n - 1); 0 for a single duration
   std::int64_t min_ns = 0;
   std::int64_t max_ns = 0;
   std::int64_t p50_ns = 0;  // nearest rank: the smallest sample that at least half of all don't exceed

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what executors serve of services, clients and waitables, and measures how long services and clients take.
+// Counts how often executors serve services, clients and waitables, and measures how long services and clients take.
 //
-// An executor tells what it serves next, and not that it is done. A service is done when it has sent its response, in
-// the same thread, a client when its callback has ended; a waitable has no such event, so that it is counted only.
+// An executor records what it serves next, but not the end of it. A service ends when it sends its response in the same
+// thread, and a client when its callback ends. A waitable has no such event, so it is only counted.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@
 
 namespace tracing {
 
-// Who is served. A waitable is known by its address alone: two that had the same one after another count as one.
+// The object that is served. A waitable is known by its address alone: two that have the same address one after the
+// other count as one.
 struct Served {
   Vpid vpid = 0;
   ros2::ExecutionEvent::Kind kind = ros2::ExecutionEvent::Kind::kService;
   ObjectId id = kNoObject;   // of a service or a client; kNoObject when its initialisation is not in the trace
-  ros2::Handle address = 0;  // of a waitable, and of what has no id
+  ros2::Handle address = 0;  // of a waitable, and of an object without an id
 
   auto operator<=>(const Served&) const = default;
 };
 
-// What a thread is serving.
+// The object that a thread is serving.
 struct ActiveExecution {
   Served served;
   std::int64_t start_ns = 0;
@@ -33,14 +34,14 @@ struct ActiveExecution {
 
 struct ExecutionRecord {
   std::uint64_t count = 0;
-  DurationStatistics durations;  // of those whose end is known
+  DurationStatistics durations;  // of the executions whose end is known
 };
 
 class ExecutionTracker {
  public:
-  // `thread`: kept by the caller between events.
+  // The caller keeps `thread` between events.
   void start(std::optional<ActiveExecution>& thread, const Served& served, std::int64_t time_ns);
-  // Of an execution of this kind; ignored when the thread has none.
+  // Ends an execution of this kind; ignored when the thread has none.
   void end(std::optional<ActiveExecution>& thread, ros2::ExecutionEvent::Kind kind, std::int64_t time_ns);
 
   const std::map<Served, ExecutionRecord>& records() const { return records_; }

@@ -17,7 +17,7 @@ void MessageMatcher::publish(ObjectId topic, std::int64_t source_timestamp, std:
     if (is_new) flight.oldest_first.push_back(source_timestamp);
     return;
   }
-  // From here on the memory of the oldest publication is used again for the newest.
+  // From here on the newest publication reuses the memory of the oldest one.
   auto node = flight.by_source_timestamp.extract(flight.oldest_first.front());
   flight.oldest_first.pop_front();
   if (!node.mapped().received) ++topic_record.published_only;

@@ -17,7 +17,7 @@ namespace tracing {
 struct TakenMessage {
   ObjectId subscription = kNoObject;
   ObjectId topic = kNoObject;
-  std::optional<std::int64_t> published_ns;  // when, if the publication was seen
+  std::optional<std::int64_t> published_ns;  // time of the publication, if it was seen
 };
 
 struct TopicRecord {
@@ -30,8 +30,9 @@ struct TopicRecord {
 
 class MessageMatcher {
  public:
-  // A message can be received by any number of subscriptions, so a publication is remembered until this many newer
-  // ones of its topic have come: longer than any queue of a subscription holds. That bounds the memory.
+  // A message can be received by any number of subscriptions. A publication is therefore remembered until this many
+  // newer publications of its topic have come, which is more than any queue of a subscription holds. That bounds the
+  // memory.
   static constexpr std::size_t kRemembered = 16'384;
 
   // `source_timestamp`: 0 when the trace doesn't hold it; such a message can be counted but not followed.
@@ -39,10 +40,10 @@ class MessageMatcher {
   TakenMessage take(ObjectId subscription, ObjectId topic, std::int64_t source_timestamp);
   // `message` reaches its callback.
   void deliver(const TakenMessage& message, std::int64_t callback_start_ns);
-  // At the end of the trace: what has not been received by now never will be.
+  // To be called at the end of the trace: a message that has not been received by now never will be.
   void finish();
 
-  // Index: the topic's ObjectId; may be shorter than the model's list.
+  // Indexed by the topic's ObjectId; may be shorter than the model's list.
   const std::vector<TopicRecord>& records() const { return records_; }
 
  private:
@@ -50,7 +51,7 @@ class MessageMatcher {
     std::int64_t published_ns = 0;
     bool received = false;
   };
-  // Two publishers of a topic with the same nanosecond would be taken for one: the trace can't tell them apart.
+  // Two publishers of a topic with the same nanosecond would count as one: the trace can't tell them apart.
   struct Flight {
     std::unordered_map<std::int64_t, Publication> by_source_timestamp;
     std::deque<std::int64_t> oldest_first;
@@ -59,7 +60,7 @@ class MessageMatcher {
   TopicRecord& record(ObjectId topic);
 
   std::vector<TopicRecord> records_;
-  std::vector<Flight> flights_;  // as records_
+  std::vector<Flight> flights_;  // indexed as records_
 };
 
 }  // namespace tracing

@@ -19,7 +19,7 @@ std::string qualified_name(std::string_view name_space, std::string_view name) {
   return result.append(name);
 }
 
-// NULL is recorded by LTTng-UST as this text.
+// LTTng-UST records NULL as this text.
 constexpr std::string_view kNullString = "(null)";
 
 }  // namespace
@@ -99,7 +99,7 @@ void ObjectModel::on(const Origin& origin, const ros2::RclSubscriptionInit& even
 }
 
 // The two events of a subscription object come in either order: with intra-process communication its callback is
-// announced first. Whether a callback announced again is that of the same object, the other event tells.
+// announced first. When a callback is announced again, the other event tells whether it belongs to the same object.
 void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionInit& event) {
   const ObjectId subscription = find(subscription_index_, origin.vpid, event.subscription_handle);
   const ObjectId id = find(subscription_object_index_, origin.vpid, event.subscription);
@@ -290,7 +290,7 @@ ObjectId ObjectModel::add_callback(Vpid vpid, ros2::Handle address, CallbackObje
   if (is_callback_of(vpid, address, owner, owner_id)) return find(callback_index_, vpid, address);
   const ObjectId id = find(callback_index_, vpid, address);
   if (id != kNoObject && callbacks_[id].owner == CallbackObject::Owner::kUnknown) {
-    // It ran before the state dump told of it.
+    // The callback ran before the state dump announced it.
     callbacks_[id].owner = owner;
     callbacks_[id].owner_id = owner_id;
     return id;

@@ -2,13 +2,13 @@
 // The ROS 2 objects of a trace, built from its initialisation events as they come by.
 //
 // Handles are addresses: two processes may use the same one, and one process may use it again for another object. An
-// object is therefore found by process, handle and time: fed in the order of time, the model answers with the newest
-// object that had the handle, and never forgets an older one's results. ROS 2 records no end of objects; where a trace
-// has them (`ros2_ext`), a handle means nothing from the end of its object to the next init event.
+// object is therefore found by process, handle and time. The model gets events in the order of time, answers with the
+// newest object that had the handle, and keeps the results of older objects. ROS 2 records no end of objects. Where a
+// trace has the ends (`ros2_ext`), a handle has no object from an end to the next init event.
 //
 // The init events of living objects come again when another session starts (a state dump). Repeated events change
-// nothing: endpoints have a gid, which tells the same from a new one; of the other objects, one that is announced with
-// the same facts at the same address counts as the same, unless its end was recorded.
+// nothing. An endpoint has a gid, which tells whether it is the same one. Another object counts as the same when it is
+// announced with the same facts at the same address, unless its end was recorded.
 #pragma once
 
 #include <cstdint>
@@ -49,11 +49,11 @@ struct EndpointObject {  // publisher or subscription
   bool operator==(const EndpointObject&) const = default;
 };
 
-// rclcpp's object around a subscription: one, or two with intra-process communication.
+// rclcpp's object around a subscription: there is one, or two with intra-process communication.
 struct SubscriptionObject {
   ObjectId subscription = kNoObject;
   bool has_callback = false;
-  bool callback_repeated = false;  // of this object, unless the next rclcpp_subscription_init tells of another one
+  bool callback_repeated = false;  // belongs to this object, unless the next rclcpp_subscription_init names another
 };
 
 struct TimerObject {
@@ -77,7 +77,7 @@ struct ClientObject {
 struct CallbackObject {
   enum class Owner { kUnknown, kSubscription, kTimer, kService, kClient };
   Vpid vpid = 0;
-  ros2::Handle address = 0;  // of a client's: rcl's handle of the client
+  ros2::Handle address = 0;  // for a client's callback: rcl's handle of the client
   Owner owner = Owner::kUnknown;
   ObjectId owner_id = kNoObject;  // of a subscription object, timer, service or client
   std::string symbol;             // as recorded, may be empty
@@ -85,9 +85,9 @@ struct CallbackObject {
 
 // What is known about a handle of the rmw layer.
 enum class RmwHandle {
-  kKnown,     // belongs to an rcl object
-  kInternal,  // the middleware's own, such as the endpoints of ros_discovery_info
-  kUnknown,   // created before the trace started, or its event was lost
+  kKnown,     // it belongs to an rcl object
+  kInternal,  // it is the middleware's own, such as the endpoints of ros_discovery_info
+  kUnknown,   // it was created before the trace started, or its event was lost
 };
 
 struct RmwLookup {
@@ -97,7 +97,7 @@ struct RmwLookup {
 
 class ObjectModel {
  public:
-  // Initialisation events; others are ignored.
+  // Takes the initialisation events; other events are ignored.
   void on(const Origin&, const ros2::RclNodeInit&);
   void on(const Origin&, const ros2::RmwPublisherInit&);
   void on(const Origin&, const ros2::RclPublisherInit&);
@@ -124,9 +124,10 @@ class ObjectModel {
   ObjectId client(Vpid vpid, ros2::Handle rcl_handle) const;
   ObjectId rmw_service(Vpid vpid, ros2::Handle handle) const;
   ObjectId rmw_client(Vpid vpid, ros2::Handle handle) const;
-  // Makes one when none is known: a callback can run whose initialisation is not in the trace.
+  // The callback at the address. Makes one when none is known: a callback can run whose initialisation is not in the
+  // trace.
   ObjectId callback(Vpid vpid, ros2::Handle address);
-  // What a client does with responses.
+  // The callback of a client for responses.
   ObjectId client_callback(Vpid vpid, ros2::Handle rcl_handle);
 
   // The subscription that a callback serves, or kNoObject.
@@ -153,19 +154,19 @@ class ObjectModel {
   using Index = std::unordered_map<Key, ObjectId, HashKey>;
   struct RmwEndpoint {
     ros2::Gid gid;
-    ObjectId endpoint = kNoObject;  // kNoObject while no rcl object claimed the handle
+    ObjectId endpoint = kNoObject;  // kNoObject until an rcl object has the handle
   };
   using RmwIndex = std::unordered_map<Key, RmwEndpoint, HashKey>;
 
   static ObjectId find(const Index& index, Vpid vpid, ros2::Handle handle);
   static RmwLookup find_rmw(const RmwIndex& index, Vpid vpid, ros2::Handle handle);
   static void add_rmw(RmwIndex& index, Vpid vpid, ros2::Handle handle, const ros2::Gid& gid);
-  // Whether the handle, and the rmw handle that `rmw` was looked up with, are those of this very endpoint already.
+  // Whether the handle, and the rmw handle that `rmw` was looked up with, already belong to this very endpoint.
   static bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, Vpid vpid,
                           ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint);
   ObjectId topic(std::string_view name);
   bool is_callback_of(Vpid vpid, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id) const;
-  // The callback at `address`: as it is if it has this owner, with this owner if it had none, else a new one.
+  // The callback at `address`. It stays as it is if it has this owner, gets this owner if it had none, or is a new one.
   ObjectId add_callback(Vpid vpid, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id);
   ObjectId append_callback(CallbackObject callback);
   // A new callback like the newest of owner `from`, for `to`.

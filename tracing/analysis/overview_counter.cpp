@@ -36,7 +36,7 @@ std::size_t OverviewCounter::process_of(const Event& event) {
     last_vpid_ = event.vpid;
     last_process_ = found->second;
   }
-  // procname is the thread's: only the main thread has the process' own.
+  // procname is the name of the thread: only the main thread has the name of the process.
   Process& process = processes_[last_process_];
   if (!process.named_by_main_thread && event.procname) {
     process.named_by_main_thread = event.vtid == event.vpid;
@@ -46,7 +46,7 @@ std::size_t OverviewCounter::process_of(const Event& event) {
 }
 
 void OverviewCounter::on_event(const Event& event) {
-  // What the launcher did is no part of the traced system.
+  // The launcher's own events are no part of the traced system.
   if (event.event_class->name.starts_with("launch:")) return;
   ++events_;
   if (!begin_ns_) begin_ns_ = event.timestamp_ns;
@@ -84,8 +84,8 @@ void OverviewCounter::on_loss(const Loss& loss) {
   }
 }
 
-// Buffers per process tell whose events were lost. Buffers per user are shared: any process of the trace may have lost
-// events in them.
+// Buffers per process show which process lost events. Buffers per user are shared: any process of the trace may have
+// lost events in them.
 std::vector<std::size_t> OverviewCounter::processes_that_lost(const CountedLoss& loss) const {
   std::vector<std::size_t> found;
   for (std::size_t process = 0; process < processes_.size(); ++process) {
@@ -106,11 +106,11 @@ TraceOverview OverviewCounter::overview() const {
     result.end_ns = end_ns_;
   }
 
-  std::vector<std::size_t> order(processes_.size());  // from the place in the result to the place here
+  std::vector<std::size_t> order(processes_.size());  // maps a place in the result to the place here
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [this](std::size_t left, std::size_t right) { return processes_[left].vpid < processes_[right].vpid; });
-  std::vector<std::size_t> place(processes_.size());  // and back
+  std::vector<std::size_t> place(processes_.size());  // maps the other way
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = i;
     result.processes.push_back({processes_[order[i]].vpid, processes_[order[i]].name, 0, false});
@@ -118,7 +118,7 @@ TraceOverview OverviewCounter::overview() const {
 
   std::map<std::string, EventCount> counts;  // several traces may have classes of one name
   for (const CountedClass& counted : classes_) {
-    if (counted.by_process.empty()) continue;  // of the launcher
+    if (counted.by_process.empty()) continue;  // an event of the launcher
     EventCount& count = counts[counted.name];
     count.name = counted.name;
     count.by_process.resize(processes_.size());

@@ -45,7 +45,7 @@ class OverviewCounter : public TraceSink {
   std::vector<Process> processes_;
   std::unordered_map<std::int64_t, std::size_t> process_index_;
   std::optional<std::size_t> without_vpid_;
-  std::optional<std::int64_t> last_vpid_;  // events come in runs of one process
+  std::optional<std::int64_t> last_vpid_;  // consecutive events often come from one process
   std::size_t last_process_ = 0;
   std::vector<CountedClass> classes_;          // by EventClass::id
   std::map<std::string, CountedLoss> losses_;  // by stream

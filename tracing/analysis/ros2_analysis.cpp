@@ -27,7 +27,8 @@ void Ros2Analysis::on_event(const Origin& origin, const ros2::AnyEvent& event) {
   std::visit([&](const auto& known) { handle(origin, known); }, event);
 }
 
-// An event goes to the model or to the functions below, whichever has an overload for it; some need neither.
+// An event goes to the model or to the functions below, depending on which has an overload for it. Some events need
+// neither.
 template <class Event>
 void Ros2Analysis::handle(const Origin& origin, const Event& event) {
   if constexpr (requires { model_.on(origin, event); }) {
@@ -46,7 +47,7 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RclPublish& event) {
 void Ros2Analysis::on(const Origin& origin, const ros2::RmwPublish& event) {
   RmwLookup publisher = model_.rmw_publisher(origin.vpid, event.rmw_publisher_handle);
   if (publisher.kind == RmwHandle::kUnknown) {
-    // ros2_tracing before 8.0 records the message only: its rcl_publish came just before, in the same thread.
+    // ros2_tracing before 8.0 records only the message: its rcl_publish came just before, in the same thread.
     const Thread& publishing = thread(origin);
     if (publishing.rcl_message == event.message) {
       publisher.id = model_.publisher(origin.vpid, publishing.rcl_publisher);
@@ -82,7 +83,7 @@ void Ros2Analysis::on(const Origin& origin, const ros2::CallbackStart& event) {
   const ObjectId id = model_.callback(origin.vpid, event.callback);
   callbacks_.start(running.active_callbacks, {event.callback, id, origin.time_ns, event.is_intra_process});
   if (event.is_intra_process || !running.taken) return;
-  // The next callback of the thread gets the message, unless it is another's: the subscription's callback was disabled.
+  // The next callback of the thread gets the message. If it belongs to another subscription, the callback was disabled.
   const CallbackObject& callback = model_.callbacks()[id];
   const bool gets_it = callback.owner == CallbackObject::Owner::kUnknown ||
                        model_.subscription_of(callback) == running.taken->subscription;
@@ -94,8 +95,8 @@ void Ros2Analysis::on(const Origin& origin, const ros2::CallbackEnd& event) {
   callbacks_.end(thread(origin).active_callbacks, event.callback, origin.time_ns);
 }
 
-// Without its rmw_client_init a client has an identity of its own, so that its requests are still found at its
-// responses.
+// A client without its rmw_client_init gets an identity of its own, so that its requests are still found when its
+// responses come.
 ros2::Gid Ros2Analysis::gid_of(ObjectId client) const {
   ros2::Gid gid = model_.clients()[client].gid;
   if (gid.size == 0) std::memcpy(gid.bytes.data(), &client, sizeof client);

@@ -2,7 +2,7 @@
 // Callback durations, topic latencies and calls of services from the events of ros2_tracing.
 //
 // Feed the events of all processes in the order of time, then ask once for the results. The memory grows with the
-// number of objects, threads and topics, not with that of events (see DurationStatistics, MessageMatcher,
+// number of objects, threads and topics, not with the number of events (see DurationStatistics, MessageMatcher,
 // ServiceMatcher).
 #pragma once
 
@@ -38,7 +38,7 @@ class Ros2Analysis {
     std::vector<ActiveCallback> active_callbacks;
     std::optional<TakenMessage> taken;
     std::optional<ActiveExecution> execution;
-    ros2::Handle rcl_publisher = 0;  // of the thread's last rcl_publish, whose rmw_publish follows
+    ros2::Handle rcl_publisher = 0;  // handle of the thread's last rcl_publish, which its rmw_publish follows
     ros2::Handle rcl_message = 0;
   };
   struct ThreadKey {
@@ -78,7 +78,7 @@ class Ros2Analysis {
   ServiceMatcher calls_;
   ExecutionTracker executions_;
   std::unordered_map<ThreadKey, Thread, HashThreadKey> threads_;
-  ThreadKey last_thread_key_{-1, -1};  // events come in runs of one thread
+  ThreadKey last_thread_key_{-1, -1};  // consecutive events often come from one thread
   Thread* last_thread_ = nullptr;
   std::uint64_t internal_messages_ = 0;
   std::uint64_t unknown_messages_ = 0;

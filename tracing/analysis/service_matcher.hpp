@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows requests from a client to a service and their responses back, by the client's gid and the sequence number.
 //
-// A client records rmw_send_request when the request is on its way, for only then it has a number: the service may have
-// taken it before, and even the response may have come. A part of a call that would be negative for that counts as 0.
+// A client records rmw_send_request after it has sent the request, because only then the request has a number. The
+// service may have taken it before, and even the response may have come. A part of a call that would be negative for
+// this reason counts as 0.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace tracing {
 
 // All calls of one client at one service.
 struct CallRecord {
-  std::uint64_t requests = 0;     // sent within the trace, or taken when the client is not in it
+  std::uint64_t requests = 0;     // sent within the trace, or taken when the client is not in the trace
   std::uint64_t responses = 0;    // taken by the client, or sent when the client is not in the trace
   DurationStatistics round_trip;  // rmw_send_request to rmw_take_response
   DurationStatistics request;     // rmw_send_request to rmw_take_request
@@ -29,18 +30,18 @@ struct CallRecord {
 
 class ServiceMatcher {
  public:
-  // Calls without a response are remembered until this many newer ones have begun: that bounds the memory.
+  // A call without a response is remembered until this many newer calls have begun. That bounds the memory.
   static constexpr std::size_t kRemembered = 16'384;
 
-  // The first service of those that take a request is the one that is called.
+  // When several services take a request, the first one is the one that is called.
   void send_request(ObjectId client, const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
   void take_request(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
   void send_response(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
   void take_response(const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
-  // At the end of the trace: what is unanswered now will stay so.
+  // To be called at the end of the trace: calls without a response will get none.
   void finish();
 
-  // Client and service; kNoObject for the one that the trace doesn't hold.
+  // Client and service; kNoObject for one that is not in the trace.
   using Pair = std::pair<ObjectId, ObjectId>;
   const std::map<Pair, CallRecord>& records() const { return records_; }
 
@@ -63,11 +64,11 @@ class ServiceMatcher {
   };
 
   Call& begin(const Key& key);
-  void end_now(const Key& key);  // one of calls_
+  void end_now(const Key& key);  // a key of calls_
   void end(const Call& call);
 
-  std::unordered_map<Key, Call, HashKey> calls_;  // that have no response yet, or no client in the trace
-  std::deque<Key> oldest_first_;                  // of calls_, and of some that have ended
+  std::unordered_map<Key, Call, HashKey> calls_;  // calls that have no response yet, or no client in the trace
+  std::deque<Key> oldest_first_;                  // the keys of calls_, and of some calls that have ended
   std::map<Pair, CallRecord> records_;
 };
 

@@ -17,7 +17,7 @@ std::int64_t number_of(const Event& event, std::string_view field) {
   return value ? value->integer().value_or(0) : 0;
 }
 
-// Of lttng-ust's own thread, which tells the objects that live when a session starts.
+// Whether the event comes from lttng-ust's own thread, which reports the living objects when a session starts.
 bool is_of_state_dump(const Event& event) {
   return !event.procname || event.procname->ends_with("-ust");
 }

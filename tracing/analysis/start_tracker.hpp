@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long processes take from their start to a node and to the first wait for work, from the launcher's events and
-// theirs.
+// How long processes take from their start to a node and to the first wait for work. The events of the launcher and of
+// the processes give the times.
 //
-// "Ready" is when an executor of the process waits or looks for work the first time: what the program makes before it
-// spins is there then. ROS 2 has no event for it; nothing is asked of the processes but what they record anyway.
+// A process is "ready" when one of its executors waits or looks for work for the first time: everything that the
+// program makes before it spins exists then. ROS 2 has no event for this, and the processes record nothing more for it.
 #pragma once
 
 #include <cstdint>
@@ -37,10 +37,10 @@ class StartTracker {
 
   Kind kind_of(const Event& event);
 
-  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as asked for
+  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as they were needed
   std::vector<Start> starts_;
   std::unordered_map<std::int64_t, Process> processes_;  // by vpid
-  // Of the launcher's events, whose field `time` is CLOCK_MONOTONIC: how far its zero is behind the epoch, at most.
+  // How far zero of CLOCK_MONOTONIC, the field `time` of the launcher's events, is behind the epoch, at most.
   std::optional<std::int64_t> monotonic_zero_ns_;
 };
 

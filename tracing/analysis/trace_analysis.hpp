@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that is analysed of a trace, as the sink of one reading.
+// The whole analysis of a trace, as the sink of one reading.
 //
 //   TraceAnalysis analysis;
 //   TraceReader(directory).read(analysis);
 //   const TraceResults results = analysis.finish();
 //
-// After a TraceReadError finish() still gives the results of what came before the damage.
+// After a TraceReadError finish() still gives the results of the events before the damage.
 #pragma once
 
 #include "tracing/analysis/overview_counter.hpp"
