@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The six services through which others read and change the parameters of a node.
+// The six services that read and change the parameters of a node.
 #pragma once
 
 #include <vector>
@@ -16,11 +16,10 @@ class NodeParameters;
 }
 
 // `<node>/get_parameters`, get_parameter_types, set_parameters, set_parameters_atomically, describe_parameters and
-// list_parameters, of rcl_interfaces. A request about parameters that were not declared gets an empty response, or a
-// result with the reason.
+// list_parameters, of rcl_interfaces. For undeclared parameters the response is empty, or a result contains the reason.
 class ParameterService {
  public:
-  // `node_parameters` must outlive the services, and whoever executes them.
+  // `node_parameters` must outlive the services and the executor that runs them.
   ParameterService(const node_interfaces::NodeBaseInterface::SharedPtr& node_base,
                    const node_interfaces::NodeServicesInterface::SharedPtr& node_services,
                    node_interfaces::NodeParameters* node_parameters, const QoS& qos = ParametersQoS());

@@ -30,7 +30,7 @@ enum ParameterType : uint8_t {
 std::string to_string(ParameterType type);
 std::ostream& operator<<(std::ostream& stream, ParameterType type);
 
-// A value was asked for as something that it is not.
+// A value was read as a type that it does not have.
 class ParameterTypeException : public std::runtime_error {
  public:
   ParameterTypeException(ParameterType expected, ParameterType actual)
@@ -62,7 +62,7 @@ class ParameterValue {
   bool operator==(const ParameterValue& other) const { return value_ == other.value_; }
   bool operator!=(const ParameterValue& other) const { return !(*this == other); }
 
-  // By type of parameter: get<PARAMETER_INTEGER>(). Throws ParameterTypeException.
+  // Gets the value by parameter type: get<PARAMETER_INTEGER>(). Throws ParameterTypeException.
   template <ParameterType type>
   const auto& get() const {
     require(type);
@@ -88,7 +88,8 @@ class ParameterValue {
     }
   }
 
-  // By C++ type: get<int>(). Throws ParameterTypeException; integers and doubles do not convert into one another.
+  // Gets the value by C++ type: get<int>(). Throws ParameterTypeException. Integers and doubles are not converted into
+  // each other.
   template <typename T>
   auto get() const {
     if constexpr (std::is_same_v<T, bool>) {
@@ -122,7 +123,7 @@ class ParameterValue {
   rcl_interfaces::msg::ParameterValue value_;
 };
 
-// As a person would write it: `[1, 2]`, `true`, `not set`.
+// Readable text: `[1, 2]`, `true`, `not set`.
 std::string to_string(const ParameterValue& value);
 
 }  // namespace rclcpp

@@ -21,9 +21,9 @@ namespace rclcpp {
 
 // MessageT is a message type or a TypeAdapter. Publishing is thread safe.
 //
-// With intra-process communication a message goes to the subscriptions of the same context by pointer, and through the
-// middleware only if there are other subscriptions, or if the publisher is transient local. A message published as a
-// std::unique_ptr is then not copied on its way to a single subscription, nor to any number that only read it.
+// With intra-process communication a message goes to the subscriptions of the same context by pointer. It also goes
+// through the middleware if there are other subscriptions, or if the publisher is transient local. A message published
+// as a std::unique_ptr is not copied for a single subscription, nor for any number that only read it.
 template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class Publisher : public PublisherBase {
  public:
@@ -40,8 +40,8 @@ class Publisher : public PublisherBase {
                       options),
         allocator_(*options.get_allocator()) {}
 
-  // Joins intra-process communication if options and node say so. To be called once after the constructor, as
-  // create_publisher() does. Throws std::invalid_argument if the QoS is not made for it: history "keep all" or depth 0.
+  // Joins intra-process communication if options and node enable it. Call it once after the constructor, as
+  // create_publisher() does. Throws std::invalid_argument if the QoS does not allow it: history "keep all" or depth 0.
   virtual void post_init_setup(node_interfaces::NodeBaseInterface* node_base, const std::string& /*topic*/,
                                const QoS& /*qos*/, const PublisherOptionsWithAllocator<AllocatorT>& options) {
     if (!uses_intra_process(options, *node_base)) {
@@ -64,11 +64,11 @@ class Publisher : public PublisherBase {
                        std::move(replay));
   }
 
-  // Throw exceptions::RCLError; do nothing when the context has ended.
+  // Throw exceptions::RCLError. Do nothing if the context has ended.
   virtual void publish(MessageUniquePtr message) { publish_owned(std::move(message)); }
   virtual void publish(const ROSMessageType& message) { publish_reference(message); }
 
-  // The custom type of a TypeAdapter.
+  // Publishes the custom type of a TypeAdapter.
   template <typename T>
   std::enable_if_t<kIsAdapted && std::is_same_v<T, PublishedType>> publish(
       allocator::UniquePtr<T, AllocatorT> message) {
@@ -79,12 +79,12 @@ class Publisher : public PublisherBase {
     publish_reference(message);
   }
 
-  // A message in memory of the middleware, if its type allows that, to be filled and published.
+  // Borrows a message in memory of the middleware, if its type allows that. Fill it and publish it.
   LoanedMessage<ROSMessageType, AllocatorT> borrow_loaned_message() {
     return LoanedMessage<ROSMessageType, AllocatorT>(*this, allocator_);
   }
-  // Without a copy, unless subscriptions of this context take part in intra-process communication. Throws
-  // std::runtime_error for a message that was published already.
+  // Publishes without a copy, unless subscriptions of this context use intra-process communication. Throws
+  // std::runtime_error for a message that was already published.
   virtual void publish(LoanedMessage<ROSMessageType, AllocatorT>&& message) {
     if (!message.is_valid()) {
       throw std::runtime_error("loaned message is not valid");
@@ -98,8 +98,8 @@ class Publisher : public PublisherBase {
     }
   }
 
-  // Through the middleware only. Subscriptions that are reached without it get nothing: throws std::runtime_error when
-  // the publisher uses intra-process communication.
+  // Publishes through the middleware only. Intra-process subscriptions would get nothing, so it throws
+  // std::runtime_error if the publisher uses intra-process communication.
   void publish(const SerializedMessage& message) { publish_serialized(message.get_rcl_serialized_message()); }
   void publish(const rcl_serialized_message_t& message) { publish_serialized(message); }
 
@@ -134,7 +134,7 @@ class Publisher : public PublisherBase {
     if (!intra_process_is_enabled()) {
       publish_inter_process(message);
     } else if (!buffer_ && get_intra_process_subscription_count() == 0) {
-      // Nobody will keep it: no copy.
+      // No subscription will keep it, so no copy is needed.
       trace_intra_publish(&message);
       if (inter_process_publish_needed()) {
         publish_inter_process(message);
@@ -166,13 +166,14 @@ class Publisher : public PublisherBase {
     }
   }
 
-  // A transient local publisher writes always: subscriptions of other processes may come later.
+  // A transient local publisher always writes, because subscriptions of other processes may come later.
   bool inter_process_publish_needed() const {
     return buffer_ || get_subscription_count() > get_intra_process_subscription_count();
   }
 
   AllocatorT allocator_;
-  // What late subscriptions of this context get, of a transient local publisher with intra-process communication.
+  // The messages for late subscriptions of this context; used by a transient local publisher with intra-process
+  // communication.
   typename experimental::buffers::IntraProcessBuffer<ROSMessageType, AllocatorT>::SharedPtr buffer_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all publishers have in common, whatever their message type.
+// The common part of all publishers, for any message type.
 #pragma once
 
 #include <rcl/publisher.h>
@@ -41,38 +41,39 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   virtual ~PublisherBase();
   RCLCPP_DISABLE_COPY(PublisherBase)
 
-  // The full name, after remapping.
+  // The full, remapped name.
   const char* get_topic_name() const;
-  // The depth that was asked for.
+  // The requested depth.
   size_t get_queue_size() const;
-  // What the middleware made of the QoS that was asked for.
+  // The QoS that the middleware uses for the requested one.
   QoS get_actual_qos() const;
   const rmw_gid_t& get_gid() const { return gid_; }
   bool operator==(const rmw_gid_t& gid) const;
 
   // Matched subscriptions, in this process and elsewhere.
   size_t get_subscription_count() const;
-  // Those of them that are reached without the middleware: in this context, with intra-process communication.
+  // The number of subscriptions reached without the middleware: in this context, with intra-process communication.
   size_t get_intra_process_subscription_count() const;
-  // How many messages each of these can take without losing one; 0 if there are none.
+  // The number of messages that each of these can take without losing one; 0 if there are none.
   size_t lowest_available_ipm_capacity() const;
 
-  // Tells the subscribers that the publisher lives, for LivelinessPolicy::ManualByTopic. False on failure.
+  // Tells the subscriptions that the publisher is alive, for LivelinessPolicy::ManualByTopic. Returns false on failure.
   bool assert_liveliness() const;
 
-  // True when every reliable subscriber has acknowledged every message, false after `timeout`; negative waits forever.
+  // Returns true when every reliable subscription has acknowledged every message, false after `timeout`. A negative
+  // timeout waits forever.
   template <typename RepT = int64_t, typename RatioT = std::milli>
   bool wait_for_all_acked(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) const {
     return wait_for_all_acked_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
 
-  // From where the publisher may send. Throws exceptions::RCLError.
+  // The addresses that the publisher may send from. Throws exceptions::RCLError.
   std::vector<NetworkFlowEndpoint> get_network_flow_endpoints() const;
 
-  // Whether messages can be made in memory of the middleware.
+  // Whether messages can be created in memory of the middleware.
   bool can_loan_messages() const { return rcl_publisher_can_loan_messages(publisher_handle_.get()); }
 
-  // Of the callbacks in the options, and the default one.
+  // The handlers of the callbacks in the options, and the default one.
   using EventHandlers = std::unordered_map<rcl_publisher_event_type_t, std::shared_ptr<EventHandlerBase>>;
   const EventHandlers& get_event_handlers() const { return event_handlers_; }
   // The group that serves the event handlers.
@@ -82,13 +83,13 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   std::shared_ptr<const rcl_publisher_t> get_publisher_handle() const { return publisher_handle_; }
 
  protected:
-  // Do nothing when the context has ended; throw exceptions::RCLError on other failures.
+  // Do nothing if the context has ended; throw exceptions::RCLError on other failures.
   void publish_message(const void* message);
   void publish_serialized(const rcl_serialized_message_t& serialized_message);
-  // Of can_loan_messages(): what was borrowed, and goes back in any case.
+  // Needs can_loan_messages(). `message` is a borrowed message; it is returned in any case.
   void publish_loaned(void* message);
 
-  // Throws std::invalid_argument if intra-process communication is wanted and the QoS is not made for it.
+  // Throws std::invalid_argument if intra-process communication is enabled but the QoS does not allow it.
   bool uses_intra_process(const PublisherOptionsBase& options,
                           const node_interfaces::NodeBaseInterface& node_base) const;
   // `replay`: see IntraProcessManager::add_publisher().

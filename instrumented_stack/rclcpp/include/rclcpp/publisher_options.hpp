@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a publisher is created with beside topic and QoS.
+// The options for creating a publisher besides topic and QoS.
 #pragma once
 
 #include <rmw/types.h>
@@ -16,24 +16,24 @@ namespace rclcpp {
 
 struct PublisherOptionsBase {
   IntraProcessSetting use_intra_process_comm = IntraProcessSetting::NodeDefault;
-  // Of the publisher's network traffic. Accepted; the middleware has no such endpoints.
+  // Requirement on the publisher's network traffic. It is accepted, but the middleware has no such endpoints.
   rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints =
       RMW_UNIQUE_NETWORK_FLOW_ENDPOINTS_NOT_REQUIRED;
-  // Whether events without a callback get the default one: a warning that an endpoint cannot match.
+  // Whether events without a callback get the default one: it warns that an endpoint cannot match.
   bool use_default_callbacks = true;
   PublisherEventCallbacks event_callbacks;
-  // Where the event callbacks run. Null: the node's default group.
+  // The group of the event callbacks. Null: the node's default group.
   CallbackGroup::SharedPtr callback_group;
   QosOverridingOptions qos_overriding_options;
 };
 
-// AllocatorT, an allocator for void, gives the memory of messages that the publisher makes.
+// AllocatorT, an allocator for void, allocates messages that the publisher creates.
 template <typename AllocatorT>
 struct PublisherOptionsWithAllocator : PublisherOptionsBase {
   static_assert(std::is_void_v<typename std::allocator_traits<AllocatorT>::value_type>,
                 "Publisher allocator value type must be void");
 
-  // Null: a default constructed one.
+  // Null: a default constructed allocator.
   std::shared_ptr<AllocatorT> allocator;
 
   PublisherOptionsWithAllocator() = default;

@@ -50,7 +50,7 @@ enum class LivelinessPolicy {
   Unknown = RMW_QOS_POLICY_LIVELINESS_UNKNOWN,
 };
 
-// The history part, which every QoS must state.
+// The history settings, which every QoS must have.
 struct QoSInitialization {
   rmw_qos_history_policy_t history_policy;
   size_t depth;
@@ -161,7 +161,7 @@ class RosoutQoS : public QoS {
   explicit RosoutQoS(const QoSInitialization& history = KeepLast(1000));
 };
 
-// Whatever the middleware has by default.
+// Every policy as the middleware has it by default.
 class SystemDefaultsQoS : public QoS {
  public:
   explicit SystemDefaultsQoS(const QoSInitialization& history = QoSInitialization(RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT,

@@ -4,8 +4,9 @@
 //   rclcpp::PublisherOptions options;
 //   options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
 //
-// declares `qos_overrides./topic.publisher.history`, `….depth` and `….reliability` as read-only parameters; with an
-// identifier, `qos_overrides./topic.publisher_<id>.history` and so on. `subscription` is the other kind.
+// declares `qos_overrides./topic.publisher.history`, `….depth` and `….reliability` as read-only parameters. With an
+// identifier they are `qos_overrides./topic.publisher_<id>.history` and so on. For subscriptions, `subscription`
+// replaces `publisher`.
 #pragma once
 
 #include <functional>
@@ -33,7 +34,7 @@ enum class QosPolicyKind {
   Invalid,
 };
 
-// `depth`, `liveliness_lease_duration`: as it stands in the name of the parameter.
+// The policy's part of the parameter name: `depth`, `liveliness_lease_duration`.
 const char* qos_policy_kind_to_cstr(const QosPolicyKind& policy_kind);
 std::ostream& operator<<(std::ostream& stream, const QosPolicyKind& policy_kind);
 
@@ -50,9 +51,10 @@ class InvalidQosOverridesException : public std::runtime_error {
 
 class QosOverridingOptions {
  public:
-  // None.
+  // No policy can be overridden.
   QosOverridingOptions() = default;
-  // `validation_callback` sees the QoS after the overrides; `id` tells several entities of a node on one topic apart.
+  // `validation_callback` checks the QoS after the overrides. `id` distinguishes several entities of a node on one
+  // topic.
   QosOverridingOptions(std::initializer_list<QosPolicyKind> policy_kinds, QosCallback validation_callback = nullptr,
                        std::string id = {});
 

@@ -29,8 +29,8 @@ class Rate : public RateBase {
   explicit Rate(double rate, Clock::SharedPtr clock = std::make_shared<Clock>(RCL_SYSTEM_TIME));
   explicit Rate(const Duration& period, Clock::SharedPtr clock = std::make_shared<Clock>(RCL_SYSTEM_TIME));
 
-  // Sleeps to the end of the current interval. False when that has passed already (the next interval then starts at its
-  // proper time, or now if a whole interval was missed), or when the context ended.
+  // Sleeps until the end of the current interval. Returns false if the context ended, or if the interval is already
+  // over. The next interval then starts on schedule, or now if a whole interval was missed.
   bool sleep() override;
   rcl_clock_type_t get_type() const override { return clock_->get_clock_type(); }
   // The next interval starts now.
@@ -43,7 +43,7 @@ class Rate : public RateBase {
   Time last_interval_;
 };
 
-// On the steady clock.
+// Uses the steady clock.
 class WallRate : public Rate {
  public:
   explicit WallRate(double rate) : Rate(rate, std::make_shared<Clock>(RCL_STEADY_TIME)) {}
@@ -56,7 +56,7 @@ class ROSRate : public Rate {
   explicit ROSRate(const Duration& period) : Rate(period, std::make_shared<Clock>(RCL_ROS_TIME)) {}
 };
 
-// On the clock of a C++ type, as before Rate took clocks.
+// Uses the clock of a C++ type, as it was before Rate took clocks.
 template <typename ClockT = std::chrono::high_resolution_clock>
 class [[deprecated("use rclcpp::Rate class instead of GenericRate")]] GenericRate : public RateBase {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ client library of ROS 2, as far as this stack has it:
+// The C++ client library of ROS 2, as far as this stack implements it:
 //
 //   utilities.hpp        init, shutdown, ok, signals           context.hpp, init_options.hpp
 //   node.hpp             Node                                  node_options.hpp, node_interfaces/
@@ -16,14 +16,14 @@
 //   time.hpp             Time                                  duration.hpp, clock.hpp, rate.hpp
 //   executors.hpp        spin, the executors                   executor.hpp, executors/, callback_group.hpp
 //   waitable.hpp         Waitable                              guard_condition.hpp, node_interfaces/node_waitables.hpp
-//   wait_set.hpp         WaitSet and its like                  wait_for_message.hpp
-//   logging.hpp          RCLCPP_INFO and its like              logger.hpp
-//   exceptions.hpp       what all of this throws
+//   wait_set.hpp         WaitSet and similar classes           wait_for_message.hpp
+//   logging.hpp          RCLCPP_INFO and similar macros        logger.hpp
+//   exceptions.hpp       the exceptions of rclcpp
 //
 // Names, signatures and behaviour are those of rclcpp in ROS 2 Jazzy.
 #pragma once
 
-// Applications rely on these coming with rclcpp.
+// Applications expect these headers to come with rclcpp.
 #include <rmw/rmw.h>
 
 #include <algorithm>

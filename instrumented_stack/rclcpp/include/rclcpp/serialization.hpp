@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a message to its bytes and back.
+// Converts a message to its bytes and back.
 #pragma once
 
 #include <rosidl_runtime_c/message_type_support_struct.h>
@@ -15,7 +15,7 @@ class SerializationBase {
   explicit SerializationBase(const rosidl_message_type_support_t* type_support) : type_support_(type_support) {}
   virtual ~SerializationBase() = default;
 
-  // `ros_message` points to a message of this object's type. Throw exceptions::RCLError when the bytes are no such
+  // `ros_message` points to a message of this object's type. Throw exceptions::RCLError if the bytes are not such a
   // message.
   void serialize_message(const void* ros_message, SerializedMessage* serialized_message) const;
   void deserialize_message(const SerializedMessage* serialized_message, void* ros_message) const;

@@ -16,7 +16,7 @@ class SerializedMessage {
   SerializedMessage(const SerializedMessage& other);
   SerializedMessage(SerializedMessage&& other) noexcept;
   explicit SerializedMessage(const rcl_serialized_message_t& other);
-  // Takes the memory over.
+  // Takes ownership of the memory.
   explicit SerializedMessage(rcl_serialized_message_t&& other) noexcept;
   SerializedMessage& operator=(SerializedMessage other) noexcept;
   ~SerializedMessage();
@@ -28,7 +28,7 @@ class SerializedMessage {
   size_t capacity() const { return serialized_message_.buffer_capacity; }
   // Grows or shrinks the capacity; the bytes that fit are kept.
   void reserve(size_t capacity);
-  // Hands the memory to the caller, who finalizes it.
+  // Passes the memory to the caller, who finalizes it.
   rcl_serialized_message_t release_rcl_serialized_message();
 
  private:

@@ -25,12 +25,12 @@ class Service : public ServiceBase, public std::enable_shared_from_this<Service<
     trace_creation(any_callback_);
   }
 
-  // The next request, without the callback. False if there is none.
+  // Takes the next request without running the callback. Returns false if there is none.
   bool take_request(Request& request_out, rmw_request_id_t& request_id_out) {
     return take_type_erased_request(&request_out, request_id_out);
   }
 
-  // For callbacks that defer the response: any thread, once per request.
+  // For callbacks that defer the response. May be called from any thread, once per request.
   void send_response(rmw_request_id_t& request_id, Response& response) {
     send_type_erased_response(request_id, &response);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all services have in common, and what an executor needs to know of one.
+// The common part of all services, and the interface of a service for executors.
 #pragma once
 
 #include <rcl/service.h>
@@ -33,31 +33,32 @@ class ServiceBase {
   virtual ~ServiceBase();
   RCLCPP_DISABLE_COPY(ServiceBase)
 
-  // The full name, after remapping.
+  // The full, remapped name.
   const char* get_service_name() const;
   QoS get_request_subscription_actual_qos() const;
   QoS get_response_publisher_actual_qos() const;
 
-  // The next request into `request_out`, which points to a request of this service's type. False if there is none.
+  // Takes the next request into `request_out`, which points to a request of this service's type. Returns false if there
+  // is none.
   bool take_type_erased_request(void* request_out, rmw_request_id_t& request_id_out);
 
-  // What an executor does with a service that is ready: one request, from the middleware to the callback.
+  // Executors call it for a service that is ready. It takes one request and runs the callback.
   void execute();
 
   std::shared_ptr<rcl_service_t> get_service_handle() { return service_handle_; }
   std::shared_ptr<const rcl_service_t> get_service_handle() const { return service_handle_; }
 
-  // For executors that are told instead of waiting: `callback` gets the number of new requests, also of those that wait
-  // to be taken when it is set. It is called by threads of the middleware and must only take note. Throws
-  // std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  // For executors that are notified instead of waiting. `callback` gets the number of new requests; it is also called
+  // for those that already wait to be taken when it is set. Threads of the middleware call it, so it must only take
+  // note. Throws std::invalid_argument for an empty callback. Do not call either function from the callback.
   void set_on_new_request_callback(std::function<void(size_t)> callback);
   void clear_on_new_request_callback();
-  // Sets whether a wait set uses this; the former state.
+  // Sets whether a wait set uses this service; returns the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
-  // Lets the service publish what happens to its calls (requests taken and responses sent) on its name and
-  // "/_service_event", or ends that. `qos_service_event_pub` counts when it is off so far; the clock gives the events
-  // their times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a clock that is null.
+  // Turns service introspection on or off: the service publishes requests taken and responses sent on its name and
+  // "/_service_event". `qos_service_event_pub` only applies when it is turned on. The clock gives the events their
+  // times. Any thread. Throws exceptions::RCLError; exceptions::RCLInvalidArgument for a null clock.
   void configure_introspection(std::shared_ptr<Clock> clock, const QoS& qos_service_event_pub,
                                rcl_service_introspection_state_t introspection_state);
 
@@ -68,10 +69,10 @@ class ServiceBase {
   virtual std::shared_ptr<void> create_request() = 0;
   virtual void handle_request(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> request) = 0;
 
-  // Only warns if the client cannot receive it yet. Throws exceptions::RCLError on other failures.
+  // Only warns if the client cannot receive the response yet. Throws exceptions::RCLError on other failures.
   void send_type_erased_response(rmw_request_id_t& request_id, void* response);
 
-  // To be called by the most derived constructor, when the callback is where it will stay.
+  // Call it in the most derived constructor, when the callback has its final address.
   void trace_creation(const AnyServiceCallbackBase& callback);
 
  private:
@@ -81,9 +82,9 @@ class ServiceBase {
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
   const rosidl_service_type_support_t* const introspected_type_;
-  std::mutex introspection_mutex_;              // of the clock
-  std::shared_ptr<Clock> introspection_clock_;  // rcl has a pointer to what is in it
-  const void* traced_callback_ = nullptr;       // as trace_creation() told it
+  std::mutex introspection_mutex_;              // guards the clock
+  std::shared_ptr<Clock> introspection_clock_;  // rcl points into it
+  const void* traced_callback_ = nullptr;       // set by trace_creation()
 };
 
 }  // namespace rclcpp

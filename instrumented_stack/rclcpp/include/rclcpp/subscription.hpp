@@ -32,7 +32,7 @@ class Subscription : public SubscriptionBase {
                          qos, options),
         allocator_(*options.get_allocator()),
         any_callback_(std::move(any_callback)) {
-    // Bytes come from the middleware alone.
+    // The middleware alone delivers bytes.
     if (!any_callback_.is_serialized_message_callback() && uses_intra_process(options, *node_base)) {
       using IntraProcess = experimental::SubscriptionIntraProcess<MessageT, AllocatorT>;
       const auto intra_process = std::make_shared<IntraProcess>(
@@ -43,11 +43,11 @@ class Subscription : public SubscriptionBase {
     trace_creation(any_callback_);
   }
 
-  // The next message, without the callback. False if there is none.
+  // Takes the next message without running the callback. Returns false if there is none.
   bool take(ROSMessageType& message_out, MessageInfo& message_info_out) {
     return take_type_erased(&message_out, message_info_out);
   }
-  // The same converted to the custom type of a TypeAdapter.
+  // Takes the next message, converted to the custom type of a TypeAdapter.
   template <typename T>
   std::enable_if_t<!std::is_same_v<T, ROSMessageType> && std::is_same_v<T, SubscribedType>, bool> take(
       T& message_out, MessageInfo& message_info_out) {
@@ -60,7 +60,7 @@ class Subscription : public SubscriptionBase {
   }
 
  protected:
-  // Reading a message sets every member.
+  // Reading a message sets every member, so the message needs no initial values.
   std::shared_ptr<void> create_message() override {
     return allocator::make_shared<ROSMessageType>(allocator_, rosidl_runtime_cpp::MessageInitialization::SKIP);
   }

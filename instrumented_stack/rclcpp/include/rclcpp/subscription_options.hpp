@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subscription is created with beside topic, QoS and callback.
+// The options for creating a subscription besides topic, QoS and callback.
 #pragma once
 
 #include <rmw/types.h>
@@ -20,31 +20,30 @@
 
 namespace rclcpp {
 
-// Which messages are wanted, in the filter language of DDS: `data > %0 AND header.frame_id = %1` with the parameters
-// {"30", "'base'"}. Messages without an interesting part then cost neither a wake-up nor, where the publisher knows the
-// filter, a transmission.
+// Selects messages, in the filter language of DDS: `data > %0 AND header.frame_id = %1` with the parameters {"30",
+// "'base'"}. Messages that do not match cause no wake-up. They are not even sent if the publisher knows the filter.
 struct ContentFilterOptions {
-  std::string filter_expression;  // empty: every message
+  std::string filter_expression;  // empty: every message is wanted
   std::vector<std::string> expression_parameters;
 };
 
 struct SubscriptionOptionsBase {
-  // Drops what publishers of the same context send.
+  // Drops messages of publishers in the same context.
   bool ignore_local_publications = false;
-  // Of the subscription's network traffic. Accepted; the middleware has no such endpoints.
+  // Requirement on the subscription's network traffic. It is accepted, but the middleware has no such endpoints.
   rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints =
       RMW_UNIQUE_NETWORK_FLOW_ENDPOINTS_NOT_REQUIRED;
   // Null: the node's default group.
   CallbackGroup::SharedPtr callback_group;
-  // Whether events without a callback get the default one: a warning that an endpoint cannot match.
+  // Whether events without a callback get the default one: it warns that an endpoint cannot match.
   bool use_default_callbacks = true;
   SubscriptionEventCallbacks event_callbacks;
 
   IntraProcessSetting use_intra_process_comm = IntraProcessSetting::NodeDefault;
   IntraProcessBufferType intra_process_buffer_type = IntraProcessBufferType::CallbackDefault;
 
-  // Statistics of the received messages, as statistics_msgs/msg/MetricsMessage on a topic of their own: their age and
-  // their distance in time. Messages of intra-process communication have no age.
+  // Statistics of the received messages: their age and the time between them, as statistics_msgs/msg/MetricsMessage on
+  // a topic of their own. Messages of intra-process communication have no age.
   struct TopicStatisticsOptions {
     TopicStatisticsState state = TopicStatisticsState::NodeDefault;
     std::string publish_topic = "/statistics";
@@ -57,13 +56,13 @@ struct SubscriptionOptionsBase {
   ContentFilterOptions content_filter_options;
 };
 
-// AllocatorT, an allocator for void, gives the memory of received messages.
+// AllocatorT, an allocator for void, allocates received messages.
 template <typename AllocatorT>
 struct SubscriptionOptionsWithAllocator : SubscriptionOptionsBase {
   static_assert(std::is_void_v<typename std::allocator_traits<AllocatorT>::value_type>,
                 "Subscription allocator value type must be void");
 
-  // Null: a default constructed one.
+  // Null: a default constructed allocator.
   std::shared_ptr<AllocatorT> allocator;
 
   SubscriptionOptionsWithAllocator() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A moment on a clock. Times of different clocks cannot be compared or subtracted: that throws std::runtime_error.
+// A point in time on a clock. Comparing or subtracting times of different clocks throws std::runtime_error.
 #pragma once
 
 #include <rcl/time.h>
@@ -13,7 +13,7 @@ namespace rclcpp {
 
 class Time {
  public:
-  // Times are not negative: throws std::runtime_error.
+  // Throws std::runtime_error for a negative time.
   Time(int32_t seconds, uint32_t nanoseconds, rcl_clock_type_t clock_type = RCL_SYSTEM_TIME);
   explicit Time(int64_t nanoseconds = 0, rcl_clock_type_t clock_type = RCL_SYSTEM_TIME);
   Time(const builtin_interfaces::msg::Time& message, rcl_clock_type_t clock_type = RCL_ROS_TIME);  // NOLINT

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives clocks from the topic /clock while a node's parameter use_sim_time is true.
 //
-// A node's own clock needs none: each node has one. Unless told otherwise, the messages are received by a thread that
-// runs as long as time is simulated: it advances whether or not the node is spun, so that a program can sleep until a
-// time of it anywhere.
+// Every node already has a time source for its own clock. By default a thread receives the messages. It runs as long as
+// time is simulated, so time advances even if the node is not spun. A program can then sleep until a simulated time
+// anywhere.
 #pragma once
 
 #include <memory>
@@ -20,13 +20,13 @@ class TimeSource {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(TimeSource)
 
-  // Without a thread the messages come through the node's default callback group, when the node is spun.
+  // Without a thread, messages come through the node's default callback group, while the node is spun.
   explicit TimeSource(const QoS& qos = ClockQoS(), bool use_clock_thread = true);
   explicit TimeSource(const Node::SharedPtr& node, const QoS& qos = ClockQoS(), bool use_clock_thread = true);
   ~TimeSource();
 
-  // Replaces the former node. Declares use_sim_time unless it is declared. Holds on to the interfaces. Throws what
-  // creating a subscription throws, and exceptions::InvalidParameterTypeException if the parameter is no bool.
+  // Replaces the former node. Declares use_sim_time unless it is declared. Keeps the interfaces alive. Throws what
+  // creating a subscription throws, and exceptions::InvalidParameterTypeException if the parameter is not a bool.
   void attachNode(const Node::SharedPtr& node);
   void attachNode(node_interfaces::NodeBaseInterface::SharedPtr node_base,
                   node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
@@ -39,7 +39,7 @@ class TimeSource {
 
   // Throws std::invalid_argument unless the clock's type is RCL_ROS_TIME.
   void attachClock(const Clock::SharedPtr& clock);
-  // The clock goes on with the system's time.
+  // The clock continues with the system's time.
   void detachClock(const Clock::SharedPtr& clock);
 
   // Takes effect when time is next simulated.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls a function at equal distances. Created by Node::create_wall_timer() and Node::create_timer().
+// Calls a function at equal intervals. Created by Node::create_wall_timer() and Node::create_timer().
 #pragma once
 
 #include <rcl/timer.h>
@@ -22,7 +22,7 @@
 
 namespace rclcpp {
 
-// When a call of a timer was due, and when it was made, by the timer's clock.
+// The time at which a call of a timer was due and the time at which it was made, on the timer's clock.
 struct TimerInfo {
   Time expected_call_time;
   Time actual_call_time;
@@ -42,16 +42,16 @@ class TimerBase {
   // The next call is one period from now.
   void reset();
 
-  // Negative when overdue, the largest value for a cancelled timer.
+  // Negative if overdue, the largest value for a cancelled timer.
   std::chrono::nanoseconds time_until_trigger();
   bool is_ready();
   // Whether the timer's clock is steady.
   bool is_steady() const { return clock_->get_clock_type() == RCL_STEADY_TIME; }
   Clock::SharedPtr get_clock() const { return clock_; }
 
-  // Called by executors, in this order: call() counts the call and sets the next one, and is null if the timer was
-  // cancelled meanwhile; then execute_callback() runs the function with what call() returned. Without it, a function
-  // that takes a TimerInfo is told of a call that was due now.
+  // Executors call these in this order. call() counts the call and sets the next one; it returns null if the timer was
+  // cancelled meanwhile. Then execute_callback() runs the function with the result of call(). Without this result, a
+  // function that takes a TimerInfo gets a call that is due now.
   std::shared_ptr<void> call();
   void execute_callback(const std::shared_ptr<void>& data);
   void execute_callback();
@@ -59,11 +59,11 @@ class TimerBase {
   std::shared_ptr<const rcl_timer_t> get_timer_handle() const { return timer_handle_; }
   std::shared_ptr<rcl_timer_t> get_timer_handle() { return timer_handle_; }
 
-  // `callback` is called after every reset(), and after every jump of simulated time, by the thread that does it.
-  // Throws std::invalid_argument for an empty callback. Neither is to be called from the callback.
+  // `callback` is called after every reset(), and after every jump of simulated time, by the thread that causes it.
+  // Throws std::invalid_argument for an empty callback. Do not call either function from the callback.
   void set_on_reset_callback(std::function<void(size_t)> callback);
   void clear_on_reset_callback();
-  // Sets whether a wait set uses this; the former state.
+  // Sets whether a wait set uses this timer; returns the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
   // The group that serves this timer, set by the group.
@@ -72,7 +72,7 @@ class TimerBase {
  protected:
   virtual void run(const TimerInfo& info) = 0;
 
-  // To be called by the most derived constructor: `callback` is where the function will stay.
+  // Call it in the most derived constructor. `callback` is the final address of the function.
   void trace_callback(const void* callback, const detail::CallbackSymbol& symbol);
 
  private:
@@ -86,7 +86,7 @@ class TimerBase {
   std::atomic_bool in_use_by_wait_set_{false};
 };
 
-// `FunctorT` is callable with nothing, with a TimerBase &, or with a const TimerInfo &.
+// `FunctorT` can be called with nothing, with a TimerBase &, or with a const TimerInfo &.
 template <typename FunctorT>
 class GenericTimer : public TimerBase {
  public:
@@ -115,7 +115,7 @@ class GenericTimer : public TimerBase {
   FunctorT callback_;
 };
 
-// On the steady clock.
+// Uses the steady clock.
 template <typename FunctorT>
 class WallTimer : public GenericTimer<FunctorT> {
  public:
@@ -128,7 +128,7 @@ class WallTimer : public GenericTimer<FunctorT> {
 
 namespace detail {
 
-// In nanoseconds. Throws std::invalid_argument when the period is negative or does not fit.
+// Converts to nanoseconds. Throws std::invalid_argument if the period is negative or does not fit.
 template <typename RepT, typename RatioT>
 std::chrono::nanoseconds timer_period(std::chrono::duration<RepT, RatioT> period) {
   using DoubleNanoseconds = std::chrono::duration<double, std::nano>;

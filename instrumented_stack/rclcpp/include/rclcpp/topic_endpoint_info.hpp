@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of one publisher or subscription of the system.
+// The known facts about one publisher or subscription of the system.
 #pragma once
 
 #include <rcl/graph.h>
@@ -18,7 +18,7 @@ enum class EndpointType {
   Subscription = RMW_ENDPOINT_SUBSCRIPTION,
 };
 
-// History and depth of an endpoint of another process are unknown, HistoryPolicy::Unknown and 0.
+// For an endpoint of another process, history and depth are unknown: HistoryPolicy::Unknown and 0.
 class TopicEndpointInfo {
  public:
   explicit TopicEndpointInfo(const rcl_topic_endpoint_info_t& info);
@@ -30,12 +30,12 @@ class TopicEndpointInfo {
   // `std_msgs/msg/String`
   std::string& topic_type() { return topic_type_; }
   const std::string& topic_type() const { return topic_type_; }
-  // Of the type's description; zero if the endpoint does not tell it.
+  // The hash of the type's description; zero if the endpoint does not announce it.
   rosidl_type_hash_t& topic_type_hash() { return topic_type_hash_; }
   const rosidl_type_hash_t& topic_type_hash() const { return topic_type_hash_; }
   rclcpp::EndpointType& endpoint_type() { return endpoint_type_; }
   const rclcpp::EndpointType& endpoint_type() const { return endpoint_type_; }
-  // Identity in the whole system, as in the trace.
+  // Identifies the endpoint in the whole system; the same value as in the trace.
   std::array<uint8_t, RMW_GID_STORAGE_SIZE>& endpoint_gid() { return endpoint_gid_; }
   const std::array<uint8_t, RMW_GID_STORAGE_SIZE>& endpoint_gid() const { return endpoint_gid_; }
   QoS& qos_profile() { return qos_profile_; }

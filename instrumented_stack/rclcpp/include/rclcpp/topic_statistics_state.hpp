@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a subscription publishes statistics of what it receives.
+// Whether a subscription publishes statistics of the messages it receives.
 #pragma once
 
 namespace rclcpp {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishing and subscribing with a type of your own instead of a message type. Specialise TypeAdapter for the pair:
+// Publishes and subscribes with your own type instead of a message type. Specialise TypeAdapter for the pair:
 //
 //   template <>
 //   struct rclcpp::TypeAdapter<std::string, std_msgs::msg::String> {
@@ -11,7 +11,7 @@
 //   };
 //
 // and create publishers and subscriptions of rclcpp::adapt_type<std::string>::as<std_msgs::msg::String>. Within a
-// process the custom type travels unconverted.
+// process the custom type is not converted.
 #pragma once
 
 #include <type_traits>
@@ -22,7 +22,7 @@ template <typename CustomT, typename ROSMessageT = void, typename EnableT = void
 struct TypeAdapter {
   using is_specialized = std::false_type;
   using custom_type = CustomT;
-  // A message type stands for itself.
+  // A message type is its own custom type.
   using ros_message_type = CustomT;
 };
 
@@ -31,7 +31,7 @@ struct is_type_adapter : std::false_type {};
 template <typename... Ts>
 struct is_type_adapter<TypeAdapter<Ts...>> : std::true_type {};
 
-// The adapter itself may be named instead of the custom type.
+// The adapter itself may be used instead of the custom type.
 template <typename T>
 struct TypeAdapter<T, void, std::enable_if_t<is_type_adapter<T>::value>> : T {};
 
@@ -41,7 +41,7 @@ struct adapt_type {
   using as = TypeAdapter<CustomT, ROSMessageT>;
 };
 
-// Says once for all what message type stands behind a custom type, which then can be used like a message type.
+// Sets the message type of a custom type. The custom type can then be used like a message type.
 template <typename CustomT>
 struct ImplicitTypeAdapter {
   using is_specialized = std::false_type;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Type supports by the name of the type, from the libraries of message packages.
+// Finds type supports by the name of the type, in the libraries of message packages.
 #pragma once
 
 #include <rosidl_runtime_c/message_type_support_struct.h>
@@ -12,7 +12,7 @@
 
 namespace rclcpp {
 
-// A library. It stays loaded for the rest of the process, since the middleware keeps what is in it.
+// A library. It stays loaded until the process ends, because the middleware keeps pointers into it.
 class SharedLibrary {
  public:
   // Throws std::runtime_error with the loader's reason.
@@ -22,7 +22,7 @@ class SharedLibrary {
 
   const std::string& get_library_path() const { return path_; }
   bool has_symbol(const std::string& symbol) const;
-  // Throws std::runtime_error naming symbol and library.
+  // Throws std::runtime_error, which names symbol and library.
   void* get_symbol(const std::string& symbol) const;
 
  private:
@@ -30,14 +30,13 @@ class SharedLibrary {
   void* handle_;
 };
 
-// The library of the package of a type such as "std_msgs/msg/String" or "std_srvs/srv/Empty", found in
-// AMENT_PREFIX_PATH or else by the loader. `typesupport_identifier` is "rosidl_typesupport_cpp". Throws
-// std::runtime_error if the name is malformed or there is no such library.
+// The library of the package of a type such as "std_msgs/msg/String" or "std_srvs/srv/Empty". It is searched in
+// AMENT_PREFIX_PATH, then by the loader. `typesupport_identifier` is "rosidl_typesupport_cpp". Throws
+// std::runtime_error if the name is malformed or the library does not exist.
 std::shared_ptr<SharedLibrary> get_typesupport_library(const std::string& type,
                                                        const std::string& typesupport_identifier);
 
-// "std_msgs/String" works too. Throw std::runtime_error for a type that the
-// library does not have.
+// "std_msgs/String" works too. Throw std::runtime_error if the library does not have the type.
 const rosidl_message_type_support_t* get_message_typesupport_handle(const std::string& type,
                                                                     const std::string& typesupport_identifier,
                                                                     const SharedLibrary& library);

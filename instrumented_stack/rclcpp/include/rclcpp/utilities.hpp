@@ -16,7 +16,7 @@
 
 namespace rclcpp {
 
-// Which signals end the contexts that were initialised with shutdown_on_signal.
+// The signals that end the contexts that were initialised with shutdown_on_signal.
 enum class SignalHandlerOptions {
   All,  // SIGINT and SIGTERM
   SigInt,
@@ -28,34 +28,34 @@ enum class SignalHandlerOptions {
 void init(int argc, char const* const* argv, const InitOptions& init_options = InitOptions(),
           SignalHandlerOptions signal_handler_options = SignalHandlerOptions::All);
 
-// Makes the signals shut contexts down. False when the handlers are installed already.
+// Makes the signals shut contexts down. Returns false if the handlers are installed already.
 bool install_signal_handlers(SignalHandlerOptions signal_handler_options = SignalHandlerOptions::All);
 bool signal_handlers_installed();
 SignalHandlerOptions get_current_signal_handler_options();
-// Puts the previous handlers back. False when none was installed.
+// Restores the previous handlers. Returns false if none were installed.
 bool uninstall_signal_handlers();
 
-// init(), and the arguments that do not belong to ROS.
+// Calls init() and returns the arguments that do not belong to ROS.
 std::vector<std::string> init_and_remove_ros_arguments(int argc, char const* const* argv,
                                                        const InitOptions& init_options = InitOptions());
 
 // The arguments without `--ros-args … [--]`.
 std::vector<std::string> remove_ros_arguments(int argc, char const* const* argv);
 
-// False before init() and after shutdown(). Null stands for the default context, here and below.
+// False before init() and after shutdown(). Null means the default context, here and below.
 bool ok(Context::SharedPtr context = nullptr);
 
-// Ends a context: executors return from spin(). False when it was not valid. When it is the default context, the
-// signal handlers are uninstalled.
+// Ends a context: executors return from spin(). Returns false if it was not valid. For the default context, also
+// uninstalls the signal handlers.
 bool shutdown(Context::SharedPtr context = nullptr, const std::string& reason = "user called rclcpp::shutdown()");
 
 // Calls `callback` at the shutdown of the context, in the thread that shuts down.
 void on_shutdown(std::function<void()> callback, Context::SharedPtr context = nullptr);
 
-// True after the whole time has passed, false when the context ended first.
+// Returns true after the whole time, false if the context ended first.
 bool sleep_for(const std::chrono::nanoseconds& nanoseconds, Context::SharedPtr context = nullptr);
 
-// The text as C has it: for log macros that are given either.
+// The text as a C string, for log macros that accept both.
 inline const char* get_c_string(const char* string) {
   return string;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rclcpp this is to applications that support several: that of ROS 2 Jazzy.
+// The version of rclcpp, for applications that support several: that of ROS 2 Jazzy.
 #pragma once
 
 #define RCLCPP_VERSION_MAJOR 28

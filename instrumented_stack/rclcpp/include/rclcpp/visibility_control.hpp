@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What marks a library's own symbols in ROS 2. Here every symbol is visible; the marks are for applications that use
-// them too.
+// The macros that mark a library's own symbols in ROS 2. Here every symbol is visible. The macros exist for
+// applications that use them.
 #pragma once
 
 #define RCLCPP_EXPORT __attribute__((visibility("default")))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One message, without a callback and without an executor.
+// Receives one message, without a callback and without an executor.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@
 
 namespace rclcpp {
 
-// Waits for the next message of the subscription, which no executor may serve meanwhile; negative: for ever. False when
-// the time is over or the context ends.
+// Waits for the next message of the subscription; a negative timeout waits forever. No executor may serve the
+// subscription meanwhile. Returns false when the time is over or the context ends.
 template <typename MessageT, typename RepT = int64_t, typename PeriodT = std::milli>
 bool wait_for_message(MessageT& out, std::shared_ptr<Subscription<MessageT>> subscription,
                       std::shared_ptr<Context> context,
@@ -47,7 +47,7 @@ bool wait_for_message(MessageT& out, std::shared_ptr<Subscription<MessageT>> sub
   return subscription->take(out, info);
 }
 
-// The same with a subscription made for it.
+// Creates a subscription for the wait.
 template <typename MessageT, typename RepT = int64_t, typename PeriodT = std::milli>
 bool wait_for_message(MessageT& out, std::shared_ptr<Node> node, const std::string& topic,
                       std::chrono::duration<RepT, PeriodT> time_to_wait = std::chrono::duration<RepT, PeriodT>(-1),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a WaitSet's wait() found.
+// The result of a WaitSet's wait().
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace rclcpp {
 
-// Owns what it found ready. Refers to the wait set, which must outlive it.
+// Owns the entities that are ready. Refers to the wait set, which must outlive it.
 template <typename WaitSetT>
 class WaitResult final {
  public:
@@ -28,7 +28,7 @@ class WaitResult final {
 
   WaitResultKind kind() const { return kind_; }
 
-  // To look at get_rcl_wait_set(). Throw std::runtime_error unless something was ready.
+  // Gives access to get_rcl_wait_set(). Throw std::runtime_error unless an entity was ready.
   const WaitSetT& get_wait_set() const {
     require_ready();
     return *wait_set_;
@@ -48,10 +48,10 @@ class WaitResult final {
     }
     return {nullptr, findings_.timers.size()};
   }
-  // Says that the timer was dealt with.
+  // Marks the timer as handled.
   void clear_timer_with_index(size_t index) { findings_.timers.at(index).reset(); }
 
-  // Each ready one once, then null.
+  // Returns each ready one once, then null.
   std::shared_ptr<SubscriptionBase> next_ready_subscription() { return next(findings_.subscriptions); }
   std::shared_ptr<ServiceBase> next_ready_service() { return next(findings_.services); }
   std::shared_ptr<ClientBase> next_ready_client() { return next(findings_.clients); }

@@ -5,9 +5,9 @@
 namespace rclcpp {
 
 enum WaitResultKind {
-  Ready,    // something is ready
+  Ready,    // an entity is ready
   Timeout,  // the time was over
-  Empty,    // there was nothing to wait for
+  Empty,    // there was no entity to wait for
   Invalid   // the result was moved from
 };
 

@@ -9,7 +9,7 @@
 namespace rclcpp::detail {
 
 void CallbackSymbol::trace_registration([[maybe_unused]] const void* callback) const {
-  // Demangling is expensive: only where tracing is possible.
+  // Demangling is expensive, so it is done only if tracing is possible.
   if (TRACETOOLS_TRACEPOINT_ENABLED(rclcpp_callback_register)) {
     char* symbol = function_ ? tracetools::detail::get_symbol_funcptr(function_)
                              : tracetools::detail::demangle_symbol(type_->name());

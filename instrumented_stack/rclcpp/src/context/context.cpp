@@ -17,8 +17,8 @@ namespace rclcpp {
 
 namespace {
 
-// The valid contexts, for the signal handler: it must not own them. Never destroyed, because contexts with static
-// storage leave it when the process ends.
+// The valid contexts, for the signal handler, which must not own them. Never destroyed, because contexts in static
+// storage remove themselves when the process ends.
 struct ValidContexts {
   std::mutex mutex;
   std::vector<std::weak_ptr<Context>> contexts;
@@ -29,7 +29,7 @@ ValidContexts& valid_contexts() {
   return *contexts;
 }
 
-// Console levels and /rosout belong to the process: the first context configures them, the last one puts them back.
+// Console levels and /rosout belong to the process. The first context configures them, the last one restores them.
 std::mutex logging_mutex;
 size_t logging_users = 0;
 
@@ -68,7 +68,7 @@ void Context::init(int argc, const char* const* argv, const InitOptions& init_op
   if (is_valid()) {
     throw ContextAlreadyInitialized();
   }
-  // Nodes of an earlier initialisation keep theirs. Whatever goes wrong below, the deleter leaves nothing behind.
+  // Nodes of an earlier initialisation keep their rcl context. If a step below fails, the deleter cleans up everything.
   const std::shared_ptr<rcl_context_t> rcl_context(
       new rcl_context_t(rcl_get_zero_initialized_context()), [](rcl_context_t* context) {
         if (rcl_context_is_valid(context) && rcl_shutdown(context) != RCL_RET_OK) {
@@ -121,7 +121,7 @@ std::string Context::shutdown_reason() const {
 }
 
 bool Context::shutdown(const std::string& reason) {
-  // Held to the end: of two threads that shut down, the later one returns when everything is done.
+  // Held until the end: if two threads shut down, the later one returns when everything is done.
   const std::lock_guard lock(init_mutex_);
   if (!is_valid()) {
     return false;

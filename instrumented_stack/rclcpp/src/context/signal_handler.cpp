@@ -14,7 +14,7 @@ namespace rclcpp {
 
 namespace {
 
-// What the handler touches: lock-free atomics and an fd, all alive as long as the process.
+// The data that the handler uses: lock-free atomics and an fd, which live as long as the process.
 std::atomic<int> event_fd{-1};
 std::atomic<int> last_signal{0};
 std::atomic<bool> stop_thread{false};
@@ -25,7 +25,7 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<void (*)(int)
 
 void wake_thread() {
   const uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = write(event_fd, &one, sizeof one);  // fails only when a wake-up is pending
+  [[maybe_unused]] const ssize_t written = write(event_fd, &one, sizeof one);  // fails only if a wake-up is pending
 }
 
 bool handles_sigint(SignalHandlerOptions options) {
@@ -36,7 +36,7 @@ bool handles_sigterm(SignalHandlerOptions options) {
   return options == SignalHandlerOptions::All || options == SignalHandlerOptions::SigTerm;
 }
 
-// A handler that the program had set before, and that is called after ours.
+// The handler that the program had set before. It is called after ours.
 void (*plain_function(const struct sigaction& action))(int) {
   const bool is_function =
       !(action.sa_flags & SA_SIGINFO) && action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
@@ -63,7 +63,7 @@ bool SignalHandler::install(SignalHandlerOptions options) {
     return false;
   }
   if (thread_.joinable()) {
-    thread_.join();  // of an earlier installation; uninstall() told it to end
+    thread_.join();  // from an earlier installation; uninstall() told it to end
   }
   if (event_fd < 0) {
     event_fd = eventfd(0, EFD_CLOEXEC | EFD_SEMAPHORE);

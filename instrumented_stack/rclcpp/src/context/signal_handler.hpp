@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns SIGINT and SIGTERM into the shutdown of the contexts that want it.
+// Turns SIGINT and SIGTERM into the shutdown of the contexts that ask for it.
 //
-// The handler itself only writes to an eventfd. A thread of its own reads it and shuts the contexts down, where locks
+// The handler itself only writes to an eventfd. A separate thread reads it and shuts the contexts down. There, locks
 // and callbacks are allowed.
 #pragma once
 
@@ -22,7 +22,7 @@ class SignalHandler {
   SignalHandler& operator=(const SignalHandler&) = delete;
 
   bool install(SignalHandlerOptions options);
-  // Callable from the shutdown that a signal caused: the thread then ends by itself.
+  // May be called from a shutdown that a signal caused. The thread then ends by itself.
   bool uninstall();
   bool is_installed();
   SignalHandlerOptions current_options();

@@ -18,7 +18,7 @@ constexpr int kSubscription = static_cast<int>(SubscriptionIntraProcessBase::Ent
 }  // namespace
 
 void SubscriptionIntraProcessBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
-  // An executor may have taken one message of several, and a wait uses the trigger up.
+  // A wait resets the trigger, but the executor may have taken only one of several messages.
   if (has_data()) {
     guard_condition_.trigger();
   }
@@ -47,7 +47,7 @@ void SubscriptionIntraProcessBase::execute(const std::shared_ptr<void>& data) {
     dispatch(data, message_info);
     return;
   }
-  // The callback's own time is not the message's.
+  // Measured before the callback, so that its running time does not count.
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   dispatch(data, message_info);
   statistics_->handle_message(message_info.get_rmw_message_info(),

@@ -16,7 +16,7 @@ constexpr const char* kIdentifier = "rosidl_typesupport_cpp";
 
 struct TypeName {
   std::string package;
-  std::string kind;  // msg, srv or action; empty if the name leaves it out
+  std::string kind;  // msg, srv or action; empty if the name does not contain it
   std::string name;
 };
 
@@ -40,7 +40,7 @@ void require_identifier(const std::string& typesupport_identifier) {
   }
 }
 
-// A component of a name as the C++ ABI writes it.
+// A component of a name, mangled as in the C++ ABI.
 std::string mangled(const std::string& name) {
   return std::to_string(name.size()) + name;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rcl tells of the graph, as C++.
+// Converts rcl's names and types of the graph to C++.
 #pragma once
 
 #include <rcl/graph.h>
@@ -12,7 +12,7 @@
 
 namespace rclcpp::detail {
 
-// Also frees them.
+// Also frees `names`.
 inline std::map<std::string, std::vector<std::string>> to_map(rcl_names_and_types_t& names_and_types) {
   std::map<std::string, std::vector<std::string>> result;
   for (size_t i = 0; i < names_and_types.names.size; ++i) {

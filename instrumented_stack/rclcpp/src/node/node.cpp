@@ -13,7 +13,7 @@ Node::Node(const std::string& node_name, const NodeOptions& options) : Node(node
 Node::Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options)
     : Node(node_name, node_namespace, options, *options.make_rcl_node_options()) {}
 
-// The order is that of the trace: the rcl node with /rosout, the parameter services, /parameter_events,
+// The order is visible in the trace: the rcl node with /rosout, the parameter services, /parameter_events,
 // get_type_description, /clock.
 Node::Node(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options,
            const rcl_node_options_t& rcl_options)

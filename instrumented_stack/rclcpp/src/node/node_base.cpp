@@ -15,8 +15,8 @@ namespace rclcpp::node_interfaces {
 
 namespace {
 
-// Throws the error that shows where the name is wrong. The name may be right here and wrong after remapping: then only
-// rcl knows, and the caller reports its error.
+// Throws the error that shows where the name is wrong. A name may be right here and wrong after remapping. Then only
+// rcl knows, and the caller reports rcl's error.
 void throw_if_invalid_node_name(const std::string& name) {
   int result = RMW_NODE_NAME_VALID;
   size_t index = 0;
@@ -29,7 +29,7 @@ void throw_if_invalid_node_name(const std::string& name) {
 void throw_if_invalid_namespace(const std::string& node_namespace) {
   int result = RMW_NAMESPACE_VALID;
   size_t index = 0;
-  // rcl adds the leading slash of a relative namespace before it looks at the rest.
+  // rcl adds the leading slash of a relative namespace before it checks the rest.
   const bool relative = !node_namespace.empty() && node_namespace.front() != '/';
   const std::string absolute = relative ? "/" + node_namespace : node_namespace;
   if (rmw_validate_namespace(absolute.c_str(), &result, &index) == RMW_RET_OK && result != RMW_NAMESPACE_VALID) {

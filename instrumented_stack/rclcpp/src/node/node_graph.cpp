@@ -85,7 +85,7 @@ size_t NodeGraph::count_clients(const std::string& service_name) const {
 }
 
 Event::SharedPtr NodeGraph::get_graph_event() const {
-  // Events may outlive the node interface, not the rcl node.
+  // Events may outlive the node interface, so they hold the rcl node.
   return std::make_shared<Event>([node = node_base_->get_shared_rcl_node_handle()] {
     uint64_t number = 0;
     (void)rmw_wait_for_graph_change(rcl_node_get_rmw_handle(node.get()), &number, 0);

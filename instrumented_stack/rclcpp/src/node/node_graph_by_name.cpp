@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What NodeGraph tells of one node or one topic.
+// The functions of NodeGraph for one node or one topic.
 #include <algorithm>
 
 #include "node/names_and_types.hpp"

@@ -17,7 +17,7 @@ namespace {
 using rcl_interfaces::srv::GetLoggerLevels;
 using rcl_interfaces::srv::SetLoggerLevels;
 
-// Unset for a logger without a level of its own.
+// The level is Unset for a logger without its own level.
 void get_levels(const std::shared_ptr<GetLoggerLevels::Request> request,
                 std::shared_ptr<GetLoggerLevels::Response> response) {
   for (const std::string& name : request->names) {

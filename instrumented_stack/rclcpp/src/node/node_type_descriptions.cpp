@@ -22,7 +22,7 @@ using type_description_interfaces::msg::TypeSource;
 
 constexpr const char* kParameter = "start_type_description_service";
 
-// By name, which is the order in a TypeDescription.
+// Sorted by name, as in a TypeDescription.
 using Types = std::map<std::string_view, const rosidl_type_description_t*>;
 
 void add_nested_types(const rosidl_type_description_t& type, Types& types) {
@@ -85,7 +85,7 @@ void describe(const rosidl_type_description_t& type, const GetTypeDescription::R
 void answer(const rcl_node_t* node, const GetTypeDescription::Request& request,
             GetTypeDescription::Response& response) {
   response.successful = false;
-  // The two reasons are those that nodes of ROS 2 give.
+  // Nodes of ROS 2 give the same two reasons.
   if (!is_type_hash(request.type_hash)) {
     response.failure_reason = "Failed to parse type hash";
     return;

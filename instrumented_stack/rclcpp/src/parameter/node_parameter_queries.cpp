@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be asked of a node's parameters; node_parameters.cpp changes them.
+// Queries about a node's parameters. node_parameters.cpp changes them.
 #include <algorithm>
 
 #include "rclcpp/exceptions.hpp"

@@ -16,7 +16,7 @@ namespace {
 
 using rcl_interfaces::msg::ParameterEvent;
 
-// Later sources win: the process's command line, the node's own arguments, then what the program says.
+// Later sources replace earlier ones: the process's command line, the node's own arguments, the program's options.
 std::map<std::string, ParameterValue> collect_overrides(const NodeBaseInterface& node_base, const NodeOptions& options,
                                                         const rcl_node_options_t& rcl_options) {
   std::map<std::string, ParameterValue> overrides;
@@ -36,7 +36,7 @@ std::map<std::string, ParameterValue> collect_overrides(const NodeBaseInterface&
   return overrides;
 }
 
-// The living handles, held so that a callback can remove itself.
+// The living handles. They are held so that a callback can remove itself.
 template <typename HandleT>
 std::vector<std::shared_ptr<HandleT>> living(std::list<std::weak_ptr<HandleT>>& handles) {
   std::vector<std::shared_ptr<HandleT>> result;
@@ -54,7 +54,7 @@ template <typename HandleT, typename CallbackT>
 std::shared_ptr<HandleT> add_handle(std::list<std::weak_ptr<HandleT>>& handles, CallbackT callback) {
   auto handle = std::make_shared<HandleT>();
   handle->callback = std::move(callback);
-  handles.push_front(handle);  // the newest is asked first
+  handles.push_front(handle);  // the newest is called first
   return handle;
 }
 
@@ -74,7 +74,7 @@ std::string in_quotes(const std::string& name) {
 
 }  // namespace
 
-// Held while parameters change; a callback that tries to change them too is refused.
+// Held while parameters change. If a callback tries to change parameters too, it is refused.
 class NodeParameters::ChangeScope {
  public:
   explicit ChangeScope(NodeParameters& parameters) : lock_(parameters.mutex_), parameters_(parameters) {
@@ -159,7 +159,7 @@ const ParameterValue& NodeParameters::declare(const std::string& name, const Par
   const bool overridden = override != overrides_.end() && !ignore_override;
   const ParameterValue* value = overridden ? &override->second : default_value;
   if (!value || value->get_type() == PARAMETER_NOT_SET) {
-    // Declared, and without a value until somebody sets it.
+    // Declared, but without a value until one is set.
     return (parameters_[name] = {ParameterValue(), descriptor}).value;
   }
 
@@ -226,7 +226,7 @@ NodeParameters::Result NodeParameters::set_parameters_atomically(const std::vect
     return result;
   }
 
-  // First everything is checked on copies, so that a refusal leaves nothing half set.
+  // Everything is checked on copies first, so that a refusal leaves nothing half set.
   std::map<std::string, Declared> changed;
   std::vector<std::string> deleted;
   for (const Parameter& parameter : parameters) {

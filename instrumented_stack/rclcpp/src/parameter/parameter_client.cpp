@@ -14,7 +14,7 @@ namespace {
 namespace srv = rcl_interfaces::srv;
 namespace names = parameter_service_names;
 
-// Sends the request. The future gets what `convert` makes of the response.
+// Sends the request. `convert` turns the response into the future's value.
 template <typename ResultT, typename ServiceT, typename ConvertT>
 std::shared_future<ResultT> call(Client<ServiceT>& client, std::shared_ptr<typename ServiceT::Request> request,
                                  ConvertT convert, std::function<void(std::shared_future<ResultT>)> callback) {

@@ -31,7 +31,7 @@ bool nearly_equal(double a, double b) {
   return std::fabs(a - b) <= scale * std::numeric_limits<double>::epsilon() * 100.0;
 }
 
-// Both ends of a range belong to it, also when they are not a whole number of steps apart.
+// Both ends of a range belong to it, even if they are not a whole number of steps apart.
 bool in_range(const rcl_interfaces::msg::IntegerRange& range, int64_t value) {
   if (value == range.from_value || value == range.to_value) {
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a value is one that a parameter's descriptor allows.
+// Whether a parameter's descriptor allows a value.
 #pragma once
 
 #include <rcl_interfaces/msg/parameter_descriptor.hpp>
@@ -9,7 +9,7 @@
 
 namespace rclcpp {
 
-// Unsuccessful with a reason when the type (unless dynamically typed) or the range is not kept.
+// Unsuccessful, with a reason, if the value violates the type (unless dynamically typed) or the range.
 rcl_interfaces::msg::SetParametersResult check_constraints(const rcl_interfaces::msg::ParameterDescriptor& descriptor,
                                                            const ParameterValue& value);
 

@@ -19,7 +19,7 @@ void remove(std::list<std::weak_ptr<HandleT>>& handles, const std::shared_ptr<Ha
   throw std::runtime_error("Callback doesn't exist");
 }
 
-// Those that live; the others are forgotten.
+// Returns the living handles and forgets the others.
 template <typename HandleT>
 std::vector<std::shared_ptr<HandleT>> living(std::list<std::weak_ptr<HandleT>>& handles) {
   std::vector<std::shared_ptr<HandleT>> result;

@@ -40,7 +40,7 @@ rcl_interfaces::msg::SetParametersResult set(node_interfaces::NodeParameters& no
   }
 }
 
-// Runs `answer`; what it throws leaves the response empty.
+// Runs `answer`. If it throws, the response stays empty.
 template <typename AnswerT>
 void answer_or_warn(const char* what, AnswerT answer) {
   try {
@@ -80,7 +80,7 @@ ParameterService::ParameterService(const node_interfaces::NodeBaseInterface::Sha
                                    const node_interfaces::NodeServicesInterface::SharedPtr& node_services,
                                    node_interfaces::NodeParameters* node_parameters, const QoS& qos) {
   const ServiceFactory factory(node_base, node_services, qos);
-  // The order of creation is that of the trace.
+  // The order of creation is visible in the trace.
   services_.push_back(
       factory.make<srv::GetParameters>(names::kGetParameters, [node_parameters](const auto& request, auto& response) {
         answer_or_warn("get", [&] {

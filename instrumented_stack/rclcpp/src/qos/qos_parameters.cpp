@@ -136,10 +136,10 @@ QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces:
   QoS overridden = qos;
   for (const QosPolicyKind kind : options.get_policy_kinds()) {
     if (kind == QosPolicyKind::Lifespan && !is_publisher) {
-      continue;  // a publisher's business
+      continue;  // only for publishers
     }
     const std::string name = prefix + qos_policy_kind_to_cstr(kind);
-    // A second entity of the node on the topic goes by the same parameters.
+    // A second entity of the node on the topic uses the same parameters.
     if (!parameters.has_parameter(name)) {
       rcl_interfaces::msg::ParameterDescriptor descriptor;
       descriptor.description = std::string("qos policy {") + qos_policy_kind_to_cstr(kind) + description_end;

@@ -95,10 +95,10 @@ bool ClientBase::wait_for_service_nanoseconds(nanoseconds timeout) {
   }
   const auto start = steady_clock::now();
   const rmw_node_t* node = rcl_node_get_rmw_handle(node_handle_.get());
-  uint64_t changes = 0;  // whatever it is, the first wait returns at once unless the graph never changed
+  uint64_t changes = 0;  // any value: the first wait returns at once unless the graph never changed
   nanoseconds left = timeout;
   while (context_->is_valid() && !service_is_ready()) {
-    // Of all changes; shutdown ends it, too.
+    // Waits for any change of the graph. Shutdown ends it, too.
     if (rmw_wait_for_graph_change(node, &changes, left.count()) == RMW_RET_TIMEOUT) {
       break;
     }
@@ -125,7 +125,7 @@ void ClientBase::execute() {
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_client, static_cast<const void*>(client_handle_.get()));
   rmw_request_id_t header{};
   std::shared_ptr<void> response = create_response();
-  // A response that cannot be read costs that response, not the program.
+  // If a response cannot be read, it is lost, but the program goes on.
   bool taken = false;
   try {
     taken = take_type_erased_response(response.get(), header);

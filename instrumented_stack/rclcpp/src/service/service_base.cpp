@@ -84,7 +84,7 @@ void ServiceBase::execute() {
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_service, static_cast<const void*>(service_handle_.get()));
   auto header = std::make_shared<rmw_request_id_t>();
   std::shared_ptr<void> request = create_request();
-  // A request that cannot be read costs that request, not the program.
+  // If a request cannot be read, it is lost, but the program goes on.
   bool taken = false;
   try {
     taken = take_type_erased_request(request.get(), *header);

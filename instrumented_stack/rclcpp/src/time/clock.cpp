@@ -48,7 +48,7 @@ bool Clock::sleep_until(Time until, Context::SharedPtr context) {
   if (until.get_clock_type() != get_clock_type()) {
     throw std::runtime_error("until's clock type does not match this clock's type");
   }
-  // In a loop: the system's clock may be set while we sleep.
+  // A loop, because the system's clock may be set during the sleep.
   for (Time current = now(); current < until; current = now()) {
     if (!context->sleep_for((until - current).to_chrono<std::chrono::nanoseconds>())) {
       return false;
@@ -76,7 +76,7 @@ bool Clock::wait_until_started(const Duration& timeout, Context::SharedPtr conte
   if (get_clock_type() != RCL_ROS_TIME) {
     throw std::runtime_error("only a clock of ROS time can be waited for");
   }
-  // Simulated time cannot tell how long it takes to begin.
+  // Simulated time cannot measure how long it takes to start.
   Clock steady(RCL_STEADY_TIME);
   const Time begin = steady.now();
   while (!started()) {

@@ -29,7 +29,7 @@ Rate::Rate(const Duration& period, Clock::SharedPtr clock)
 bool Rate::sleep() {
   const Time now = clock_->now();
   if (now < last_interval_) {
-    last_interval_ = now;  // the clock went back
+    last_interval_ = now;  // the clock has jumped back
   }
   const Time next_interval = last_interval_ + period_;
   last_interval_ += period_;

@@ -34,7 +34,7 @@ int64_t difference(int64_t a, int64_t b) {
   return result;
 }
 
-// Seconds rounded down and the nanoseconds above them, as the messages want them.
+// Seconds rounded down, plus the remaining nanoseconds, as messages require.
 template <typename MessageT>
 MessageT to_message(int64_t nanoseconds) {
   int64_t seconds = nanoseconds / kNanosecondsPerSecond;
@@ -104,7 +104,7 @@ Duration Duration::operator-(const Duration& other) const {
 
 Duration Duration::operator*(double scale) const {
   const long double scaled = static_cast<long double>(nanoseconds_) * static_cast<long double>(scale);
-  if (!(scaled < static_cast<long double>(std::numeric_limits<int64_t>::max()))) {  // also when scale is not a number
+  if (!(scaled < static_cast<long double>(std::numeric_limits<int64_t>::max()))) {  // also if scale is not a number
     throw std::overflow_error("duration scaling leads to int64_t overflow");
   }
   if (scaled < static_cast<long double>(std::numeric_limits<int64_t>::min())) {

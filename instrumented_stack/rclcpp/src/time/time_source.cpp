@@ -28,8 +28,8 @@ constexpr const char* kParameter = "use_sim_time";
 
 namespace detail {
 
-// Receives /clock for one time source, in a group that nothing else serves. It is not ended by what it runs itself:
-// that is called under the lock of the clock, which the end of simulated time needs.
+// Receives /clock for one time source, in a group of its own. Code that this thread runs must not end it: it runs under
+// the clock's lock, which is needed to end simulated time.
 class ClockThread {
  public:
   explicit ClockThread(node_interfaces::NodeBaseInterface::SharedPtr node_base)
@@ -80,7 +80,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
       node_parameters->declare_parameter(kParameter, ParameterValue(false));
     }
     const bool enabled = node_parameters->get_parameter(kParameter).as_bool();
-    // Weakly: the node owns what it calls.
+    // A weak pointer, because the node owns the callback.
     auto on_change = [weak = weak_from_this()](const std::vector<Parameter>& parameters) {
       const auto self = weak.lock();
       for (const Parameter& parameter : parameters) {
@@ -89,7 +89,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
         }
       }
     };
-    // Not under our lock: a parameter that is set calls back under the lock of the node's parameters.
+    // Called without our lock: setting a parameter calls back under the lock of the node's parameters.
     auto callback = node_parameters->add_post_set_parameters_callback(std::move(on_change));
     {
       const std::lock_guard lock(mutex_);
@@ -146,7 +146,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
 
  private:
   void use_sim_time(bool enabled) {
-    // Ended after the lock, for which its thread may wait.
+    // Destroyed after the lock is released, because its thread may wait for the lock.
     std::unique_ptr<detail::ClockThread> ended;
     Subscription<rosgraph_msgs::msg::Clock>::SharedPtr ended_subscription;
     const std::lock_guard lock(mutex_);
@@ -176,7 +176,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
           }
         },
         options);
-    // Nothing has changed if that failed.
+    // Set last: if the creation fails, nothing has changed.
     thread_ = std::move(thread);
     for (const Clock::SharedPtr& clock : clocks_) {
       enable(*clock, true);
@@ -212,14 +212,14 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   }
 
   const QoS qos_;
-  mutable std::recursive_mutex mutex_;  // recursive: what waits for a jump of a clock may attach and detach
+  mutable std::recursive_mutex mutex_;  // recursive: callbacks of clock jumps may attach and detach
   bool use_clock_thread_;
   node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   std::vector<Clock::SharedPtr> clocks_;
   node_interfaces::PostSetParametersCallbackHandle::SharedPtr parameter_callback_;
-  // While time is simulated. The thread goes first.
+  // Set while time is simulated. The thread is destroyed first.
   Subscription<rosgraph_msgs::msg::Clock>::SharedPtr subscription_;
   std::unique_ptr<detail::ClockThread> thread_;
   rcl_time_point_value_t last_time_ = 0;

@@ -22,7 +22,7 @@ TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Co
                                rcl_get_default_allocator(), autostart),
                "couldn't initialize rcl timer handle");
   }
-  // An executor may hold the rcl timer longer than this object lives: the rcl timer needs its clock and its context.
+  // An executor may hold the rcl timer longer than this object lives. The rcl timer needs its clock and its context.
   timer_handle_.reset(timer.release(), [clock = clock_, rcl_context](rcl_timer_t* handle) {
     {
       const std::lock_guard lock(clock->get_clock_mutex());

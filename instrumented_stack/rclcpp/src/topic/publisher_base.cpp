@@ -53,7 +53,7 @@ PublisherBase::~PublisherBase() {
   if (intra_process_manager_) {
     intra_process_manager_->remove_publisher(intra_process_publisher_id_);
   }
-  event_handlers_.clear();  // an executor that looks again must not find them
+  event_handlers_.clear();  // an executor that collects entities must not find them any more
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
     group->entity_removed();
   }
@@ -84,7 +84,7 @@ size_t PublisherBase::get_subscription_count() const {
   const rcl_ret_t ret = rcl_publisher_get_subscription_count(publisher_handle_.get(), &count);
   if (ret == RCL_RET_PUBLISHER_INVALID && !rcl_context_is_valid(rcl_publisher_get_context(publisher_handle_.get()))) {
     rcl_reset_error();
-    return 0;  // after shutdown nobody listens
+    return 0;  // after shutdown there are no subscriptions
   }
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "failed to get subscription count");
@@ -177,7 +177,7 @@ void PublisherBase::check_published(rcl_ret_t ret, const char* what) const {
   if (ret == RCL_RET_OK) {
     return;
   }
-  // A callback that publishes while another thread shuts down is nobody's fault.
+  // A callback may publish while another thread shuts down. That is not an error.
   if (ret == RCL_RET_PUBLISHER_INVALID) {
     rcl_context_t* context = rcl_publisher_get_context(publisher_handle_.get());
     if (context && !rcl_context_is_valid(context)) {

@@ -80,7 +80,7 @@ SubscriptionBase::~SubscriptionBase() {
     intra_process_.reset();
   }
   clear_on_new_message_callback();
-  event_handlers_.clear();  // an executor that looks again must not find them
+  event_handlers_.clear();  // an executor that collects entities must not find them any more
   if (traced_callback_) {
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, traced_callback_);
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_subscription_fini, static_cast<const void*>(this));
@@ -216,7 +216,7 @@ void SubscriptionBase::execute_loaned() {
   MessageInfo message_info;
   std::shared_ptr<void> message = borrow_message();
   bool taken = false;
-  // A message that cannot be read costs that message, not the program.
+  // If a message cannot be read, it is lost, but the program goes on.
   try {
     taken = any_callback.is_serialized_message_callback()
                 ? take_serialized(*static_cast<SerializedMessage*>(message.get()), message_info)
@@ -237,7 +237,7 @@ void SubscriptionBase::execute_loaned() {
     callback().dispatch(message, message_info);
     return;
   }
-  // The callback's own time is not the message's.
+  // Measured before the callback, so that its running time does not count.
   const auto now =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
   callback().dispatch(message, message_info);

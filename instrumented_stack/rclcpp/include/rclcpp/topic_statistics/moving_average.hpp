@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Average, extremes and deviation of numbers as they come, in constant memory.
+// Average, extremes and deviation of a sequence of numbers, in constant memory.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 namespace rclcpp::topic_statistics {
 
-// Not a number where nothing was measured.
+// The values are NaN if nothing was measured.
 struct StatisticData {
   double average = std::nan("");
   double min = std::nan("");
   double max = std::nan("");
-  double standard_deviation = std::nan("");  // of the population
+  double standard_deviation = std::nan("");  // population standard deviation
   uint64_t sample_count = 0;
 };
 
@@ -40,7 +40,7 @@ class MovingAverage {
  private:
   uint64_t count_ = 0;
   double average_ = 0;
-  double square_sum_ = 0;  // of the distances from the average
+  double square_sum_ = 0;  // sum of the squared distances from the average
   double min_ = std::numeric_limits<double>::infinity();
   double max_ = -std::numeric_limits<double>::infinity();
 };

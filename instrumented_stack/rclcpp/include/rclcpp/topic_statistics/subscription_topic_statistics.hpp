@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures what a subscription receives, and publishes the statistics of each period. Created with a subscription that
-// has SubscriptionOptions::topic_stats_options enabled.
+// Measures the messages of a subscription, and publishes the statistics of each period. Created with a subscription if
+// SubscriptionOptions::topic_stats_options is enabled.
 #pragma once
 
 #include <rmw/types.h>
@@ -18,8 +18,8 @@
 
 namespace rclcpp::topic_statistics {
 
-// Two metrics, in milliseconds: "message_age", from when a message was sent to when it was received, for messages that
-// tell when they were sent; and "message_period", between one message and the next. Thread safe.
+// There are two metrics, in milliseconds. "message_age" is the time from sending to receiving, for messages with a send
+// time. "message_period" is the time between two messages. Thread safe.
 class SubscriptionTopicStatistics {
  public:
   using MetricsMessage = statistics_msgs::msg::MetricsMessage;
@@ -28,13 +28,13 @@ class SubscriptionTopicStatistics {
   SubscriptionTopicStatistics(const std::string& node_name, Publisher<MetricsMessage>::SharedPtr publisher);
   ~SubscriptionTopicStatistics();
 
-  // `now` is system time, when the message was received.
+  // `now` is the system time at which the message was received.
   void handle_message(const rmw_message_info_t& message_info, const Time& now);
 
-  // A message for each metric; then measures afresh.
+  // Publishes a message for each metric, then starts a new measurement.
   void publish_message_and_reset_measurements();
 
-  // The timer is kept, and cancelled at the end.
+  // The timer is kept, and cancelled in the destructor.
   void set_publisher_timer(TimerBase::SharedPtr publisher_timer);
 
  private:
