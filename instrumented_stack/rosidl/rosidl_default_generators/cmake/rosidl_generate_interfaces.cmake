@@ -100,6 +100,11 @@ function(rosidl_generate_interfaces pkg)
     PRIVATE fastcdr
     INCLUDE ${output}/include
     CONFIG_EXTRAS ${target_names})
+  if(TARGET interface_sources)
+    add_custom_target(${pkg}__sources DEPENDS ${source} ${headers})
+    add_dependencies(${pkg} ${pkg}__sources)
+    add_dependencies(interface_sources ${pkg}__sources)
+  endif()
   foreach(part IN ITEMS rosidl_generator_cpp rosidl_typesupport_cpp rosidl_typesupport_fastrtps_cpp)
     add_library(${pkg}__${part} ALIAS ${pkg})
   endforeach()
