@@ -40,7 +40,7 @@ HeaderLayout header_layout(const FieldClass& structure, bool is_big_endian) {
   layout.alignment = structure.alignment;
   layout.is_big_endian = is_big_endian;
   const FieldMember* variant = nullptr;
-  FieldClass numbers;  // what stands before the variant
+  FieldClass numbers;  // the structure before the variant
   numbers.kind = FieldKind::kStructure;
   for (const FieldMember& member : structure.members) {
     if (variant != nullptr) refuse("a field behind a variant");
@@ -62,7 +62,7 @@ HeaderLayout header_layout(const FieldClass& structure, bool is_big_endian) {
   const FieldClass& selector = *numbers.members.back().type;
   for (const FieldMember& option : variant->type->members) {
     if (option.type->kind != FieldKind::kStructure) refuse("a variant of something else than structures");
-    // Places are counted from the header's beginning, so no part may ask for more than the header's own alignment.
+    // Places count from the beginning of the header, so no part may have a larger alignment than the header.
     if (structure.alignment % option.type->alignment != 0) refuse("a part with an alignment of its own");
     const HeaderLayout::Form form = form_of(*option.type, before.end, layout.clock);
     const auto range = std::find_if(selector.ranges.begin(), selector.ranges.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the events of one stream of a trace are laid out, worked out once from its declarations.
+// The layout of the events of one stream of a trace, found once from its declarations.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace tracing::ctf {
 
 // Where an event header has its number and its time. LTTng has two forms of a header in one stream: a short one, and a
-// long one for large numbers and for events long after the one before.
+// long one for large numbers and for events long after the previous event.
 struct HeaderLayout {
   struct Number {
     std::uint32_t bit = 0;   // from the beginning of the header
@@ -27,7 +27,7 @@ struct HeaderLayout {
   };
   std::uint32_t alignment = 8;
   bool is_big_endian = false;
-  Number first_id;  // tells the form, and in the short form the event
+  Number first_id;  // gives the form, and in the short form the number of the event
   bool has_long_form = false;
   std::uint64_t long_first = 0;  // the values of first_id that mean the long form
   std::uint64_t long_last = 0;
@@ -53,7 +53,7 @@ class StreamLayout {
   const HeaderLayout& header() const { return header_; }
   const Clock& clock() const { return *clock_; }
   const StructureDecoder& event_context() const { return event_context_; }
-  // Null: no event has this number.
+  // Null when no event has this number.
   const EventLayout* event(std::uint64_t id) const {
     if (id < dense_.size()) return dense_[id].get();
     const auto found = sparse_.find(id);

@@ -12,7 +12,7 @@
 
 namespace tracing::ctf {
 
-// `size` bits (at most 64) from `bit` on, where bit 0 is the first of the packet.
+// Reads `size` bits (at most 64) from `bit` on, where bit 0 is the first bit of the packet.
 std::uint64_t read_bits(const std::uint8_t* packet, std::uint64_t bit, std::uint32_t size, bool big_endian);
 
 struct Field {
@@ -24,17 +24,17 @@ struct Field {
   // elements have no fixed size. Null: the elements follow one another with a fixed size.
   const Field* children = nullptr;
 
-  // Of integers and enumerations; unsigned ones only for the first.
+  // The value of an integer or an enumeration; unsigned_integer() only for unsigned ones.
   std::optional<std::uint64_t> unsigned_integer() const;
   std::optional<std::int64_t> integer() const;  // when it fits
   std::optional<double> real() const;
   std::optional<std::string_view> string() const;  // of strings and of arrays of characters
-  // Of an array, a sequence or a structure; index < length, or the number of members.
+  // An element of an array or a sequence, or a member of a structure; index < length, or the number of members.
   Field child(std::size_t index) const;
-  // The label of an enumeration's value; empty: none.
+  // The label of an enumeration's value; empty when it has none.
   std::string_view label() const;
 
-  // Any number that is not a real one, its bits extended to 64.
+  // Any number but a real one, its bits extended to 64.
   std::uint64_t raw() const {
     const std::uint8_t* const bytes = packet + bit / 8;
     switch (type->access) {

@@ -20,8 +20,8 @@ enum class FieldKind : std::uint8_t {
   kSequence,  // as many elements as an earlier field says
 };
 
-// How a number is read from memory. Only numbers that begin at a byte and have the machine's byte order have a
-// direct way.
+// How a number is read from memory. Only numbers that begin at a byte and have the machine's byte order can be read
+// directly.
 enum class NumberAccess : std::uint8_t {
   kBits,
   kUnsigned8,
@@ -44,14 +44,14 @@ struct FieldMember {
 
 struct EnumerationRange {
   std::string label;
-  std::int64_t first = 0;  // of unsigned enumerations: the same bits
+  std::int64_t first = 0;  // for unsigned enumerations: the same bits
   std::int64_t last = 0;
 };
 
-// One type. Which members mean something depends on `kind`.
+// One type. `kind` decides which members have a meaning.
 struct FieldClass {
   FieldKind kind = FieldKind::kInteger;
-  std::uint32_t alignment = 1;  // in bits, from the beginning of the packet
+  std::uint32_t alignment = 1;  // in bits; counts from the beginning of the packet
 
   // Numbers.
   std::uint32_t size = 0;  // in bits
@@ -60,7 +60,7 @@ struct FieldClass {
   bool is_text = false;  // a character; an array or a sequence of characters is read as a string
   std::uint8_t base = 10;
   NumberAccess access = NumberAccess::kBits;
-  std::string clock;                     // whose value the integer is; empty: of none
+  std::string clock;                     // the clock whose value the integer is; empty: it is no time
   std::vector<EnumerationRange> ranges;  // of an enumeration
 
   // A structure's members; a variant's options.

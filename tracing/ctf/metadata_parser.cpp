@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TSDL by recursive descent, as far as tracers write it.
+// Reads TSDL by recursive descent, as far as tracers use it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ __extension__ using Wide = __int128;  // cycles times nanoseconds
 // The right side of `name = value;`.
 struct Value {
   enum class Kind { kNumber, kString, kPath } kind = Kind::kNumber;
-  std::string text;         // of a string; a path's names, joined by dots
+  std::string text;         // of a string; the names of a path, joined by dots
   std::int64_t number = 0;  // of a number
 };
 
@@ -87,7 +87,7 @@ class Parser {
     throw UnsupportedTrace(fmt::format("metadata, line {}: {}", line, what));
   }
 
-  // Types may be declared before the block `trace`, which tells their byte order.
+  // Finds the byte order first: types may be declared before the block `trace`, which gives the byte order.
   void find_byte_order() {
     for (std::size_t i = 0; i + 2 < tokens_.size(); ++i) {
       if (tokens_[i].is("byte_order") && tokens_[i + 1].is("=") && tokens_[i + 2].text != "native") {
@@ -168,7 +168,7 @@ class Parser {
     return path;
   }
 
-  // The path of a field, by the names that FieldMember has.
+  // The path of a field, made of the names that FieldMember has.
   std::string parse_field_path() {
     if (peek().kind != Token::Kind::kName) fail(fmt::format("expected a field, found '{}'", peek().text));
     std::string path = without_underscore(take().text);
@@ -285,7 +285,7 @@ class Parser {
     return nullptr;
   }
 
-  // A type; of a type that is named by several words only those that do not declare the field that follows.
+  // A type. When several words name the type, the last word may be the name of the field that follows.
   FieldClassPtr parse_type() {
     if (peek().is("integer")) return parse_integer();
     if (peek().is("floating_point")) return parse_real();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a `metadata` file, which LTTng writes in packets.
+// Reads the text of a `metadata` file, which LTTng writes in packets.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace tracing::ctf {
 
-// Plain text is returned as it is. A packet that is not whole, as in a trace that is still being written, is left out
-// together with what follows it. Throws UnsupportedTrace when the file can't be read or is no CTF 1.8.
+// Plain text is returned as it is. A packet that is not complete, as in a trace that is still being written, is left
+// out with everything after it. Throws UnsupportedTrace when the file can't be read or is no CTF 1.8.
 std::string read_metadata(const std::filesystem::path& file);
 
 }  // namespace tracing::ctf

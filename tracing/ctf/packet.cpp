@@ -89,7 +89,7 @@ void MappedFile::forget(const std::uint8_t* begin, const std::uint8_t* end) cons
 }
 
 PacketList find_packets(const TraceClass& trace, const MappedFile& file) {
-  constexpr std::size_t kForget = 1 << 20;  // bytes: touching a header brings the pages around it
+  constexpr std::size_t kForget = 1 << 20;  // bytes; touching a header also reads the pages around it
   PacketList list;
   FieldArena arena;
   std::size_t forgotten = 0;

@@ -13,7 +13,7 @@
 
 namespace tracing::ctf {
 
-// A whole file, to be read. Its pages are read when they are touched.
+// A whole file for reading. The kernel reads its pages when they are touched.
 class MappedFile {
  public:
   // Throws std::system_error.
@@ -33,12 +33,13 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-// What a packet tells of itself. Bits count from its beginning, times are values of the stream's clock.
+// The description of a packet in its header. Bits count from the beginning of the packet, times are values of the
+// stream's clock.
 struct Packet {
   const MappedFile* file = nullptr;
   const std::uint8_t* begin = nullptr;
   std::uint64_t events_bit = 0;    // where the first event begins
-  std::uint64_t content_bits = 0;  // where the last event ends; with a cut packet, where the file ends
+  std::uint64_t content_bits = 0;  // where the last event ends; if the packet is cut, where the file ends
   std::uint64_t size_bits = 0;     // with padding
   bool is_cut = false;             // the file ends before the packet does
   std::uint64_t stream_id = 0;
@@ -46,11 +47,12 @@ struct Packet {
   std::optional<std::uint64_t> time_begin;
   std::optional<std::uint64_t> time_end;
   std::optional<std::uint64_t> sequence_number;
-  std::optional<std::uint64_t> discarded_events;  // up to its end, since the stream began
+  std::optional<std::uint64_t> discarded_events;  // from the start of the stream to the end of the packet
   std::optional<std::int64_t> cpu_id;
 };
 
-// All packets of a file, in its order. What can't be understood ends the list: `problem` then says why.
+// All packets of a file, in its order. A packet that can't be understood ends the list; `problem` then gives the
+// reason.
 struct PacketList {
   std::vector<Packet> packets;
   std::string problem;

@@ -68,11 +68,11 @@ void StreamCursor::find_losses(const Packet& packet) {
   const std::int64_t begin = nanoseconds(packet.time_begin.value_or(0));
   const std::int64_t end = nanoseconds(packet.time_end.value_or(packet.time_begin.value_or(0)));
   const std::int64_t end_before = before != nullptr ? nanoseconds(before->time_end.value_or(0)) : begin;
-  // Told in the opposite order.
+  // In the opposite order: the last loss is reported first.
   if (packet.discarded_events) {
     const std::uint64_t now = *packet.discarded_events;
     if (before == nullptr) {
-      // A running total: how much of it belongs to this trace is not known.
+      // A running total: it is not known how much of it belongs to this trace.
       if (now > 0) losses_.push_back({Item::kDiscardedEvents, std::nullopt, begin, end});
     } else if (before->discarded_events && now > *before->discarded_events) {
       losses_.push_back({Item::kDiscardedEvents, now - *before->discarded_events, end_before, end});
@@ -97,7 +97,7 @@ std::uint64_t StreamCursor::number(std::uint64_t header, HeaderLayout::Number pl
   return read_bits(begin_, bit, place.size, layout_.header().is_big_endian);
 }
 
-// A time holds the lower bits of the clock, which has gone on since the event before.
+// A time holds only the lower bits of the clock, which has advanced since the previous event.
 void StreamCursor::advance_clock(std::uint64_t value, std::uint32_t bits) {
   if (bits >= 64) {
     cycles_ = value;
@@ -153,7 +153,7 @@ void StreamCursor::read_structures(std::uint64_t bit) {
         at += *size;
         continue;
       }
-      // Places of an earlier part must stay where they are.
+      // Places of an earlier part must stay at their addresses.
       constexpr std::size_t kMost = 256;
       if (places_.size() < 3 * kMost) places_.resize(3 * kMost);
       if (part.decoder.size() > kMost) throw DamagedPacket("an event has too many fields");

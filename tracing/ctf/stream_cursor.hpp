@@ -33,29 +33,29 @@ class StreamCursor {
  public:
   enum class Item {
     kEvent,
-    kDiscardedEvents,  // the tracer had no room for them
-    kLostPackets,      // overwritten before they were read
+    kDiscardedEvents,  // the tracer had no room for these events
+    kLostPackets,      // packets were overwritten before they were read
     kEnd,
   };
 
   // Packets in the order of time. The layout must outlive the cursor.
   StreamCursor(const StreamLayout& layout, std::vector<Packet> packets);
 
-  // Moves to the next item. Throws DamagedPacket where a packet can't be read further; a later call goes on with the
-  // next packet.
+  // Moves to the next item. Throws DamagedPacket at the first damage in a packet; a later call goes on with the next
+  // packet.
   Item next();
 
-  // Of the item, in nanoseconds since the epoch; of a loss, when it began at the earliest.
+  // The time of the item in nanoseconds since the epoch. For a loss it is the earliest time at which the loss began.
   std::int64_t time_ns() const { return time_ns_; }
 
-  // Of an event.
+  // The event that the item is.
   const EventLayout& event() const { return *event_; }
   const Packet& packet() const { return packets_[next_packet_ - 1]; }
   const Record& stream_context() const { return stream_context_; }
   const Record& event_context() const { return event_context_; }
   const Record& payload() const { return payload_; }
 
-  // Of a loss: how many events or packets, if known, and when it had ended at the latest.
+  // For a loss: how many events or packets, if known, and the latest time at which it had ended.
   std::optional<std::uint64_t> lost() const { return lost_; }
   std::int64_t loss_end_ns() const { return loss_end_ns_; }
 
@@ -83,9 +83,9 @@ class StreamCursor {
   std::uint64_t nanosecond_offset_ = 0;
   std::vector<Packet> packets_;
   std::size_t next_packet_ = 0;
-  std::vector<Loss> losses_;  // to be told before the events of the packet, the last one first
+  std::vector<Loss> losses_;  // to be reported before the events of the packet, the last one first
 
-  // Of the open packet.
+  // The open packet.
   const std::uint8_t* begin_ = nullptr;
   const std::uint8_t* end_ = nullptr;  // of the content, rounded up to bytes
   const std::uint8_t* file_end_ = nullptr;
@@ -98,7 +98,7 @@ class StreamCursor {
   Record stream_context_;
   Record event_context_;
   Record payload_;
-  std::vector<StructureDecoder::Place> places_;  // of the three structures, one after the other
+  std::vector<StructureDecoder::Place> places_;  // of the three structures, one structure after the other
   FieldArena arena_;
   std::optional<std::uint64_t> lost_;
   std::int64_t loss_end_ns_ = 0;

@@ -28,7 +28,7 @@ StructureDecoder::StructureDecoder(FieldClassPtr structure) : structure_(std::mo
   }
 }
 
-// The bytes of what has always the same size and can stand at any byte.
+// The size in bytes of a type that always has the same size and can begin at any byte.
 std::optional<std::uint32_t> StructureDecoder::fixed_bytes(const FieldClass& type) const {
   if (type.alignment > kByte) return std::nullopt;
   if (type.is_number() && type.size % kByte == 0 && type.alignment == kByte) return type.size / kByte;
@@ -57,7 +57,7 @@ bool StructureDecoder::make_steps() {
       steps_.push_back({Step::Kind::kString, i, 1, 0, 0});
     } else if (type.kind == FieldKind::kSequence && type.element->is_number()) {
       const auto element = fixed_bytes(*type.element);
-      // The nearest earlier member of that name.
+      // The nearest earlier member of that name has the length.
       std::uint32_t length_member = i;
       while (length_member-- > 0 && members[length_member].name != type.path) {
       }
@@ -232,7 +232,7 @@ class GeneralDecoder {
     return field;
   }
 
-  // The field of a path: a member of the structures around, the innermost first, or a path from a scope.
+  // The field that a path names: a member of the structures around, the innermost first, or a path from a scope.
   Field find(std::string_view path) const {
     const std::size_t dot = path.find('.');
     const std::string_view first = path.substr(0, dot);

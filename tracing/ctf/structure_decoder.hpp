@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where the fields of a structure stand.
+// Finds the places of the fields of a structure.
 //
-// A decoder is made once for each structure that the metadata declare. Structures of numbers, strings and arrays of
-// numbers that begin at bytes, which is nearly all that tracers write, are found by a short list of steps, and by none
-// at all when all sizes are fixed. Everything else goes through a general decoder.
+// A decoder is made once for each structure that the metadata declare. Nearly all structures that tracers write have
+// only numbers, strings and arrays of numbers that begin at bytes. A short list of steps finds their fields, and no
+// step is needed when all sizes are fixed. A general decoder finds everything else.
 #pragma once
 
 #include <cstddef>
@@ -25,13 +25,13 @@ class DamagedPacket : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Structures that lengths and variants of later ones may refer to, by the beginning of a path.
+// Structures that the lengths and variants of later structures may refer to, by the beginning of a path.
 struct FieldScope {
   std::string_view path;  // "stream.event.context"
   const Field* structure = nullptr;
 };
 
-// Memory for the fields of one event; reset() makes it all free again.
+// Memory for the fields of one event; reset() makes all of it free again.
 class FieldArena {
  public:
   Field* allocate(std::size_t count);
@@ -40,36 +40,37 @@ class FieldArena {
  private:
   static constexpr std::size_t kBlock = 1024;
   std::vector<std::unique_ptr<Field[]>> blocks_;
-  std::size_t block_ = 0;  // the one in use
-  std::size_t used_ = 0;   // of it
+  std::size_t block_ = 0;  // the block in use
+  std::size_t used_ = 0;   // the used part of that block
   std::vector<std::unique_ptr<Field[]>> large_;
 };
 
-// A structure of any kind. Gives the field and, in `end`, the bit behind it. Throws DamagedPacket.
+// Decodes a structure of any kind. Returns the field and, in `end`, the bit behind it. Throws DamagedPacket.
 Field decode_structure(const FieldClass& structure, const std::uint8_t* packet, std::uint64_t begin,
                        std::uint64_t limit, const std::vector<FieldScope>& scopes, FieldArena& arena,
                        std::uint64_t& end);
 
 class StructureDecoder {
  public:
-  // Where a field is, seen from the first byte of the structure.
+  // The place of a field, from the first byte of the structure on.
   struct Place {
     std::uint32_t offset = 0;  // bytes
     std::uint32_t length = 0;  // elements of a sequence or an array; bytes of a string
   };
 
-  // Null: a structure without fields.
+  // Null stands for a structure without fields.
   explicit StructureDecoder(FieldClassPtr structure);
 
   bool is_simple() const { return is_simple_; }
   std::uint32_t alignment() const { return structure_ ? structure_->alignment : 1; }
   const FieldClass* type() const { return structure_.get(); }
   std::size_t size() const { return structure_ ? structure_->members.size() : 0; }
-  // Of a simple structure whose size never differs: its bytes. Its places are those of fixed_places().
+  // The bytes of a simple structure whose size never differs. Its places are those of fixed_places().
   std::optional<std::uint32_t> fixed_size() const { return fixed_size_; }
   const Place* fixed_places() const { return fixed_places_.data(); }
 
-  // Of a simple structure: fills in size() places; returns the first byte behind it, or null when it goes beyond `end`.
+  // For a simple structure. Fills in size() places. Returns the first byte behind it, or null when it goes beyond
+  // `end`.
   const std::uint8_t* decode(const std::uint8_t* begin, const std::uint8_t* end, Place* places) const;
 
   std::optional<std::size_t> index_of(std::string_view member) const;
@@ -80,7 +81,7 @@ class StructureDecoder {
     Kind kind = Kind::kFixed;
     std::uint32_t first = 0;  // member
     std::uint32_t count = 1;  // members of a fixed step
-    std::uint32_t size = 0;   // bytes of a fixed step; of an element
+    std::uint32_t size = 0;   // bytes of a fixed step, or of an element
     std::uint32_t length_member = 0;
   };
 
@@ -90,7 +91,7 @@ class StructureDecoder {
   FieldClassPtr structure_;
   bool is_simple_ = true;
   std::optional<std::uint32_t> fixed_size_;
-  std::vector<Place> fixed_places_;  // of members in fixed steps: seen from the step's beginning
+  std::vector<Place> fixed_places_;  // of members in fixed steps, from the beginning of the step
   std::vector<Step> steps_;
 };
 

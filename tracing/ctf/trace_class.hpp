@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the metadata of a CTF 1.8 trace declare: clocks, the environment, streams and events.
+// The declarations in the metadata of a CTF 1.8 trace: clocks, the environment, streams and events.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct Clock {
   std::string name;
   std::string uuid;
   std::uint64_t frequency = 1'000'000'000;  // cycles per second
-  std::int64_t offset_s = 0;                // of the value 0 since the epoch, in seconds …
-  std::int64_t offset = 0;                  // … and in cycles
+  std::int64_t offset_s = 0;                // time of the value 0 since the epoch: this number of seconds …
+  std::int64_t offset = 0;                  // … and this number of cycles
 
   std::int64_t nanoseconds(std::uint64_t cycles) const;
 };
@@ -45,7 +45,7 @@ struct StreamDeclaration {
   std::uint64_t id = 0;
   FieldClassPtr packet_context;  // null: none
   FieldClassPtr event_header;
-  FieldClassPtr event_context;  // of all its events; null: none
+  FieldClassPtr event_context;  // for all events of the stream; null: none
 };
 
 using EnvironmentValue = std::variant<std::int64_t, std::string>;
@@ -63,7 +63,7 @@ struct TraceClass {
   std::optional<std::int64_t> environment_number(const std::string& name) const;
 };
 
-// Reads the text of a metadata file. Throws UnsupportedTrace, with the line, when it can't.
+// Reads the text of a metadata file. Throws UnsupportedTrace, with the line, for text that it can't read.
 TraceClass parse_metadata(std::string_view text);
 
 }  // namespace tracing::ctf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes events of the kernel as a CTF 1.8 trace, as LTTng's kernel tracer would: one stream file per processor, domain
-// "kernel", the clock of a userspace trace beside it.
+// Writes events of the kernel as a CTF 1.8 trace, in the form of LTTng's kernel tracer: one stream file per processor,
+// domain "kernel". It uses the clock of the userspace trace beside it.
 #pragma once
 
 #include <array>
@@ -18,27 +18,27 @@
 
 namespace tracing::kernel {
 
-// CLOCK_MONOTONIC, and how far it is behind the time of day.
+// CLOCK_MONOTONIC, and its distance from the time of day.
 struct TraceClock {
   std::string uuid;
   std::int64_t offset = 0;  // nanoseconds
 };
 
-// The clock of the userspace trace in `directory` (its metadata), so that both are put in one order by their raw time
-// stamps; one of our own when there is none.
+// The clock of the userspace trace in `directory` (from its metadata), so that raw time stamps put both traces in one
+// order. A clock of our own when there is no such trace.
 TraceClock clock_beside(const std::filesystem::path& directory);
 
-// The context fields that can be told; vpid and vtid are those of the first namespace of processes.
+// The context fields that can be recorded; vpid and vtid are those of the first namespace of processes.
 inline constexpr std::array<std::string_view, 5> kContextFields = {"procname", "pid", "tid", "vpid", "vtid"};
 
 class CtfWriter {
  public:
-  // The directory must exist. `context_fields` of every event: some of kContextFields, and always the thread. Throws
-  // std::system_error when a file can't be written.
+  // The directory must exist. Every event gets the `context_fields`, which are some of kContextFields, and always the
+  // thread. Throws std::system_error when a file can't be written.
   CtfWriter(std::filesystem::path directory, const std::vector<EventFormat>& formats,
             const std::vector<std::string>& context_fields, ThreadTable& threads);
 
-  // One page of a processor's ring buffer becomes one packet. Pages of a processor come in their order.
+  // Writes one page of a processor's ring buffer as one packet. Pages of a processor must come in their order.
   void write_page(unsigned cpu, std::span<const std::uint8_t> page);
   void write_metadata(const TraceClock& clock) const;
 

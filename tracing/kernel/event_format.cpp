@@ -24,7 +24,7 @@ bool is_size(std::uint32_t size) {
   return size == 1 || size == 2 || size == 4 || size == 8;
 }
 
-// Bytes of one element of an array of this C type, 0 when it isn't known.
+// Bytes of one element of an array of this C type; 0 for a type that is not known here.
 std::uint32_t element_size(std::string_view type) {
   struct Known {
     std::string_view word;
@@ -39,7 +39,7 @@ std::uint32_t element_size(std::string_view type) {
   return 0;
 }
 
-// "char prev_comm[16]" with its place in the record.
+// Reads a declaration such as "char prev_comm[16]", with its place in the record.
 std::optional<EventField> parse_field(const std::string& declaration, const std::string& line) {
   EventField field;
   field.offset = static_cast<std::uint32_t>(std::atol(value_of(line, "offset").c_str()));
@@ -73,7 +73,7 @@ std::optional<EventField> parse_field(const std::string& declaration, const std:
   return field;
 }
 
-// Beginnings of names, where LTTng's modules (2.13) have others than the kernel.
+// Beginnings of names that LTTng's modules (2.13) write differently from the kernel.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kNamesOfLttng{{
     {"sys_enter_", "syscall_entry_"},
     {"sys_exit_", "syscall_exit_"},

@@ -36,7 +36,7 @@ std::vector<std::string> arguments_of(const fs::path& program, const std::string
                                       const std::vector<ChannelPlan>& plans, KernelRecording what) {
   std::vector<std::string> arguments = {program.string(), "launch-" + session, (recording / kFolder).string()};
   if (what == KernelRecording::kSnapshots) arguments.emplace_back("snapshots");
-  std::set<std::string> fields;  // of all channels: they go into one
+  std::set<std::string> fields;  // the fields of all channels, because there is one trace for all of them
   for (const ChannelPlan& plan : plans) {
     if (plan.domain != LTTNG_DOMAIN_KERNEL) continue;
     for (const EventRule& rule : plan.events) arguments.insert(arguments.end(), {"event", rule.pattern, rule.filter});
@@ -47,7 +47,8 @@ std::vector<std::string> arguments_of(const fs::path& program, const std::string
   return arguments;
 }
 
-// What the program says until it closes its output. It goes on then, in a session of its own: a Ctrl-C is not for it.
+// Starts the program and returns what it prints until it closes its output. The program then goes on in a session of
+// its own, so a Ctrl-C does not reach it.
 std::string start_and_listen(const std::vector<std::string>& arguments) {
   try {
     launch::Pipe pipe = launch::make_pipe();
@@ -93,7 +94,7 @@ Recorder recorder_of(const fs::path& recording) {
   return recorder;
 }
 
-// Sends the signal and waits until the recorder says that it is in that state.
+// Sends the signal and waits until the recorder reports that state.
 void bring_to(const std::string& state, int signal, const fs::path& recording) {
   const Recorder recorder = recorder_of(recording);
   if (recorder.pid <= 0 || recorder.state == state) return;
@@ -175,7 +176,7 @@ std::optional<std::uint64_t> finish_kernel_recorder(const fs::path& recording) {
     while (poll(&end, 1, kLongestEnd) < 0 && errno == EINTR) {
     }
     close(pidfd);
-    waitpid(pid, nullptr, WNOHANG);  // when it is our child
+    waitpid(pid, nullptr, WNOHANG);  // reaps it if it is our child
   }
   const fs::path result = recording / "kernel-recorder.json";
   std::ifstream file(result);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in the bytes that the kernel's tracer writes.
+// Reads numbers from the bytes that the kernel's tracer writes.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest pages of each processor's ring buffer, without a gap between them: what a snapshot is written from.
+// The newest pages of each processor's ring buffer, without a gap between them. A snapshot is written from these.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ class PageHistory {
  public:
   using Page = std::vector<std::uint8_t>;  // as trace_pipe_raw gives it
 
-  // `limit`: bytes for each processor; the newest page is kept in any case.
+  // `limit` is in bytes for each processor; the newest page is kept in any case.
   explicit PageHistory(std::size_t limit) : limit_(limit) {}
 
-  // Pages of a processor come in their order. One before which records were overwritten ends what was there before it;
-  // it says nothing of them any more.
+  // Pages of a processor must come in their order. When records were overwritten before this page, the pages before it
+  // are dropped, and the page no longer reports the loss.
   void add(unsigned cpu, Page page);
   void clear() { processors_.clear(); }
 

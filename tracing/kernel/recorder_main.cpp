@@ -2,16 +2,16 @@
 // launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME | context FIELD | snapshots]…
 //
 // Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. SIGUSR1 pauses it, with
-// everything written, SIGUSR2 lets it go on. Says "ready" once it records, or "error: …" and "hint: …", and closes its
-// output. While it runs DIRECTORY/../kernel-recorder.pid holds its number and what it does, "recording" or "paused": a
-// new file takes its place when that has changed. At the end kernel-recorder.json there says what it has recorded and
-// lost. A name that the kernel hasn't is passed over, with a "warning: …" after "ready", unless it has none of them.
-// (Readers of CTF take every file of DIRECTORY for a stream.)
+// everything written; SIGUSR2 lets it go on. It prints "ready" once it records, or "error: …" and "hint: …", and closes
+// its output. While it runs, DIRECTORY/../kernel-recorder.pid holds its process id and its state, "recording" or
+// "paused"; a new file replaces this file when the state changes. At the end it writes to kernel-recorder.json there
+// what it has recorded and lost. A name that the kernel hasn't is skipped, with a "warning: …" after "ready"; if the
+// kernel has none of the names, that is an error. (Readers of CTF take every file of DIRECTORY for a stream.)
 //
 // With `snapshots` it writes nothing into DIRECTORY: the kernel's buffers keep the newest events. When it gets SIGRTMIN
-// it reads DIRECTORY/../kernel-recorder.request, a directory and on the next line "keep" or "clear", and writes what
-// the buffers hold, and what snapshots before have kept, into `kernel` there; with "clear" the next one begins after
-// it. What it does is then the name of that directory, or "failed" with the reason.
+// it reads DIRECTORY/../kernel-recorder.request, which has a directory and on the next line "keep" or "clear". It then
+// writes to `kernel` in that directory what the buffers hold and what earlier snapshots have kept. With "clear" the
+// next snapshot begins after this one. Its state is then the name of that directory, or "failed" with the reason.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -63,7 +63,7 @@ struct RingBuffer {
   Descriptor file;
 };
 
-// Blocked from the beginning, read from a descriptor.
+// The signals are blocked from the beginning and read from a descriptor.
 int control_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -82,7 +82,7 @@ std::vector<RingBuffer> open_buffers(const TracefsInstance& instance) {
   return buffers;
 }
 
-// Calls take(cpu, page) for everything that is there, of all processors.
+// Calls take(cpu, page) for every page that is there, of all processors.
 template <class Take>
 void read_buffers(const std::vector<RingBuffer>& buffers, Take&& take) {
   static std::array<std::uint8_t, kLargestPage> page;
@@ -97,7 +97,7 @@ void learn(ThreadTable& threads, std::span<const std::uint8_t> page) {
   read_ring_page(page, [&](std::uint64_t time, std::span<const std::uint8_t> record) { threads.learn(time, record); });
 }
 
-// What threads are is learnt from all of it before any is written.
+// The table of threads learns from all pages before any page is written.
 void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTable& threads) {
   std::vector<std::pair<unsigned, std::vector<std::uint8_t>>> pages;
   read_buffers(buffers,
@@ -110,13 +110,13 @@ void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTabl
 struct Options {
   std::vector<std::string> context_fields;
   bool snapshots = false;
-  std::string warning;  // names that the kernel hasn't
+  std::string warning;  // the names that the kernel hasn't
 };
 
 Options enable(TracefsInstance& instance, int argc, char** argv) {
   Options options;
   std::optional<UnknownNameError> unknown;
-  // `name`: as the warning says it.
+  // `name` is the form in which the warning shows it.
   const auto pass_over_unknown = [&](const std::string& name, const auto& enable_it) {
     try {
       enable_it();
@@ -151,7 +151,7 @@ Options enable(TracefsInstance& instance, int argc, char** argv) {
 void say(const std::string& text) {
   fmt::print("{}", text);
   std::fflush(stdout);
-  // Whoever reads us is waiting for the end.
+  // A reader of our output waits for its end.
   const Descriptor null(open("/dev/null", O_WRONLY | O_CLOEXEC));
   dup2(null.get(), STDOUT_FILENO);
 }
@@ -160,7 +160,7 @@ std::string ready(const Options& options) {
   return options.warning.empty() ? "ready\n" : fmt::format("ready\nwarning: {}\n", options.warning);
 }
 
-// A program that waits for a change watches the directory: the new file comes into it by a rename.
+// A program that waits for a change watches the directory, because a rename puts the new file there.
 void tell_state(const fs::path& beside, const std::string& state) {
   launch::replace_file(beside / "kernel-recorder.pid", fmt::format("{} {}\n", getpid(), state));
 }
@@ -233,7 +233,8 @@ Request requested(const fs::path& beside) {
   return {directory, what == "clear"};
 }
 
-// What threads are is learnt from the snapshot's own events: what is older is overwritten, and /proc knows the rest.
+// The table of threads learns from the snapshot's own events. Older events are overwritten; /proc gives the other
+// threads.
 void write_snapshot(const fs::path& directory, const PageHistory& history, const std::vector<EventFormat>& formats,
                     const std::vector<std::string>& context_fields, ThreadTable threads) {
   fs::create_directories(directory / "kernel");

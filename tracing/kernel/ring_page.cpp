@@ -13,7 +13,7 @@ constexpr std::uint64_t kMissedEvents = std::uint64_t{1} << 31;
 constexpr std::uint64_t kMissedStored = std::uint64_t{1} << 30;
 constexpr std::uint64_t kCommittedBytes = (std::uint64_t{1} << 20) - 1;
 
-// Record types; those below are the length of the data in words, 0 has it in the first word.
+// Record types. A smaller type is the length of the data in words; with type 0 the first word has the length.
 constexpr std::uint32_t kPadding = 29;
 constexpr std::uint32_t kTimeExtend = 30;
 constexpr std::uint32_t kTimeStamp = 31;
@@ -42,7 +42,7 @@ RingPage read_ring_page(std::span<const std::uint8_t> page,
     const auto word = load<std::uint32_t>(data, at + 4);
     at += sizeof header;
     if (type == kPadding) {
-      if (delta == 0) break;  // to the end of the page
+      if (delta == 0) break;  // padding to the end of the page
       at += word;
       time += delta;
       continue;

@@ -10,16 +10,17 @@
 namespace tracing::kernel {
 
 struct RingPage {
-  std::uint64_t begin = 0;         // clock of the instance, of the first record
-  std::uint64_t end = 0;           // of the last one
-  std::uint64_t lost_records = 0;  // between the page before and this one; 1 when the kernel doesn't know how many
+  std::uint64_t begin = 0;         // time of the first record, on the clock of the instance
+  std::uint64_t end = 0;           // time of the last record
+  std::uint64_t lost_records = 0;  // between the previous page and this one; 1 when the kernel doesn't know the number
 };
 
-// Calls `record` for each record of the page, with its time and its bytes. A page that is cut off ends where it is.
+// Calls `record` for each record of the page, with its time and its bytes. If the page is cut off, the records end
+// there.
 RingPage read_ring_page(std::span<const std::uint8_t> page,
                         const std::function<void(std::uint64_t time, std::span<const std::uint8_t> record)>& record);
 
-// Takes what the page says of records that were lost before it out of it. Returns whether there were some.
+// Removes from the page the number of records that were lost before it. Returns whether there were some.
 bool forget_lost_records(std::span<std::uint8_t> page);
 
 }  // namespace tracing::kernel

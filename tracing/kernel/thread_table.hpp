@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose thread it was and what it was called when an event was recorded: the kernel's records tell the thread alone.
+// The process and the name of a thread at the time of an event: the kernel's records hold only the thread.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ struct Thread {
   std::string name;  // at most 15 characters
 };
 
-// Learns from the kernel's events of new and renamed threads. Those that were there before are read from /proc when
-// they are first asked for; one that has gone by then has no name.
+// Learns from the kernel's events of new and renamed threads. Threads that existed before are read from /proc when they
+// are first asked for; a thread that has gone by then has no name.
 class ThreadTable {
  public:
   // task_newtask and task_rename, as tracefs describes them.
   ThreadTable(const EventFormat& newtask, const EventFormat& rename);
 
-  // Records of other events are passed over. To be called for all records before find() is asked about any of them:
-  // what a processor tells of a thread stands in another buffer than the thread's own events.
+  // Records of other events are skipped. Call this for all records before find() is asked about any of them: what a
+  // processor records about a thread is in another buffer than the thread's own events.
   void learn(std::uint64_t time, std::span<const std::uint8_t> record);
   Thread find(std::int32_t thread, std::uint64_t time);
-  // All records that come from now on are later than those before.
+  // Promises that all records from now on are later than those before.
   void forget_the_past();
 
  private:
@@ -47,7 +47,7 @@ class ThreadTable {
   Place renamed_thread_;
   Place old_name_;
   Place renamed_name_;
-  std::map<std::int32_t, std::map<std::uint64_t, Thread>> threads_;  // what each was from a time on
+  std::map<std::int32_t, std::map<std::uint64_t, Thread>> threads_;  // the state of each thread from a time on
 };
 
 }  // namespace tracing::kernel

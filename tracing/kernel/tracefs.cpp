@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr const char* kMountPoint = "/sys/kernel/tracing";
 constexpr const char* kOldMountPoint = "/sys/kernel/debug/tracing";
 constexpr const char* kPrivilege = "run as root: the kernel's tracer is nobody else's";
-constexpr const char* kReadAtPercent = "10";  // of the buffer filled a reader is woken
+constexpr const char* kReadAtPercent = "10";  // a reader is woken when this part of the buffer is filled
 
 bool is_tracefs(const fs::path& directory) {
   std::error_code ignored;
@@ -34,7 +34,7 @@ fs::path find_tracefs() {
     if (is_tracefs(place)) return place;
   }
   if (geteuid() != 0) throw KernelTraceError(fmt::format("{} cannot be read", kMountPoint), kPrivilege);
-  // In a namespace of our own, so that nothing of the system is changed.
+  // In a mount namespace of our own, so that nothing of the system changes.
   if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
       mount("tracefs", kMountPoint, "tracefs", 0, nullptr) != 0) {
     throw KernelTraceError(fmt::format("tracefs cannot be mounted at {}: {}", kMountPoint, std::strerror(errno)),
@@ -53,7 +53,7 @@ std::string read_file(const fs::path& path) {
 
 TracefsInstance::TracefsInstance(const std::string& name) {
   const fs::path directory = find_tracefs() / "instances" / name;
-  ::rmdir(directory.c_str());  // of a recorder that was killed; one in use stays
+  ::rmdir(directory.c_str());  // left by a recorder that was killed; an instance in use stays
   std::error_code error;
   if (!fs::create_directory(directory, error)) {
     throw KernelTraceError(
@@ -65,7 +65,7 @@ TracefsInstance::TracefsInstance(const std::string& name) {
   directory_ = directory;
   try {
     write("tracing_on", "0");
-    write("trace_clock", "mono");  // CLOCK_MONOTONIC, as LTTng's
+    write("trace_clock", "mono");  // CLOCK_MONOTONIC, the clock of LTTng
     write("buffer_size_kb", std::to_string(kBufferBytes / 1024));
     std::ofstream(directory_ / "buffer_percent") << kReadAtPercent;  // since Linux 5.0
   } catch (const KernelTraceError&) {
@@ -75,7 +75,7 @@ TracefsInstance::TracefsInstance(const std::string& name) {
 }
 
 TracefsInstance::~TracefsInstance() {
-  // Only rmdir(2) removes an instance, with all that looks like files in it.
+  // Only rmdir(2) removes an instance, including everything in it that looks like a file.
   ::rmdir(directory_.c_str());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An instance of the kernel's own tracer: ring buffers, enabled events and a clock apart from everybody else's
+// An instance of the kernel's own tracer. Its ring buffers, enabled events and clock are separate from all others
 // (Documentation/trace/ftrace.rst, "Instances").
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace tracing::kernel {
 
-// what() is one line; remedy() says what to do, may be empty.
+// what() is one line; remedy() says what to do and may be empty.
 class KernelTraceError : public std::runtime_error {
  public:
   explicit KernelTraceError(const std::string& what, std::string remedy = {})
@@ -32,23 +32,24 @@ class TracefsInstance {
  public:
   static constexpr std::size_t kBufferBytes = std::size_t{4} << 20;  // for each processor
 
-  // Mounts tracefs in a mount namespace of this process where it isn't mounted. All throw KernelTraceError.
+  // Mounts tracefs in a mount namespace of this process if it isn't mounted yet. All functions throw KernelTraceError.
   explicit TracefsInstance(const std::string& name);
-  ~TracefsInstance();  // removes it
+  ~TracefsInstance();  // removes the instance
   TracefsInstance(const TracefsInstance&) = delete;
   TracefsInstance& operator=(const TracefsInstance&) = delete;
 
-  // Events by name as LTTng names them (sched_switch, kmem_mm_page_alloc); * matches any text. A filter is the
-  // kernel's. This and the next throw UnknownNameError when there is none.
+  // Enables events by LTTng's names for them (sched_switch, kmem_mm_page_alloc); * matches any text. The filter is in
+  // the kernel's language. This function and the next one throw UnknownNameError when there is no such event.
   void enable_event(const std::string& pattern, const std::string& filter);
-  // A system call: its entry and its exit.
+  // Enables a system call: its entry and its exit.
   void enable_syscall(const std::string& name);
-  // One event more, "task/task_newtask", which formats() does not name unless it is asked for by name, too.
+  // Enables one event more, such as "task/task_newtask". formats() does not include it unless enable_event() asks for
+  // it, too.
   EventFormat watch_event(const std::string& path);
-  // What has been enabled, each once.
+  // The enabled events, each once.
   std::vector<EventFormat> formats() const;
 
-  // When the buffers are full the oldest events are overwritten.
+  // From now on full buffers overwrite the oldest events.
   void keep_newest();
 
   void start();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The functions of liblaunch_trace.so, which the launcher opens when a session records: so it has neither LTTng-UST
-   nor its threads without one. */
+/* The functions of liblaunch_trace.so. The launcher opens this library when a session records, so that it has neither
+   LTTng-UST nor its threads when no session does. */
 #pragma once
 
 #include <stdint.h>
@@ -46,7 +46,7 @@ struct launch_trace_cut_event {
   double share;            /* of a processor that they cost */
 };
 
-/* Fires launch:cut, as above. */
+/* Fires launch:cut. Callable from any thread, does not block. */
 void launch_trace_cut(const struct launch_trace_cut_event* cut);
 
 typedef void (*launch_trace_cut_function)(const struct launch_trace_cut_event*);

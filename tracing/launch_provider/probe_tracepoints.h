@@ -13,7 +13,7 @@
 
 LTTNG_UST_TRACEPOINT_EVENT(launch_probe, fired, LTTNG_UST_TP_ARGS(void), LTTNG_UST_TP_FIELDS())
 
-// As rcl_publish and most events that come often.
+// Has the same fields as rcl_publish and most events that come often.
 LTTNG_UST_TRACEPOINT_EVENT(launch_probe, measured,
                            LTTNG_UST_TP_ARGS(const void*, handle_argument, const void*, message_argument),
                            LTTNG_UST_TP_FIELDS(lttng_ust_field_integer_hex(const void*, handle, handle_argument)

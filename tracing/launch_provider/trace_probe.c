@@ -8,8 +8,8 @@
    traced nodes are at work, this program has that done early, so that the session stops at once when they have ended.
 
    `launch-trace-probe measure` fires launch_probe:measured instead, in batches, and prints the processor time that an
-   event took in nanoseconds, the median of the batches: those that an interrupt or a new page has hit don't count.
-   Nothing, and exit code 1, where no session records it. */
+   event took in nanoseconds. This is the median of the batches, so batches with an interrupt or a new page don't count.
+   If no session records the event, it prints nothing and exits with 1. */
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Provider `launch`: what the launcher does. `time` is CLOCK_MONOTONIC in nanoseconds of when it happened or began,
-// `duration` nanoseconds: what comes before the session exists is fired once it does. `file` and `line` are the place
-// in the launch file that asked for it, "" and 0 without one.
+// Provider `launch`: the steps of the launcher. `time` is the CLOCK_MONOTONIC time in nanoseconds at which the step
+// happened or began, `duration` is in nanoseconds. Steps before the session exists are fired as soon as it does. `file`
+// and `line` are the place in the launch file that asked for the step, "" and 0 when there is none.
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER launch
 
@@ -46,7 +46,7 @@ LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, visit,
                                     LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
                                                       file, uint32_t, line))
 
-// What a process waits for is there: its `depends_on` of this line holds.
+// The condition that a process waits for holds: its `depends_on` of this line.
 LTTNG_UST_TRACEPOINT_EVENT(
     launch, ready,
     LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, condition, const char*, file, uint32_t, line),
@@ -54,13 +54,13 @@ LTTNG_UST_TRACEPOINT_EVENT(
                             lttng_ust_field_string(condition, condition) lttng_ust_field_string(file, file)
                                 lttng_ust_field_integer(uint32_t, line, line)))
 
-// A process is about to be started; its label is known once it runs.
+// A process is about to be started; it has no label until it runs.
 LTTNG_UST_TRACEPOINT_EVENT(
     launch, spawn, LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, file, uint32_t, line),
     LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
                             lttng_ust_field_string(file, file) lttng_ust_field_integer(uint32_t, line, line)))
 
-// Its program runs.
+// The program of the process runs.
 LTTNG_UST_TRACEPOINT_EVENT(
     launch, exec,
     LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, const char*, file, uint32_t, line),
@@ -68,12 +68,12 @@ LTTNG_UST_TRACEPOINT_EVENT(
                             lttng_ust_field_integer(int32_t, pid, pid) lttng_ust_field_string(file, file)
                                 lttng_ust_field_integer(uint32_t, line, line)))
 
-// It has ended; -N when by signal N.
+// The process has ended; -N when signal N ended it.
 LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, exit_class, launch, exit,
                                     LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
                                                       exit_code, const char*, file, uint32_t, line))
 
-// It has ended and will be started again.
+// The process has ended and will be started again.
 LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, exit_class, launch, respawn,
                                     LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
                                                       exit_code, const char*, file, uint32_t, line))
@@ -86,8 +86,9 @@ LTTNG_UST_TRACEPOINT_EVENT(
                             lttng_ust_field_integer(int32_t, signal, signal_number) lttng_ust_field_string(file, file)
                                 lttng_ust_field_integer(uint32_t, line, line)))
 
-// A class of events was dropped from the trace, for recording cost more than max-overhead: from `time` on `events` (a
-// list of names) are no longer recorded. `rate` is of all processes before it, events a second; `share` of a processor.
+// A class of events was dropped from the trace, because recording cost more than max-overhead. From `time` on, `events`
+// (a list of names) are no longer recorded. `rate` is that of all processes before the cut, in events a second; `share`
+// is the share of a processor.
 LTTNG_UST_TRACEPOINT_EVENT(
     launch, cut,
     LTTNG_UST_TP_ARGS(int64_t, time, const char*, event_class, const char*, events, uint64_t, rate, double, share),
