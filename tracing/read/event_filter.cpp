@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-// "12.5" exactly, in nanoseconds.
+// Reads a number such as "12.5" exactly, in nanoseconds.
 std::optional<std::int64_t> parse_seconds(std::string_view text) {
   std::int64_t seconds = 0;
   const char* const end = text.data() + text.size();
@@ -47,7 +47,7 @@ std::optional<TimeBound> TimeBound::parse(std::string_view text) {
 }
 
 bool matches_pattern(std::string_view pattern, std::string_view text) {
-  // Where to go on when what follows the last star does not match: one character later.
+  // The place to continue when the text after the last star does not match: one character later.
   std::size_t star = std::string_view::npos;
   std::size_t behind_star = 0;
   std::size_t at = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which events of a trace are wanted.
+// Chooses the events of a trace that the user wants.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace tracing {
 
-// A bound of a range of time: since the epoch, or since the first event of the trace.
+// A bound of a range of time. It counts from the epoch, or from the first event of the trace.
 struct TimeBound {
   std::int64_t ns = 0;
   bool since_first = false;
 
-  // "1767225600.5" (seconds since the epoch), "2026-01-01T12:00:00.5" (UTC), "+1.5" (seconds after the first event).
-  // Nothing when it is none of these.
+  // Reads "1767225600.5" (seconds since the epoch), "2026-01-01T12:00:00.5" (UTC) or "+1.5" (seconds after the first
+  // event). Returns nothing for other text.
   static std::optional<TimeBound> parse(std::string_view text);
 };
 
@@ -27,16 +27,16 @@ bool matches_pattern(std::string_view pattern, std::string_view text);
 
 class EventFilter {
  public:
-  // Each list: one of them must match; an empty list accepts all.
+  // One entry of each list must match; an empty list accepts all events.
   std::vector<std::string> events;           // patterns of names
   std::vector<std::string> processes;        // process ids, or patterns of names as `procname` has them
   std::vector<FieldExpression> expressions;  // all must hold
   std::optional<TimeBound> begin;            // included
   std::optional<TimeBound> end;              // not included
 
-  // To be called for each event of the trace, in order.
+  // Must be called for each event of the trace, in order.
   bool accepts(const Event& event);
-  // From now on events of another reading come.
+  // To be called before the events of another reading.
   void restart() {
     names_.clear();
     first_ns_.reset();
@@ -46,7 +46,7 @@ class EventFilter {
   bool accepts_name(const EventClass& event_class);
   bool accepts_process(const Event& event) const;
 
-  std::vector<std::int8_t> names_;  // by EventClass::id: 1 accepted, 0 not, -1 not yet looked at
+  std::vector<std::int8_t> names_;  // by EventClass::id: 1 accepted, 0 not, -1 not known yet
   std::optional<std::int64_t> first_ns_;
 };
 

@@ -23,7 +23,7 @@ void append(Buffer& out, std::string_view text) {
   out.append(text.data(), text.data() + text.size());
 }
 
-// A text between quotes, as JSON has it. Bytes that are no UTF-8 can't stand in JSON: U+FFFD stands for each.
+// A text between quotes, as in JSON. JSON can't hold bytes that are not UTF-8, so U+FFFD replaces them.
 void append_quoted(Buffer& out, std::string_view text) {
   out.push_back('"');
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -98,7 +98,7 @@ void append_text(Buffer& out, const FieldValue& value) {
   out.push_back(value.is_structure() ? '}' : ']');
 }
 
-// As JSON: numbers in decimal, an enumeration as its label where it has one.
+// As JSON: numbers in decimal, an enumeration as its label if it has one.
 void append_json(Buffer& out, const FieldValue& value) {
   if (const auto label = value.enumeration_label()) return append_quoted(out, *label);
   if (is_number(value)) return append_number(out, value, false);

@@ -33,15 +33,15 @@ class EventPrinter {
   std::FILE* out_;
 };
 
-// `2026-01-01 00:00:00.000000000 +0.000000250 ros2:callback_start cpu 0 ping [71/71] callback=0x7f is_intra_process=0`
-// with the time since the event before.
+// `2026-01-01 00:00:00.000000000 +0.000000250 ros2:callback_start cpu 0 ping [71/71] callback=0x7f is_intra_process=0`,
+// where the second number is the time since the previous event.
 std::unique_ptr<EventPrinter> make_text_printer(std::FILE* out);
 
 // {"time_ns":…,"event":"ros2:callback_start","cpu_id":0,"vpid":71,"vtid":71,"procname":"ping","fields":{…}}
 std::unique_ptr<EventPrinter> make_json_printer(std::FILE* out);
 
-// A header line, then one line an event: time_ns, event, cpu_id, vpid, vtid, procname, then `fields`, the names of all
-// fields that any of the events has. Losses go to the standard error output.
+// A header line, then one line for each event: time_ns, event, cpu_id, vpid, vtid, procname, then `fields`, the names
+// of all fields of all events. Losses go to the standard error output.
 std::unique_ptr<EventPrinter> make_csv_printer(std::FILE* out, std::vector<std::string> fields);
 
 }  // namespace tracing

@@ -16,7 +16,7 @@
 namespace tracing {
 namespace {
 
-// A whole number keeps all 64 bits of either sign; real numbers are compared as such.
+// An integer keeps all 64 bits, with or without sign. Real numbers are compared as real numbers.
 using Number = std::variant<std::int64_t, std::uint64_t, double>;
 using Value = std::variant<Number, std::string>;
 
@@ -86,7 +86,7 @@ std::optional<FieldValue> inside(FieldValue field, const Path::Part& part) {
 struct FieldExpression::Node {
   enum class Kind { kOr, kAnd, kNot, kComparison };
   Kind kind = Kind::kComparison;
-  std::vector<std::unique_ptr<const Node>> parts;  // of all but a comparison
+  std::vector<std::unique_ptr<const Node>> parts;  // all nodes but comparisons have parts
 
   Path path;
   Operator comparison = Operator::kIsTrue;
@@ -234,7 +234,7 @@ class Parser {
         return;
       }
     } catch (const std::regex_error&) {
-      // said below
+      // reported below
     }
     at_ = begin;
     fail(pattern == nullptr ? "'=~' needs a text in quotes" : fmt::format("'{}' is no regular expression", *pattern));
@@ -297,7 +297,7 @@ class Parser {
         ++at_;
         return value;
       }
-      // Only the quote and the backslash need one; other backslashes belong to regular expressions.
+      // Only the quote and the backslash need a backslash; other backslashes belong to regular expressions.
       if (c == '\\' && at_ + 1 < text_.size() && (text_[at_ + 1] == quote || text_[at_ + 1] == '\\')) c = text_[++at_];
       value += c;
     }

@@ -5,9 +5,9 @@
 //   and        = not { "&&" not }        operator   = == != < <= > >= =~ (a regular expression that matches somewhere)
 //   not        = "!" not | "(" expression ")" | comparison
 //
-// A field is one of the payload, a member of one of its structures (`a.b`), an element (`gid[0]`), or one of `cpu_id`,
-// `vpid`, `vtid` and `procname`. A comparison with a field that the event does not have is false. A field alone is true
-// where it is there and is not 0, false or empty.
+// A field is a field of the payload, a member of one of its structures (`a.b`), an element (`gid[0]`), or one of
+// `cpu_id`, `vpid`, `vtid` and `procname`. A comparison with a field that the event does not have is false. A field
+// alone is true if the event has it and it is not 0, false or empty.
 #pragma once
 
 #include <memory>

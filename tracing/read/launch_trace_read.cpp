@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch trace read DIRECTORY...`: prints the events of traces, or counts them. An executable of its own, which
-// `launch` executes, so that the launcher does without the reading libraries.
+// `launch trace read DIRECTORY...`: prints the events of traces, or counts them. `launch` executes this program, so
+// that the launcher itself links no libraries for reading traces.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -37,7 +37,7 @@ class PrintingSink : public tracing::TraceSink {
     if (left_ && (*left_)-- == 0) throw Enough();
     printer_.print(event);
   }
-  // A loss is never left out: it may hold the event that is looked for.
+  // A loss is never left out: it may have hidden the event that the user looks for.
   void on_loss(const tracing::Loss& loss) override { printer_.print(loss); }
 
  private:
@@ -89,7 +89,7 @@ int print_error(const tracing::TraceReadError& error) {
   return kFailure;
 }
 
-// Gives as much as can be read; the exit code.
+// Reads as much as possible and returns the exit code.
 int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
   try {
     tracing::TraceReader(arguments.directories).read(sink);
@@ -118,12 +118,12 @@ int print_count(Arguments& arguments) {
 int print_events(Arguments& arguments) {
   std::unique_ptr<tracing::EventPrinter> printer;
   if (arguments.format == "csv") {
-    // The columns are known only when all events have been seen.
+    // The columns are known only after a reading of all events.
     CountingSink fields(arguments.filter);
     try {
       tracing::TraceReader(arguments.directories).read(fields);
     } catch (const tracing::TraceReadError&) {
-      // The reading that prints says it.
+      // The second reading, which prints, reports the error.
     }
     arguments.filter.restart();
     printer = tracing::make_csv_printer(stdout, {fields.fields.begin(), fields.fields.end()});
@@ -156,7 +156,7 @@ void add_expression(tracing::EventFilter& filter, const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone then shows as an error of writing
   Arguments arguments;
   std::vector<std::string> expressions;
   std::string from;

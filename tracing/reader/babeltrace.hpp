@@ -23,16 +23,16 @@ using Message = std::unique_ptr<const bt_message, PutReference<bt_message, bt_me
 using StreamReference = std::unique_ptr<const bt_stream, PutReference<bt_stream, bt_stream_put_ref>>;
 using EventClassReference = std::unique_ptr<const bt_event_class, PutReference<bt_event_class, bt_event_class_put_ref>>;
 
-// Throws TraceReadError from the causes that the library has noted for this thread, and clears them.
-// `what` is the message up to the library's own innermost reason, which is appended.
+// Throws a TraceReadError with the causes that the library has noted for this thread, and clears them. `what` is the
+// start of the message; the library's own innermost reason is appended.
 [[noreturn]] void throw_noted_error(const std::string& what, const std::string& remedy);
 
-// For calls that fail only for want of memory, and for wrong use of the library.
+// For calls that fail only when memory is short or the library is used wrongly.
 void check(int status, const char* call);
 
-// By default the library prints nothing; throws TraceReadError when the plugin is not installed.
+// Throws TraceReadError when the plugin is not installed. By default the library prints nothing.
 Plugin find_plugin(const char* name);
-// The same, first where another one was found: to look through all directories again takes milliseconds.
+// Looks first where the other plugin was found: a search of all directories takes milliseconds.
 Plugin find_plugin_beside(const Plugin& other, const char* name);
 
 }  // namespace tracing::babeltrace

@@ -23,12 +23,12 @@ struct BabeltraceReader::Implementation {
 
 namespace {
 
-// What the end of the graph needs: where events go, and what went wrong there.
+// What the end of the graph needs: the receiver of the events, and the error that occurred there.
 struct Consumer {
   bt_message_iterator* iterator = nullptr;
   MessageTranslator& translator;
   TraceSink& sink;
-  std::exception_ptr failure;  // must not pass through the C library: kept here until the graph has returned
+  std::exception_ptr failure;  // must not pass through the C library, so it stays here until the graph has returned
 };
 
 bt_graph_simple_sink_component_initialize_func_status start_consuming(bt_message_iterator* iterator, void* data) {
@@ -45,7 +45,7 @@ bt_graph_simple_sink_component_consume_func_status consume(bt_message_iterator* 
     return static_cast<bt_graph_simple_sink_component_consume_func_status>(status);  // the same values by design
   }
   for (std::uint64_t i = 0; i < count; ++i) {
-    const babeltrace::Message message(messages[i]);  // all must be released, also after a failure
+    const babeltrace::Message message(messages[i]);  // all messages must be released, even after a failure
     if (consumer.failure) continue;
     try {
       consumer.translator.translate(message.get(), consumer.sink);

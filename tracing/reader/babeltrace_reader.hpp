@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads traces with libbabeltrace2: whatever our own decoder does not know. Private to the reader.
+// Reads the traces that our own decoder does not know, with libbabeltrace2. Private to the reader.
 #pragma once
 
 #include <filesystem>

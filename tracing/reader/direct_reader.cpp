@@ -25,10 +25,10 @@ namespace {
 // A context of every event of a stream.
 struct Context {
   std::size_t index = 0;                // in the structure
-  std::optional<std::uint32_t> offset;  // bytes from its beginning, where that is always the same and the type is usual
+  std::optional<std::uint32_t> offset;  // bytes from its beginning, for a usual type with a fixed place
 };
 
-// What all events of one stream class share.
+// The parts that all events of one stream class share.
 struct StreamClass {
   StreamClass(const ctf::TraceClass& trace, const ctf::StreamDeclaration& stream)
       : layout(trace, stream), vpid(context("vpid")), vtid(context("vtid")), procname(context("procname")) {}
@@ -50,7 +50,7 @@ struct StreamClass {
   std::optional<Context> procname;
 };
 
-// Both write the value in its place: to return an optional costs more than to read it.
+// Both functions write the value in its place: returning an optional takes longer than reading the value.
 void read_number(const ctf::Record& contexts, const Context& context, std::optional<std::int64_t>& value) {
   if (!context.offset) {
     value = contexts[context.index].integer();
@@ -70,8 +70,7 @@ void read_text(const ctf::Record& contexts, const Context& context, std::optiona
   value.emplace(bytes, strnlen(bytes, contexts.places[context.index].length));
 }
 
-// Packets of one stream, of whatever files, in the order of time. A packet that stands in several snapshots counts
-// once.
+// Sorts the packets of one stream, from all its files, by time. A packet that is in several snapshots counts once.
 void put_in_order(std::vector<ctf::Packet>& packets) {
   const auto key = [](const ctf::Packet& packet) {
     return std::tuple(packet.time_begin, packet.sequence_number, packet.time_end, packet.content_bits);
@@ -86,7 +85,7 @@ void put_in_order(std::vector<ctf::Packet>& packets) {
 
 }  // namespace
 
-// Directories with the same identity: the chunks of a rotated session, several snapshots.
+// Directories with the same identity, such as the chunks of a rotated session or several snapshots.
 struct DirectReader::Trace {
   ctf::TraceClass declarations;
   std::vector<fs::path> directories;
@@ -104,9 +103,9 @@ struct DirectReader::OpenStream {
   Stream description;
   ctf::StreamCursor cursor;
   ctf::StreamCursor::Item item = ctf::StreamCursor::Item::kEnd;
-  std::size_t index = 0;  // decides between equal times
+  std::size_t index = 0;  // decides the order of equal times
 
-  // Moves to the next item; notes where a packet is damaged and goes on behind it.
+  // Moves to the next item. Where a packet is damaged, notes the damage and goes on behind it.
   void advance(std::string& problem) {
     for (;;) {
       try {
@@ -125,7 +124,7 @@ struct DirectReader::OpenStream {
   void give(TraceSink& sink);
 
  private:
-  Event event_;  // its record never changes its place
+  Event event_;  // its record always has the same address
 };
 
 void DirectReader::OpenStream::give(TraceSink& sink) {
@@ -152,7 +151,7 @@ void DirectReader::OpenStream::give(TraceSink& sink) {
 
 DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path>& traces) : directory_(directory) {
   std::map<std::string, std::size_t> by_identity;
-  std::vector<std::size_t> length;  // of the metadata that were taken
+  std::vector<std::size_t> length;  // of the metadata that each trace uses
   for (const fs::path& path : traces) {
     const std::string text = ctf::read_metadata(path / "metadata");
     ctf::TraceClass declarations = ctf::parse_metadata(text);
@@ -164,7 +163,7 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
     }
     Trace& trace = *traces_[known->second];
     trace.directories.push_back(path);
-    // The metadata of a session only grow.
+    // The metadata of a session only grow, so the longest text is the newest.
     if (text.size() >= length[known->second]) {
       trace.declarations = std::move(declarations);
       length[known->second] = text.size();
@@ -218,7 +217,7 @@ void DirectReader::read(TraceSink& sink) {
         ctf::PacketList list = find_packets(trace.declarations, *trace.files.back());
         if (!list.problem.empty() && problem.empty()) problem = fmt::format("'{}', {}", file.string(), list.problem);
         for (ctf::Packet& packet : list.packets) {
-          // Without a number of its own a stream is a file.
+          // A stream without a number of its own is one file.
           const std::string name = packet.stream_instance_id ? std::string() : file.string();
           Found& stream = found[{packet.stream_id, packet.stream_instance_id, name}];
           if (stream.name.empty()) stream.name = fs::canonical(file);
@@ -235,7 +234,7 @@ void DirectReader::read(TraceSink& sink) {
     }
   }
 
-  // The streams with something left; the one with the earliest item is the first.
+  // The streams with something left; the first one has the earliest item.
   std::vector<OpenStream*> heap;
   const auto later = [](const OpenStream* a, const OpenStream* b) {
     return std::tuple(a->cursor.time_ns(), a->index) > std::tuple(b->cursor.time_ns(), b->index);
@@ -249,7 +248,7 @@ void DirectReader::read(TraceSink& sink) {
     std::pop_heap(heap.begin(), heap.end(), later);
     OpenStream* const earliest = heap.back();
     const OpenStream* const next = heap.size() > 1 ? heap.front() : nullptr;
-    // As long as it stays the earliest.
+    // As long as this stream stays the earliest.
     do {
       earliest->give(sink);
       earliest->advance(problem);

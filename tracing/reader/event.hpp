@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One recorded event as the reader shows it: views into the reader's memory, nothing is copied.
+// One recorded event, as views into the reader's memory; nothing is copied.
 //
 // Everything in an Event is valid until TraceSink::on_event returns; its EventClass and Stream live as long as the
 // TraceReader.
@@ -26,7 +26,7 @@ struct Stream {
   std::optional<std::int64_t> vpid;  // only with buffers per process (PER_PID): the process that wrote it
 };
 
-// What all events of one name in one trace have in common.
+// The facts that all events of one name in one trace have in common.
 struct EventClass {
   std::string name;                 // "ros2:rcl_init"
   std::size_t id = 0;               // counts from 0 within one reader: an index for the caller's own tables
@@ -42,24 +42,24 @@ class FieldValue {
   explicit FieldValue(const ctf::Field& field) : direct_(field) {}
   explicit FieldValue(const bt_field* field) : foreign_(field) {}
 
-  std::optional<std::uint64_t> unsigned_integer() const {  // only of unsigned fields, such as pointers and sizes
+  std::optional<std::uint64_t> unsigned_integer() const {  // only for unsigned fields, such as pointers and sizes
     return foreign_ == nullptr ? direct_.unsigned_integer() : foreign_unsigned_integer();
   }
-  std::optional<std::int64_t> integer() const {  // of any integer that fits
+  std::optional<std::int64_t> integer() const {  // for any integer that fits
     return foreign_ == nullptr ? direct_.integer() : foreign_integer();
   }
   std::optional<double> real() const;
   std::optional<std::string_view> string() const;
 
-  bool is_hexadecimal() const;  // an integer that the trace asks to show so, such as a pointer
+  bool is_hexadecimal() const;  // an integer that the trace wants in hexadecimal, such as a pointer
   bool is_array() const;
   bool is_structure() const;
   bool is_variant() const;
-  // Elements of an array or a sequence, members of a structure, 1 of a variant, which has its selected option inside;
-  // 0 of anything else.
+  // The number of elements of an array or a sequence, or of members of a structure. It is 1 for a variant, whose
+  // element is the selected option, and 0 for anything else.
   std::size_t size() const;
   FieldValue operator[](std::size_t index) const;             // index < size()
-  std::string_view member_name(std::size_t index) const;      // of a structure
+  std::string_view member_name(std::size_t index) const;      // for a structure
   std::optional<std::string_view> enumeration_label() const;  // the first label of the value, if it has one
 
  private:
@@ -80,7 +80,7 @@ struct Event {
   std::optional<std::int64_t> vtid;
   std::optional<std::string_view> procname;  // at most 15 characters; of the thread, not of the executable
 
-  // For field(): one of the two holds the fields.
+  // One of the two holds the fields, for field().
   const ctf::Record* record = nullptr;
   const bt_field* foreign_payload = nullptr;
 
@@ -89,17 +89,17 @@ struct Event {
   std::optional<FieldValue> field(std::string_view field_name) const;
 };
 
-// Events that the tracer could not keep, as the trace itself says.
+// Events that the tracer could not keep, according to the trace itself.
 struct Loss {
   enum class Kind {
-    kEvents,   // newest events dropped while the buffers were full
-    kPackets,  // oldest packets overwritten: an unknown number of events each
+    kEvents,   // the newest events were dropped while the buffers were full
+    kPackets,  // the oldest packets were overwritten, each with an unknown number of events
   };
   Kind kind = Kind::kEvents;
   const Stream* stream = nullptr;
   std::optional<std::int64_t> begin_ns;  // the loss lies within this time range, if the trace tells it
   std::optional<std::int64_t> end_ns;
-  std::optional<std::uint64_t> count;  // nullopt: some
+  std::optional<std::uint64_t> count;  // nullopt: some, but the number is unknown
 };
 
 }  // namespace tracing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What executors and clients do that ROS 2 has no event for, and provider `ros2_ext` records.
+// Steps of executors and clients for which ROS 2 has no event. Provider `ros2_ext` records them.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ namespace tracing::ros2 {
 
 struct ExecutionEvent {
   enum class Kind : std::uint8_t {
-    kService,              // an executor begins to serve it: rclcpp_executor_execute_service
+    kService,              // an executor begins to serve a service: rclcpp_executor_execute_service
     kClient,               // rclcpp_executor_execute_client
     kWaitable,             // rclcpp_executor_execute_waitable
     kClientCallbackStart,  // a client hands out a response: rclcpp_client_callback_start
     kClientCallbackEnd,
   };
   Kind kind = Kind::kService;
-  Handle handle = 0;  // rcl's of the service or the client; the waitable's address
+  Handle handle = 0;  // rcl's handle of the service or the client, or the address of the waitable
 
   static constexpr std::array<std::pair<std::string_view, Kind>, 5> kKinds{{
       {"ros2_ext:rclcpp_executor_execute_service", Kind::kService},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises events of provider `ros2_ext` whose first field is the handle of what they tell of.
+// Recognises events of provider `ros2_ext` whose first field is the handle of their object.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace tracing::ros2 {
 template <typename Decoded>
 class HandleEventDecoder {
  public:
-  // Nothing when it is another event.
+  // Returns nothing for another event.
   std::optional<Decoded> decode(const Event& event) {
     const std::size_t id = event.event_class->id;
     if (id >= kinds_.size()) kinds_.resize(id + 1);
@@ -38,7 +38,7 @@ class HandleEventDecoder {
     return found == Decoded::kKinds.end() ? std::nullopt : Kind(found->second);
   }
 
-  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as asked for
+  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as they were needed
 };
 
 }  // namespace tracing::ros2

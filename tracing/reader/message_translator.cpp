@@ -36,7 +36,7 @@ std::optional<std::int64_t> time_of(const bt_clock_snapshot* snapshot) {
 struct MessageTranslator::KnownClass {
   EventClass description;
   std::optional<std::size_t> cpu_id;  // index in the packet context
-  std::optional<std::size_t> vpid;    // these: in the common event context
+  std::optional<std::size_t> vpid;    // the next ones are indices in the common event context
   std::optional<std::size_t> vtid;
   std::optional<std::size_t> procname;
   bool has_context = false;

@@ -11,8 +11,8 @@
 
 namespace tracing {
 
-// What the metadata say about an event class is looked up once, at its first event; after that an event costs one
-// look-up by address and no allocation.
+// Looks up the metadata of an event class once, at its first event. After that an event takes one look-up by address
+// and no allocation.
 class MessageTranslator {
  public:
   MessageTranslator();

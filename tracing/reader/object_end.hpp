@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ends of ROS 2 objects, which provider `ros2_ext` records. ROS 2 itself tells of beginnings only.
+// The ends of ROS 2 objects, which provider `ros2_ext` records. ROS 2 itself records only beginnings.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 
 namespace tracing::ros2 {
 
-// From here on the handle may be that of another object.
+// After this event the handle may belong to another object.
 struct ObjectEnd {
-  // Of what the init event of this name told: rcl_node_init, rmw_publisher_init, …, rclcpp_subscription_init,
+  // The kind of object, by its init event: rcl_node_init, rmw_publisher_init, …, rclcpp_subscription_init,
   // rclcpp_callback_register.
   enum class Kind : std::uint8_t {
     kRclNode,

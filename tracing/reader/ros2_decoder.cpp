@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t kMissing = 0xff;
 
-// Each gives false, and leaves the member alone, when the recorded field has another type.
+// Each function returns false, and leaves the member alone, when the recorded field has another type.
 template <FieldType type, class Member>
 bool read_field(FieldValue field, Member& member) {
   if constexpr (type == FieldType::kPointer || type == FieldType::kUint64) {
@@ -69,7 +69,7 @@ constexpr std::string_view type_name(FieldType type) {
 
 struct Decoder::Plan {
   void (*decode)(const Plan&, const Event&, AnyEvent&) = nullptr;  // null: not an event of ros2_tracing
-  std::vector<std::uint8_t> index;  // in the recorded payload, of the struct's fields in order
+  std::vector<std::uint8_t> index;  // indices in the recorded payload of the struct's fields, in order
 };
 
 namespace {
@@ -90,7 +90,7 @@ std::string problem_of(std::string_view event, std::string_view field, FieldType
                   : fmt::format("{} has no field {}", event, field);
 }
 
-// Matches the fields by name, because versions of ros2_tracing differ in which there are.
+// Finds the fields by name, because versions of ros2_tracing have different fields.
 template <class Struct>
 Problems make_plan(const Event& event, Decoder::Plan& plan) {
   Problems problems;

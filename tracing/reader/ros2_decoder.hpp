@@ -14,15 +14,15 @@ namespace tracing::ros2 {
 
 class Decoder {
  public:
-  // `report` is told once per event class about fields that are missing or of another type than expected:
-  // "ros2:rmw_publish has no field timestamp". Such events are decoded all the same, extra fields are ignored.
+  // Calls `report` once per event class for fields that are missing or have an unexpected type: "ros2:rmw_publish has
+  // no field timestamp". Such events are decoded all the same. Extra fields are ignored.
   explicit Decoder(std::function<void(const std::string&)> report);
   ~Decoder();
 
   // The event as a struct, valid until the next call; null when it is not one of the 42.
   const AnyEvent* decode(const Event& event);
 
-  // What is known about an event class since its first event.
+  // The facts about an event class, known since its first event.
   struct Plan;
 
  private:

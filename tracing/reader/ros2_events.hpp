@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The events of ros2_tracing as structs, one per event, from the table that tracetools records by.
+// The events of ros2_tracing as structs, one per event, from the table that tracetools uses for recording.
 //
-// A field that a trace does not hold (recorded by another version of ros2_tracing) has its zero value, which no
-// recorded object or time has. Strings are views into the reader's memory, valid as long as the Event they came from.
+// A field that a trace does not hold (because another version of ros2_tracing recorded it) has the value zero, which no
+// recorded object or time has. Strings are views into the reader's memory; they are valid as long as the Event they
+// came from.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ using Handle = std::uint64_t;  // an address in the traced process
 // The identity of a DDS endpoint: 16 bytes, 24 before ros2_tracing 8.4.
 struct Gid {
   std::array<std::uint8_t, 24> bytes{};
-  std::size_t size = 0;  // of bytes that were recorded
+  std::size_t size = 0;  // number of recorded bytes
   bool operator==(const Gid&) const = default;
 };
 

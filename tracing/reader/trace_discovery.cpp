@@ -33,8 +33,8 @@ std::vector<fs::path> trace_directories(const fs::path& directory) {
   return found;
 }
 
-// The identity of the trace in a directory, as the plugin reads it from the metadata; the path when it has none or
-// can't be read, which is for the reading itself to complain about.
+// The identity of the trace in a directory, as the plugin reads it from the metadata. It is the path when the trace has
+// no identity or can't be read; the reading itself then reports the error.
 std::string identity(const bt_component_class_source* ctf_fs, const fs::path& directory) {
   babeltrace::Value parameters(bt_value_map_create());
   babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "type", "directory"), "bt_value_map_insert");

@@ -9,7 +9,7 @@
 
 namespace tracing {
 
-// Directories to be read as one trace: the chunks of a rotated session have one identity and continue each other.
+// Directories to be read as one trace: the chunks of a rotated session have the same identity and continue each other.
 using TraceDirectories = std::vector<std::filesystem::path>;
 
 // The directories with metadata at or below `directory`, sorted. Throws TraceReadError when there is none.

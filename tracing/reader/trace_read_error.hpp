@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reading a trace throws.
+// The exception for a trace that can't be read.
 #pragma once
 
 #include <stdexcept>
@@ -8,7 +8,7 @@
 
 namespace tracing {
 
-// A trace could not be read. what() is one line that names the directory; remedy() says what to do, may be empty;
+// A trace could not be read. what() is one line that names the directory. remedy() says what to do and may be empty.
 // details() are the library's own messages, innermost last, for bug reports.
 class TraceReadError : public std::runtime_error {
  public:

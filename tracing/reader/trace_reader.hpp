@@ -18,8 +18,8 @@ namespace tracing {
 class TraceReader {
  public:
   enum class Decoder {
-    kAny,         // our own, or libbabeltrace2 where our own does not know something of the trace
-    kDirect,      // our own; TraceReadError where it does not know something
+    kAny,         // our own decoder, or libbabeltrace2 if our own does not know something in the trace
+    kDirect,      // our own decoder; TraceReadError if it does not know something
     kBabeltrace,  // libbabeltrace2
   };
 
@@ -31,8 +31,8 @@ class TraceReader {
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;
 
-  // Reads everything; to be called once. Throws TraceReadError on damaged data, after all events before the damage
-  // have been given to the sink, with our own decoder also those of other packets and streams.
+  // Reads everything; to be called once. Throws TraceReadError on damaged data, after the sink has got all events
+  // before the damage. With our own decoder it has also got the events of the other packets and streams.
   void read(TraceSink& sink);
 
  private:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the events of a trace go.
+// The receiver of the events of a trace.
 #pragma once
 
 #include "tracing/reader/event.hpp"
 
 namespace tracing {
 
-// Receives what a trace holds. An exception thrown here ends the reading and comes out of TraceReader::read.
+// Receives the events and losses of a trace. An exception thrown here ends the reading and leaves TraceReader::read.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;

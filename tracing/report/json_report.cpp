@@ -175,7 +175,7 @@ std::string json_report(const Report& report) {
   json["unknown_messages"] = ros2.unknown_messages;
   json["lacks_thread_context"] = ros2.lacks_thread_context;
   json["warnings"] = warnings;
-  // Names in a trace are bytes of the traced program's: what is no UTF-8 must not cost the report.
+  // Names in a trace are bytes from the traced program. Bytes that are not UTF-8 must not make the report fail.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch report DIRECTORY`: reads a trace and prints what it tells. An executable of its own, which `launch` executes,
-// so that the launcher doesn't carry the reading libraries while a system runs.
+// `launch report DIRECTORY`: reads a trace and prints a report. `launch` executes this program, so that the launcher
+// itself doesn't keep the reading libraries in memory while a system runs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -42,7 +42,7 @@ int print_recorded(const Arguments& arguments) {
 
 int print_report(const Arguments& arguments) {
   tracing::TraceAnalysis analysis;
-  // The paths of the streams are of this form, so that they can be shown relative to it.
+  // The paths of the streams have this form, so that they can be shown relative to it.
   tracing::Report report{std::filesystem::weakly_canonical(arguments.directory), {}, ""};
   tracing::TraceReader reader(arguments.directory);
   ExitCode exit_code = kSuccess;
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   app.add_option("directory", arguments.directory, "Directory of the trace, or one that holds several")->required();
   CLI::Option* json = app.add_flag("--json", arguments.json, "Print one JSON object instead of text");
   app.add_flag("--summary", arguments.summary, "Print one line: events, processes, losses")->excludes(json);
-  // For the verdict of a session, which knows what the processes have fired.
+  // For the verdict of a session, which compares this with the events that the processes have fired.
   app.add_flag("--recorded", arguments.recorded)->group("");
   app.footer("Exit code: 0, 1 when the trace can't be read (to its end), 2 for wrong arguments.");
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what a trace holds of each process, for whoever knows what they have fired.
+// Counts the events that a trace holds of each process, for a comparison with the events that were fired.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ class RecordedProcessCounter : public TraceSink {
   void on_loss(const Loss&) override {}
 
   // {"processes": [{"vpid": …, "nodes": ["/ns/name", …], "events": {"ros2:rcl_init": 1, …}}, …]}. Events without the
-  // context vpid are not in it. The reader must still exist.
+  // context vpid are left out. The reader must still exist.
   std::string json() const;
 
  private:

@@ -12,11 +12,11 @@ namespace tracing {
 struct Report {
   std::filesystem::path directory;  // of the trace, absolute
   TraceResults results;
-  std::string error;  // why reading stopped early; empty when all was read
+  std::string error;  // the reason why reading stopped early; empty when all was read
 };
 
-// Sections: trace, losses (when there are any), events, callbacks, topics, notes. At most kReportWidth columns, except
-// for names that are longer. Ends with a newline.
+// The sections are: trace, losses (when there are any), events, callbacks, topics, notes. Lines have at most
+// kReportWidth columns, except for longer names. Ends with a newline.
 std::string text_report(const Report& report);
 
 // One JSON object, documented in docs/report_format.md. Numbers are integers where the text says so; times are

@@ -50,13 +50,13 @@ std::string loss_section(const Report& report) {
   return text + fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful);
 }
 
-// A column of the table of events: a process, or all that only the kernel tells of.
+// A column of the table of events: a process, or all processes that only the kernel's events show.
 struct EventColumn {
   std::string title;
   std::vector<std::size_t> processes;
 };
 
-// A trace with events of the kernel holds every process of the machine.
+// A trace with events of the kernel has every process of the machine.
 std::vector<EventColumn> event_columns(const TraceOverview& overview) {
   std::vector<EventColumn> columns;
   EventColumn others;
@@ -76,7 +76,7 @@ std::vector<EventColumn> event_columns(const TraceOverview& overview) {
   return columns;
 }
 
-// As many columns as fit, then the table goes on below with the next ones.
+// A table has as many columns as fit; the next columns follow in another table below.
 std::string event_section(const TraceOverview& overview) {
   constexpr std::size_t kLabel = 42;
   constexpr std::size_t kTotal = 10;
@@ -149,7 +149,7 @@ std::string node_label(const std::string& node, std::int64_t vpid, const TraceOv
   return node.empty() ? fmt::format("node unknown, {}", label) : fmt::format("{}, {}", node, label);
 }
 
-// The columns of durations, after a label: their titles, and the cells of one.
+// The columns of durations after a label: first their titles, then the cells of one row.
 TextTable duration_table() {
   constexpr std::size_t kDuration = 8;
   return {36, {8, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration}};

@@ -24,7 +24,7 @@ std::string format_duration(double nanoseconds) {
   const char* sign = nanoseconds < 0 ? "-" : "";
   double value = std::abs(nanoseconds);
   std::size_t unit = 0;
-  while (value >= 999.5 && unit + 1 < std::size(kUnits)) {  // would be rounded to 1000
+  while (value >= 999.5 && unit + 1 < std::size(kUnits)) {  // it would be rounded to 1000
     value /= 1000;
     ++unit;
   }

@@ -10,14 +10,14 @@ namespace tracing {
 
 inline constexpr std::size_t kReportWidth = 100;  // columns
 
-// The first column is a label, left-aligned; the others are right-aligned and separated by at least a blank. A label
+// The first column is a label, left-aligned. The others are right-aligned and separated by at least one blank. A label
 // that is too long gets a line of its own, so that nothing is cut and the columns stay straight.
 class TextTable {
  public:
   TextTable(std::size_t label_width, std::vector<std::size_t> widths)
       : label_width_(label_width), widths_(std::move(widths)) {}
 
-  // As many cells as there are widths, or fewer. The line ends with a newline, without trailing blanks.
+  // `cells` has as many cells as there are widths, or fewer. The line ends with a newline, without trailing blanks.
   std::string row(const std::string& label, const std::vector<std::string>& cells) const;
 
  private:
