@@ -138,7 +138,7 @@ rcl_ret_t rcl_action_client_init(rcl_action_client_t* action_client, rcl_node_t*
   impl->options = *options;
   impl->action_name = action_name;
   if (const rcl_ret_t result = init_all(*impl, node, *type_support); result != RCL_RET_OK) {
-    // What failed first is what the caller should hear.
+    // The caller gets the first error.
     const rcl_error_string_t reason = rcl_get_error_string();
     (void)fini_all(*impl, node);
     rcl_reset_error();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client is made of, shared by the files about it.
+// The parts of a client, for the files that implement it.
 #pragma once
 
 #include <string>

@@ -55,7 +55,7 @@ rcl_ret_t init_all(rcl_action_server_impl_t& impl, rcl_node_t* node, const rosid
                             types.status_message_type_support, options.status_topic_qos);
   }
   if (result == RCL_RET_OK) {
-    // It runs only while there are goals at their end.
+    // It runs only while there are ended goals.
     result = rcl_timer_init2(&impl.expire_timer, impl.clock, node->context, kResultTimeout, nullptr, options.allocator,
                              false);
   }
@@ -136,7 +136,7 @@ rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t*
   impl->action_name = action_name;
   impl->clock = clock;
   if (const rcl_ret_t result = init_all(*impl, node, *type_support); result != RCL_RET_OK) {
-    // What failed first is what the caller should hear.
+    // The caller gets the first error.
     const rcl_error_string_t reason = rcl_get_error_string();
     (void)fini_all(*impl, node);
     rcl_reset_error();

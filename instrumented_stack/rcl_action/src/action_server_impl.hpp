@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server is made of, shared by the files about it.
+// The parts of a server, for the files that implement it.
 #pragma once
 
 #include <string>

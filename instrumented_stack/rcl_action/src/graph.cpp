@@ -12,7 +12,7 @@
 
 namespace {
 
-// Every action has this topic, from its servers to its clients, with a type of its own.
+// Every action has this topic, from its servers to its clients, with its own type.
 constexpr std::string_view kTopicSuffix = "/_action/feedback";
 constexpr std::string_view kTypeSuffix = "_FeedbackMessage";
 
@@ -76,7 +76,7 @@ rcl_ret_t hand_out(const std::vector<Action>& actions, rcl_allocator_t& allocato
   return RCL_RET_OK;
 }
 
-// `get_topics` fills in the topics among which the actions are.
+// `get_topics` fills in topics; the actions are found among them.
 rcl_ret_t get_actions(const std::function<rcl_ret_t(rcl_names_and_types_t*)>& get_topics, rcl_allocator_t* allocator,
                       rcl_names_and_types_t* action_names_and_types) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RCL_RET_INVALID_ARGUMENT);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creates the parts of an action under their names.
+// Creates the parts of an action with their names.
 #pragma once
 
 #include "rcl/allocator.h"
@@ -9,7 +9,7 @@ namespace rcl_action {
 
 using MakeName = rcl_ret_t (*)(const char* action_name, rcl_allocator_t allocator, char** name);
 
-// Calls `init` with the name that `make_name` gives. A wrong name is that of the action.
+// Calls `init` with the result of `make_name`. A wrong name is reported as the action's name.
 template <typename Init>
 rcl_ret_t init_named(MakeName make_name, const char* action_name, const rcl_allocator_t& allocator, Init init) {
   char* name = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Introspection of an action is that of its three services.
+// Introspection of an action: that of its three services.
 #include <array>
 #include <utility>
 
@@ -12,7 +12,7 @@ namespace {
 template <typename End>
 using Parts = std::array<std::pair<End*, const rosidl_service_type_support_t*>, 3>;
 
-// All parts or none: a failure of the first changes nothing, after one of another everything is off.
+// Configures all parts or none. If the first one fails, nothing has changed; if another fails, everything is off.
 template <typename End, typename Configure>
 rcl_ret_t configure_all(const Parts<End>& parts, rcl_service_introspection_state_t state, Configure configure) {
   for (const auto& part : parts) {

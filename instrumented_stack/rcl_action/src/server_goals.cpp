@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The goals of a server: from being accepted to expiring.
+// The goals of a server, from acceptance to expiry.
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -33,7 +33,7 @@ rcl_action_goal_handle_t* find(const rcl_action_server_impl_t& impl, const rcl_a
   return found == impl.goals.end() ? nullptr : *found;
 }
 
-// Nanoseconds until the result of a goal expires; nothing for goals whose end is not told yet.
+// Nanoseconds until the result of a goal expires; empty if the goal's end has not been reported yet.
 std::optional<int64_t> until_expiry(const rcl_action_server_impl_t& impl, const rcl_action_goal_handle_t* goal,
                                     int64_t now) {
   int64_t ended = -1;
@@ -44,7 +44,7 @@ std::optional<int64_t> until_expiry(const rcl_action_server_impl_t& impl, const 
   return ended + impl.options.result_timeout - now;
 }
 
-// Lets the timer run until the next result expires.
+// Sets the timer to the next expiry of a result.
 rcl_ret_t set_timer(rcl_action_server_impl_t& impl) {
   if (impl.options.result_timeout < 0) {
     return RCL_RET_OK;

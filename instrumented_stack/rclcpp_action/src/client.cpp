@@ -18,10 +18,10 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// The graph guard condition wakes one of those who wait for it, and none at shutdown: look again after this time.
+// The graph guard condition wakes only one waiting thread, and none at shutdown. So check again after this time.
 constexpr nanoseconds kGraphPatience = std::chrono::milliseconds(100);
 
-// By EntityType.
+// Index: EntityType.
 constexpr rcl_ret_t (*kSetClientCallback[])(const rcl_action_client_t*, rcl_event_callback_t, const void*) = {
     rcl_action_client_set_goal_client_callback, rcl_action_client_set_result_client_callback,
     rcl_action_client_set_cancel_client_callback, rcl_action_client_set_feedback_subscription_callback,
@@ -120,7 +120,7 @@ bool ClientBase::is_ready(const rcl_wait_set_t& wait_set) {
 
 std::shared_ptr<void> ClientBase::take_data() {
   const std::lock_guard lock(mutex_);
-  // A goal must be known before its status and feedback come, and both come before its result.
+  // A goal must be known before its status and feedback are handled, and both are handled before its result.
   Work work;
   if (std::exchange(ready_.goal_response, false)) {
     work = take(EntityType::GoalClient);
@@ -220,7 +220,7 @@ bool ClientBase::is_taken(rcl_ret_t ret, const char* what) const {
   if (ret == RCL_RET_OK) {
     return true;
   }
-  // Another thread took it, or it was for another client.
+  // Another thread took the response, or it was for another client.
   if (ret != RCL_RET_ACTION_CLIENT_TAKE_FAILED) {
     RCLCPP_ERROR(logger_, "failed to %s: %s", what, rcl_get_error_string().str);
   }
@@ -230,7 +230,7 @@ bool ClientBase::is_taken(rcl_ret_t ret, const char* what) const {
 
 void ClientBase::send(Send send_request, Pending& pending, const std::shared_ptr<void>& request,
                       ResponseCallback callback) {
-  // The response may be there before this function returns.
+  // The response may arrive before this function returns.
   const std::lock_guard lock(mutex_);
   int64_t sequence_number = 0;
   require_ok(send_request(&client_, request.get(), &sequence_number), "failed to send a request");

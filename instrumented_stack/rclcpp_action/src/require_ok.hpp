@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An error of rcl_action becomes an exception.
+// Turns an error of rcl_action into an exception.
 #pragma once
 
 #include <rcl/types.h>

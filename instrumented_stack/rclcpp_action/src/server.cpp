@@ -17,7 +17,7 @@ namespace rclcpp_action {
 
 namespace {
 
-// By EntityType.
+// Index: EntityType.
 constexpr rcl_ret_t (*kSetServerCallback[])(const rcl_action_server_t*, rcl_event_callback_t, const void*) = {
     rcl_action_server_set_goal_service_callback, rcl_action_server_set_result_service_callback,
     rcl_action_server_set_cancel_service_callback};
@@ -256,7 +256,7 @@ void ServerBase::answer_cancel_request(rmw_request_id_t header, const action_msg
         response.goals_canceling.push_back(to_message(info));
       }
     } catch (const rclcpp::exceptions::RCLError& error) {
-      // It came to its end in the meantime.
+      // The goal ended in the meantime.
       RCLCPP_DEBUG(logger_, "could not cancel goal %s: %s", to_string(uuid).c_str(), error.what());
     }
   }
@@ -386,7 +386,7 @@ void ServerBase::warn(rcl_ret_t ret, const char* what) const {
   if (ret == RCL_RET_OK) {
     return;
   }
-  // Another thread took it, or the client has gone.
+  // Another thread took the request, or the client is gone.
   if (ret != RCL_RET_ACTION_SERVER_TAKE_FAILED) {
     RCLCPP_WARN(logger_, "failed to %s: %s", what, rcl_get_error_string().str);
   }

@@ -37,13 +37,13 @@ typedef struct rcl_action_client_options_s {
 rcl_action_client_t rcl_action_get_zero_initialized_client(void);
 rcl_action_client_options_t rcl_action_client_get_default_options(void);
 
-// RCL_RET_ACTION_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+// Returns RCL_RET_ACTION_NAME_INVALID, RCL_RET_NODE_INVALID or RCL_RET_ALREADY_INIT on errors.
 rcl_ret_t rcl_action_client_init(rcl_action_client_t* action_client, rcl_node_t* node,
                                  const rosidl_action_type_support_t* type_support, const char* action_name,
                                  const rcl_action_client_options_t* options);
 rcl_ret_t rcl_action_client_fini(rcl_action_client_t* action_client, rcl_node_t* node);
 
-// Whether a server has all three services, publishes both topics, and this client knows all of that.
+// Whether this client has discovered all three services and both publishers of a server.
 rcl_ret_t rcl_action_server_is_available(const rcl_node_t* node, const rcl_action_client_t* client, bool* is_available);
 
 // `sequence_number` gets the number that the response will carry.
@@ -54,7 +54,7 @@ rcl_ret_t rcl_action_send_cancel_request(const rcl_action_client_t* action_clien
 rcl_ret_t rcl_action_send_result_request(const rcl_action_client_t* action_client, const void* ros_result_request,
                                          int64_t* sequence_number);
 
-// RCL_RET_ACTION_CLIENT_TAKE_FAILED when there is nothing to take.
+// Returns RCL_RET_ACTION_CLIENT_TAKE_FAILED if there is nothing to take.
 rcl_ret_t rcl_action_take_goal_response(const rcl_action_client_t* action_client, rmw_request_id_t* response_header,
                                         void* ros_goal_response);
 rcl_ret_t rcl_action_take_cancel_response(const rcl_action_client_t* action_client, rmw_request_id_t* response_header,
@@ -64,7 +64,7 @@ rcl_ret_t rcl_action_take_result_response(const rcl_action_client_t* action_clie
 rcl_ret_t rcl_action_take_feedback(const rcl_action_client_t* action_client, void* ros_feedback);
 rcl_ret_t rcl_action_take_status(const rcl_action_client_t* action_client, void* ros_status_array);
 
-// Called from any thread with the number of messages that came, null for no call; as for clients and subscriptions.
+// Called from any thread with the number of new messages, as for clients and subscriptions. Null ends the calls.
 rcl_ret_t rcl_action_client_set_goal_client_callback(const rcl_action_client_t* action_client,
                                                      rcl_event_callback_t callback, const void* user_data);
 rcl_ret_t rcl_action_client_set_cancel_client_callback(const rcl_action_client_t* action_client,
@@ -76,8 +76,8 @@ rcl_ret_t rcl_action_client_set_feedback_subscription_callback(const rcl_action_
 rcl_ret_t rcl_action_client_set_status_subscription_callback(const rcl_action_client_t* action_client,
                                                              rcl_event_callback_t callback, const void* user_data);
 
-// rcl_client_configure_service_introspection() for the three services: requests that were sent and responses that were
-// taken. `type_support` is that of the action. After a failure either nothing has changed or it is off.
+// Applies rcl_client_configure_service_introspection() to the three services: requests sent and responses taken.
+// `type_support` is that of the action. On failure either nothing has changed, or introspection is off.
 rcl_ret_t rcl_action_client_configure_action_introspection(rcl_action_client_t* action_client, rcl_node_t* node,
                                                            rcl_clock_t* clock,
                                                            const rosidl_action_type_support_t* type_support,

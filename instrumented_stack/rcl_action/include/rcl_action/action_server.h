@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The server of an action: three services, two topics, and the goals that it has accepted.
 //
-// Messages are passed as pointers to the structs of the action's types. The functions on one server may not be called
-// from several threads at once.
+// Messages are passed as pointers to the structs of the action's types. Only one thread at a time may use a server.
 #pragma once
 
 #include <stdbool.h>
@@ -36,32 +35,32 @@ typedef struct rcl_action_server_options_s {
   rmw_qos_profile_t feedback_topic_qos;
   rmw_qos_profile_t status_topic_qos;
   rcl_allocator_t allocator;
-  // How long a goal that came to its end is known, ns; negative for ever. Default 10 s.
+  // How long an ended goal is kept, in ns; negative: forever. Default 10 s.
   rcl_duration_value_t result_timeout;
 } rcl_action_server_options_t;
 
-// Which goals a request to cancel means: this one, or with an all zero id every one, or all accepted until a time.
+// Selects the goals to cancel: this one; with an all zero id every one, or all that were accepted until a time.
 typedef struct rcl_action_cancel_request_s {
   rcl_action_goal_info_t goal_info;
 } rcl_action_cancel_request_t;
 
 typedef struct rcl_action_cancel_response_s {
   rcl_action_cancel_state_t return_code;
-  rcl_action_goal_info_t* goals_canceling;  // those that can be canceled; from new[]
+  rcl_action_goal_info_t* goals_canceling;  // the goals that can be canceled; from new[]
   size_t num_goals;
 } rcl_action_cancel_response_t;
 
 rcl_action_server_t rcl_action_get_zero_initialized_server(void);
 rcl_action_server_options_t rcl_action_server_get_default_options(void);
 
-// Creates the services and topics of `action_name`; the clock tells when goals are accepted and results expire, and
-// must outlive the server. RCL_RET_ACTION_NAME_INVALID, RCL_RET_NODE_INVALID, RCL_RET_ALREADY_INIT.
+// Creates the services and topics of `action_name`. The clock tells when goals are accepted and results expire, and
+// must outlive the server. Returns RCL_RET_ACTION_NAME_INVALID, RCL_RET_NODE_INVALID or RCL_RET_ALREADY_INIT on errors.
 rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t* node, rcl_clock_t* clock,
                                  const rosidl_action_type_support_t* type_support, const char* action_name,
                                  const rcl_action_server_options_t* options);
 rcl_ret_t rcl_action_server_fini(rcl_action_server_t* action_server, rcl_node_t* node);
 
-// Requests and responses of the three services. RCL_RET_ACTION_SERVER_TAKE_FAILED when there is none.
+// Requests and responses of the three services. Return RCL_RET_ACTION_SERVER_TAKE_FAILED if there is no request.
 rcl_ret_t rcl_action_take_goal_request(const rcl_action_server_t* action_server, rmw_request_id_t* request_header,
                                        void* ros_goal_request);
 rcl_ret_t rcl_action_send_goal_response(const rcl_action_server_t* action_server, rmw_request_id_t* response_header,
@@ -78,7 +77,7 @@ rcl_ret_t rcl_action_send_result_response(const rcl_action_server_t* action_serv
 rcl_ret_t rcl_action_publish_feedback(const rcl_action_server_t* action_server, void* ros_feedback);
 rcl_ret_t rcl_action_publish_status(const rcl_action_server_t* action_server, const void* ros_status_array);
 
-// Called from any thread with the number of requests that came, null for no call; as for services.
+// Called from any thread with the number of new requests, as for services. Null ends the calls.
 rcl_ret_t rcl_action_server_set_goal_service_callback(const rcl_action_server_t* action_server,
                                                       rcl_event_callback_t callback, const void* user_data);
 rcl_ret_t rcl_action_server_set_cancel_service_callback(const rcl_action_server_t* action_server,
@@ -86,22 +85,23 @@ rcl_ret_t rcl_action_server_set_cancel_service_callback(const rcl_action_server_
 rcl_ret_t rcl_action_server_set_result_service_callback(const rcl_action_server_t* action_server,
                                                         rcl_event_callback_t callback, const void* user_data);
 
-// A new goal in state accepted, owned by the caller, who must fini and delete it once it is no longer among the goals
-// of the server. Null if there is a goal of this id already.
+// Creates a goal in state accepted. The caller owns it, and must fini and delete it once it is no longer among the
+// goals of the server. Returns null if a goal with this id exists already.
 rcl_action_goal_handle_t* rcl_action_accept_new_goal(rcl_action_server_t* action_server,
                                                      const rcl_action_goal_info_t* goal_info);
 
-// To be called after a goal came to its end and got its terminal timestamp: it will expire. A goal without one is kept.
+// Call it after a goal has ended and has its terminal timestamp; then it will expire. A goal without a timestamp is
+// kept.
 rcl_ret_t rcl_action_notify_goal_done(const rcl_action_server_t* action_server);
 
-// Forgets goals whose results have expired; gives at most `capacity` of them.
+// Forgets goals whose results have expired, and returns at most `capacity` of them.
 rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_action_goal_info_t* expired_goals,
                                   size_t capacity, size_t* num_expired);
 
-// Nanoseconds of the server's clock until the next result expires, 0 if one has; -1 if none will.
+// Nanoseconds of the server's clock until the next result expires; 0 if one has expired, -1 if none will.
 rcl_ret_t rcl_action_server_get_time_until_expiry(const rcl_action_server_t* action_server, int64_t* nanoseconds);
 
-// Which goals of the server `request` means and can be canceled. Changes no goal. The response must be finalized.
+// Finds the goals that `request` selects and that can be canceled. Changes no goal. The response must be finalized.
 rcl_ret_t rcl_action_process_cancel_request(const rcl_action_server_t* action_server,
                                             const rcl_action_cancel_request_t* request,
                                             rcl_action_cancel_response_t* response);
@@ -109,19 +109,19 @@ rcl_ret_t rcl_action_cancel_response_fini(rcl_action_cancel_response_t* response
 
 bool rcl_action_server_goal_exists(const rcl_action_server_t* action_server, const rcl_action_goal_info_t* goal_info);
 
-// The goals of the server, in memory of the server, valid until the next call on it.
+// The goals of the server. The memory belongs to the server and is valid until the next call on it.
 rcl_ret_t rcl_action_server_get_goal_handles(const rcl_action_server_t* action_server,
                                              rcl_action_goal_handle_t*** goal_handles, size_t* num_goals);
 
-// rcl_service_configure_service_introspection() for the three services: requests that were taken and responses that
-// were sent. `type_support` is that of the action. After a failure either nothing has changed or it is off.
+// Applies rcl_service_configure_service_introspection() to the three services: requests taken and responses sent.
+// `type_support` is that of the action. On failure either nothing has changed, or introspection is off.
 rcl_ret_t rcl_action_server_configure_action_introspection(rcl_action_server_t* action_server, rcl_node_t* node,
                                                            rcl_clock_t* clock,
                                                            const rosidl_action_type_support_t* type_support,
                                                            const rcl_publisher_options_t publisher_options,
                                                            rcl_service_introspection_state_t introspection_state);
 
-// The name after expansion and remapping is that of the services; this is the one given.
+// The name as given. The services use the expanded and remapped name.
 const char* rcl_action_server_get_action_name(const rcl_action_server_t* action_server);
 const rcl_action_server_options_t* rcl_action_server_get_options(const rcl_action_server_t* action_server);
 bool rcl_action_server_is_valid(const rcl_action_server_t* action_server);

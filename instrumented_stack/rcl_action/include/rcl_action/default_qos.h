@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quality of service of the status topic: who comes late gets the last states.
+// The quality of service of the status topic: late subscribers get the last states.
 #pragma once
 
 #include "rmw/types.h"

@@ -19,12 +19,12 @@ typedef struct rcl_action_goal_handle_s {
 
 rcl_action_goal_handle_t rcl_action_get_zero_initialized_goal_handle(void);
 
-// A goal in state accepted. RCL_RET_ALREADY_INIT.
+// Creates a goal in state accepted. Returns RCL_RET_ALREADY_INIT if it is initialized already.
 rcl_ret_t rcl_action_goal_handle_init(rcl_action_goal_handle_t* goal_handle, const rcl_action_goal_info_t* goal_info,
                                       rcl_allocator_t allocator);
 rcl_ret_t rcl_action_goal_handle_fini(rcl_action_goal_handle_t* goal_handle);
 
-// RCL_RET_ACTION_GOAL_EVENT_INVALID, and no change, if the event is not allowed in the goal's state.
+// Returns RCL_RET_ACTION_GOAL_EVENT_INVALID and changes nothing if the event is not allowed in the goal's state.
 rcl_ret_t rcl_action_update_goal_state(rcl_action_goal_handle_t* goal_handle, rcl_action_goal_event_t goal_event);
 
 rcl_ret_t rcl_action_goal_handle_get_info(const rcl_action_goal_handle_t* goal_handle,
@@ -32,13 +32,13 @@ rcl_ret_t rcl_action_goal_handle_get_info(const rcl_action_goal_handle_t* goal_h
 rcl_ret_t rcl_action_goal_handle_get_status(const rcl_action_goal_handle_t* goal_handle,
                                             rcl_action_goal_state_t* status);
 
-// When the goal came to its end, ns of the server's clock; -1 before that.
+// The time at which the goal ended, in ns of the server's clock; -1 before that.
 rcl_ret_t rcl_action_goal_handle_get_goal_terminal_timestamp(const rcl_action_goal_handle_t* goal_handle,
                                                              int64_t* timestamp);
 rcl_ret_t rcl_action_goal_handle_set_goal_terminal_timestamp(const rcl_action_goal_handle_t* goal_handle,
                                                              int64_t timestamp);
 
-// Accepted, executing or canceling.
+// Whether the goal is accepted, executing or canceling.
 bool rcl_action_goal_handle_is_active(const rcl_action_goal_handle_t* goal_handle);
 bool rcl_action_goal_handle_is_cancelable(const rcl_action_goal_handle_t* goal_handle);
 bool rcl_action_goal_handle_is_valid(const rcl_action_goal_handle_t* goal_handle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which actions there are. An action is seen by the topics and services that carry it.
+// The actions of the system. They are found by the topics and services that carry them.
 #pragma once
 
 #include "rcl/graph.h"
@@ -10,10 +10,11 @@ extern "C" {
 #endif
 
 // `action_names_and_types` must be zero initialised; finalize it with rcl_names_and_types_fini(). Names are full ones
-// ("/fibonacci"), types like "example_interfaces/action/Fibonacci". What `node` does not know yet is missing.
+// ("/fibonacci"), types look like "example_interfaces/action/Fibonacci". Actions that `node` has not discovered yet are
+// missing.
 rcl_ret_t rcl_action_get_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
                                          rcl_names_and_types_t* action_names_and_types);
-// Of the servers, and clients, of one node. RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
+// The actions of one node, as server or as client. Returns RCL_RET_NODE_NAME_NON_EXISTENT if no such node is known.
 rcl_ret_t rcl_action_get_server_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
                                                         const char* node_name, const char* node_namespace,
                                                         rcl_names_and_types_t* action_names_and_types);

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-// Each gives `<action_name>/_action/...` in memory of the allocator, for the caller to free.
+// Each returns `<action_name>/_action/...` in memory of the allocator, which the caller frees. Returns
 // RCL_RET_ACTION_NAME_INVALID for an empty name.
 rcl_ret_t rcl_action_get_goal_service_name(const char* action_name, rcl_allocator_t allocator,
                                            char** goal_service_name);

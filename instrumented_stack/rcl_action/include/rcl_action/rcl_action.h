@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All of rcl_action.
+// All headers of rcl_action.
 #pragma once
 
 #include "rcl_action/action_client.h"

@@ -20,7 +20,7 @@ extern "C" {
 
 #define UUID_SIZE 16
 
-// The contents of action_msgs/GoalInfo: which goal, and when it was accepted (all zero in requests: any).
+// The contents of action_msgs/GoalInfo: the goal's id and when it was accepted. All zero in requests means any goal.
 typedef struct rcl_action_goal_info_s {
   uint8_t goal_id[UUID_SIZE];
   int32_t stamp_sec;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waiting for what happens to servers and clients of actions.
+// Waits for servers and clients of actions.
 #pragma once
 
 #include "rcl/wait.h"
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-// How much room the server, or client, takes in a wait set.
+// The number of entities that the server, or client, has in a wait set.
 rcl_ret_t rcl_action_server_wait_set_get_num_entities(const rcl_action_server_t* action_server,
                                                       size_t* num_subscriptions, size_t* num_guard_conditions,
                                                       size_t* num_timers, size_t* num_clients, size_t* num_services);
@@ -18,11 +18,11 @@ rcl_ret_t rcl_action_client_wait_set_get_num_entities(const rcl_action_client_t*
                                                       size_t* num_subscriptions, size_t* num_guard_conditions,
                                                       size_t* num_timers, size_t* num_clients, size_t* num_services);
 
-// RCL_RET_WAIT_SET_FULL.
+// Returns RCL_RET_WAIT_SET_FULL if there is no room.
 rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const rcl_action_server_t* action_server);
 rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const rcl_action_client_t* action_client);
 
-// What is ready after rcl_wait().
+// The entities that are ready after rcl_wait().
 rcl_ret_t rcl_action_server_wait_set_get_entities_ready(const rcl_wait_set_t* wait_set,
                                                         const rcl_action_server_t* action_server,
                                                         bool* is_goal_request_ready, bool* is_cancel_request_ready,

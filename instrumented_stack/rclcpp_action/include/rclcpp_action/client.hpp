@@ -28,16 +28,17 @@
 
 namespace rclcpp_action {
 
-// What all clients have in common, and what an executor needs to know of one.
+// The common part of all clients, and the interface of a client for executors.
 class ClientBase : public rclcpp::Waitable {
  public:
   enum class EntityType : size_t { GoalClient, ResultClient, CancelClient, FeedbackSubscription, StatusSubscription };
 
   ~ClientBase() override;
 
-  // Whether a server would answer.
+  // Whether a server would answer a request.
   bool action_server_is_ready() const;
-  // Waits until that is so; false after `timeout`, or when the context ends. Negative waits for ever.
+  // Waits until a server is ready. Returns false after `timeout`, or when the context ends. A negative timeout waits
+  // forever.
   template <typename RepT = int64_t, typename RatioT = std::milli>
   bool wait_for_action_server(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
     return wait_for_action_server_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
@@ -54,25 +55,25 @@ class ClientBase : public rclcpp::Waitable {
   void clear_on_ready_callback() override;
   void execute(const std::shared_ptr<void>& data) override;
 
-  // Lets the client publish what happens to the calls of its three services, each on the service's name and
-  // "/_service_event", or ends that; see rclcpp::ClientBase::configure_introspection().
+  // Turns introspection of the three services on or off. Each is published on the service's name and "/_service_event";
+  // see rclcpp::ClientBase::configure_introspection().
   void configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
                                rcl_service_introspection_state_t introspection_state);
 
  protected:
   using ResponseCallback = std::function<void(std::shared_ptr<void> response)>;
 
-  // Throws rclcpp::exceptions::RCLError, for a wrong name among others.
+  // Throws rclcpp::exceptions::RCLError, for example for a wrong name.
   ClientBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base, const rclcpp::Logger& logger,
              const std::string& name, const rosidl_action_type_support_t* type_support,
              const rcl_action_client_options_t& options);
 
-  // Sends; the executor calls `callback` with the response.
+  // Sends the request; the executor calls `callback` with the response.
   void send_goal_request(const std::shared_ptr<void>& request, ResponseCallback callback);
   void send_result_request(const std::shared_ptr<void>& request, ResponseCallback callback);
   void send_cancel_request(const std::shared_ptr<void>& request, ResponseCallback callback);
 
-  // A random (version 4) identity.
+  // Generates a random (version 4) identity.
   static GoalUUID generate_goal_id();
 
   virtual std::shared_ptr<void> create_goal_response() const = 0;
@@ -92,7 +93,7 @@ class ClientBase : public rclcpp::Waitable {
     bool cancel_response = false;
     bool result_response = false;
   };
-  using Work = std::function<void()>;  // what take_data() gives
+  using Work = std::function<void()>;  // the result of take_data()
   using Pending = std::map<int64_t, ResponseCallback>;
   using Send = rcl_ret_t (*)(const rcl_action_client_t*, const void*, int64_t*);
   using Take = rcl_ret_t (*)(const rcl_action_client_t*, rmw_request_id_t*, void*);
@@ -109,17 +110,17 @@ class ClientBase : public rclcpp::Waitable {
   const rclcpp::Logger logger_;
   rcl_action_client_t client_;
   const rosidl_action_type_support_t* const introspected_type_;
-  std::array<rclcpp::detail::OnReadyCallback, 5> on_ready_;  // by EntityType
+  std::array<rclcpp::detail::OnReadyCallback, 5> on_ready_;  // index: EntityType
 
-  std::mutex mutex_;  // of everything below
+  std::mutex mutex_;  // guards everything below
   Ready ready_;
-  rclcpp::Clock::SharedPtr introspection_clock_;  // rcl has a pointer to what is in it
+  rclcpp::Clock::SharedPtr introspection_clock_;  // rcl points into it
   Pending pending_goals_;
   Pending pending_results_;
   Pending pending_cancels_;
 };
 
-// Its functions may be called from any thread. Callbacks run in the executor.
+// All functions may be called from any thread. Callbacks run in the executor.
 template <typename ActionT>
 class Client : public ClientBase, public std::enable_shared_from_this<Client<ActionT>> {
  public:
@@ -129,7 +130,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
   using Feedback = typename ActionT::Feedback;
   using GoalHandle = ClientGoalHandle<ActionT>;
   using WrappedResult = typename GoalHandle::WrappedResult;
-  // Null for a goal that was rejected.
+  // Gets null if the goal was rejected.
   using GoalResponseCallback = std::function<void(typename GoalHandle::SharedPtr)>;
   using FeedbackCallback = typename GoalHandle::FeedbackCallback;
   using ResultCallback = typename GoalHandle::ResultCallback;
@@ -140,7 +141,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
   struct SendGoalOptions {
     GoalResponseCallback goal_response_callback;
     FeedbackCallback feedback_callback;
-    ResultCallback result_callback;  // asks for the result as soon as the goal is accepted
+    ResultCallback result_callback;  // if set, the result is requested as soon as the goal is accepted
   };
 
   Client(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base, const rclcpp::Logger& logger,
@@ -149,7 +150,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
       : ClientBase(std::move(node_base), logger, action_name,
                    rosidl_typesupport_cpp::get_action_type_support_handle<ActionT>(), options) {}
 
-  // Goals whose result is awaited get an exception.
+  // Goals that still wait for their result get an exception.
   ~Client() override {
     const std::lock_guard lock(goals_mutex_);
     for (const auto& [uuid, weak] : goals_) {
@@ -159,7 +160,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     }
   }
 
-  // The future gets null for a goal that was rejected. Throws rclcpp::exceptions::RCLError.
+  // The future gets null if the goal was rejected. Throws rclcpp::exceptions::RCLError.
   std::shared_future<typename GoalHandle::SharedPtr> async_send_goal(const Goal& goal,
                                                                      const SendGoalOptions& options = {}) {
     auto request = std::make_shared<typename ActionT::Impl::SendGoalService::Request>();
@@ -167,7 +168,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     request->goal = goal;
     auto promise = std::make_shared<std::promise<typename GoalHandle::SharedPtr>>();
     std::shared_future<typename GoalHandle::SharedPtr> future(promise->get_future());
-    // A pending response belongs to the client: it cannot outlive it.
+    // A pending response belongs to the client, so it cannot outlive it.
     send_goal_request(request, [this, id = request->goal_id, options, promise](std::shared_ptr<void> message) {
       const auto response =
           std::static_pointer_cast<typename ActionT::Impl::SendGoalService::Response>(std::move(message));
@@ -191,7 +192,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     return future;
   }
 
-  // Throws exceptions::UnknownGoalHandleError for a goal of another client, or one whose result has come.
+  // Throws exceptions::UnknownGoalHandleError if the goal belongs to another client or its result has come.
   std::shared_future<WrappedResult> async_get_result(typename GoalHandle::SharedPtr goal_handle,
                                                      ResultCallback result_callback = nullptr) {
     check_known(goal_handle);
@@ -212,7 +213,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     return cancel(std::make_shared<CancelRequest>(), std::move(cancel_callback));
   }
 
-  // All goals that were accepted at that time or before.
+  // Cancels all goals that were accepted at that time or before.
   std::shared_future<typename CancelResponse::SharedPtr> async_cancel_goals_before(
       const rclcpp::Time& stamp, CancelCallback cancel_callback = nullptr) {
     auto request = std::make_shared<CancelRequest>();
@@ -220,7 +221,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     return cancel(std::move(request), std::move(cancel_callback));
   }
 
-  // No callback of the goal is called any more, and its result never comes.
+  // Ends all callbacks of the goal. Its result never comes.
   void stop_callbacks(typename GoalHandle::SharedPtr goal_handle) { stop_callbacks(goal_handle->get_goal_id()); }
   void stop_callbacks(const GoalUUID& goal_id) {
     typename GoalHandle::SharedPtr goal = forget(goal_id);
@@ -295,7 +296,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     return found == goals_.end() ? nullptr : found->second.lock();
   }
 
-  // The goal, if it was known.
+  // Returns the goal if it was known.
   typename GoalHandle::SharedPtr forget(const GoalUUID& uuid) {
     const std::lock_guard lock(goals_mutex_);
     const auto node = goals_.extract(uuid);
@@ -309,7 +310,8 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
   }
 
   std::mutex goals_mutex_;
-  // Until the result has come. A user who lets go of a goal hears no more of it, unless it awaits the result.
+  // Goals are kept until the result has come. If a user drops a goal, nothing more is reported, unless its result is
+  // awaited.
   std::map<GoalUUID, typename GoalHandle::WeakPtr> goals_;
 };
 

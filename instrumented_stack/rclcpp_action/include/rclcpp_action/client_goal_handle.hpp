@@ -27,7 +27,7 @@ enum class ResultCode : int8_t {
 template <typename ActionT>
 class Client;
 
-// Its functions may be called from any thread.
+// All functions may be called from any thread.
 template <typename ActionT>
 class ClientGoalHandle {
  public:
@@ -44,18 +44,18 @@ class ClientGoalHandle {
   using ResultCallback = std::function<void(const WrappedResult& result)>;
 
   const GoalUUID& get_goal_id() const { return info_.goal_id.uuid; }
-  // When the server accepted the goal.
+  // The time at which the server accepted the goal.
   rclcpp::Time get_goal_stamp() const { return info_.stamp; }
 
-  // The newest status that arrived, of action_msgs/GoalStatus.
+  // The last received status, of action_msgs/GoalStatus.
   int8_t get_status() const {
     const std::lock_guard lock(mutex_);
     return status_;
   }
 
-  // Whether feedback was asked for when the goal was sent.
+  // Whether feedback was requested when the goal was sent.
   bool is_feedback_aware() const { return feedback_callback_ != nullptr; }
-  // Whether the result was asked for.
+  // Whether the result was requested.
   bool is_result_aware() const {
     const std::lock_guard lock(mutex_);
     return is_result_aware_;
@@ -72,8 +72,8 @@ class ClientGoalHandle {
     return result_future_;
   }
 
-  // Whether the result has to be asked for now; then it is as good as asked for. Another callback takes the place of
-  // the one before.
+  // Returns true if the result must be requested now; it then counts as requested. A new callback replaces the former
+  // one.
   bool become_result_aware(ResultCallback callback) {
     const std::lock_guard lock(mutex_);
     if (callback) result_callback_ = std::move(callback);
@@ -109,7 +109,7 @@ class ClientGoalHandle {
     try {
       result_promise_.set_exception(std::make_exception_ptr(error));
     } catch (const std::future_error&) {
-      // It has come already.
+      // The result has come already.
     }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients of actions for nodes.
+// Creates clients of actions for nodes.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace rclcpp_action {
 
-// `node` points to a node. Null group: the default callback group. Throws rclcpp::exceptions::RCLError.
+// `node` points to a node. A null group means the default callback group. Throws rclcpp::exceptions::RCLError.
 template <typename ActionT, typename NodeT>
 typename Client<ActionT>::SharedPtr create_client(
     NodeT node, const std::string& name, rclcpp::CallbackGroup::SharedPtr group = nullptr,
@@ -26,7 +26,7 @@ typename Client<ActionT>::SharedPtr create_client(
       node->get_node_waitables_interface(), group);
 }
 
-// The same for whoever has interfaces instead of a node.
+// The same for code that has interfaces instead of a node.
 template <typename ActionT>
 typename Client<ActionT>::SharedPtr create_client(
     rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Servers of actions for nodes.
+// Creates servers of actions for nodes.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace rclcpp_action {
 
-// `node` points to a node. Null group: the default callback group. Throws rclcpp::exceptions::RCLError.
+// `node` points to a node. A null group means the default callback group. Throws rclcpp::exceptions::RCLError.
 template <typename ActionT, typename NodeT>
 typename Server<ActionT>::SharedPtr create_server(
     NodeT node, const std::string& name, typename Server<ActionT>::GoalCallback handle_goal,
@@ -29,7 +29,7 @@ typename Server<ActionT>::SharedPtr create_server(
                              node->get_node_waitables_interface(), group);
 }
 
-// The same for whoever has interfaces instead of a node.
+// The same for code that has interfaces instead of a node.
 template <typename ActionT>
 typename Server<ActionT>::SharedPtr create_server(
     rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clients throw about goals.
+// The exceptions that clients throw about goals.
 #pragma once
 
 #include <stdexcept>
@@ -7,13 +7,13 @@
 
 namespace rclcpp_action::exceptions {
 
-// The goal is not, or no longer, one of the client's.
+// The goal does not, or no longer, belong to the client.
 class UnknownGoalHandleError : public std::invalid_argument {
  public:
   UnknownGoalHandleError() : std::invalid_argument("Goal handle is not known to this client.") {}
 };
 
-// The result of the goal was not asked for.
+// The result of the goal was not requested.
 class UnawareGoalHandleError : public std::runtime_error {
  public:
   explicit UnawareGoalHandleError(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// All of rclcpp_action: servers and clients of actions.
+// All headers of rclcpp_action: servers and clients of actions.
 //
-//   auto server = rclcpp_action::create_server<Fibonacci>(node, "fibonacci", handle_goal, handle_cancel,
-//   handle_accepted); auto client = rclcpp_action::create_client<Fibonacci>(node, "fibonacci");
+//   auto server = rclcpp_action::create_server<Fibonacci>(node, "fibonacci", on_goal, on_cancel, on_accepted);
+//   auto client = rclcpp_action::create_client<Fibonacci>(node, "fibonacci");
 #pragma once
 
 #include "rclcpp_action/client.hpp"

@@ -29,14 +29,14 @@ namespace rclcpp_action {
 
 enum class GoalResponse : int8_t {
   REJECT = 1,
-  ACCEPT_AND_EXECUTE = 2,  // begins to execute at once
-  ACCEPT_AND_DEFER = 3,    // begins with ServerGoalHandle::execute()
+  ACCEPT_AND_EXECUTE = 2,  // starts to execute at once
+  ACCEPT_AND_DEFER = 3,    // starts with ServerGoalHandle::execute()
 };
 
 enum class CancelResponse : int8_t { REJECT = 1, ACCEPT = 2 };
 
-// What all servers have in common, and what an executor needs to know of one. An executor runs one request at a time;
-// the functions for the goals may be called from any thread.
+// The common part of all servers, and the interface of a server for executors. An executor runs one request at a time.
+// The functions for goals may be called from any thread.
 class ServerBase : public rclcpp::Waitable {
  public:
   enum class EntityType : size_t { GoalService, ResultService, CancelService };
@@ -53,21 +53,21 @@ class ServerBase : public rclcpp::Waitable {
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
   void execute(const std::shared_ptr<void>& data) override;
-  // One that forgets results after their time, for executors that do not wait for the timer of rcl.
+  // A timer that forgets results after their time, for executors that do not wait for the timer of rcl.
   std::vector<std::shared_ptr<rclcpp::TimerBase>> get_timers() const override;
 
-  // Lets the server publish what happens to the calls of its three services, each on the service's name and
-  // "/_service_event", or ends that; see rclcpp::ServiceBase::configure_introspection().
+  // Turns introspection of the three services on or off. Each is published on the service's name and "/_service_event";
+  // see rclcpp::ServiceBase::configure_introspection().
   void configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
                                rcl_service_introspection_state_t introspection_state);
 
  protected:
-  // Throws rclcpp::exceptions::RCLError, for a wrong name among others.
+  // Throws rclcpp::exceptions::RCLError, for example for a wrong name.
   ServerBase(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base, rclcpp::Clock::SharedPtr clock,
              const rclcpp::Logger& logger, const std::string& name, const rosidl_action_type_support_t* type_support,
              const rcl_action_server_options_t& options);
 
-  // What only the type of the action can do. None is called under a lock.
+  // Functions that need the type of the action. They are called without a lock held.
   virtual std::shared_ptr<void> create_goal_request() = 0;
   virtual GoalUUID get_goal_id_from_goal_request(void* message) = 0;
   virtual GoalResponse call_handle_goal_callback(const GoalUUID& uuid, std::shared_ptr<void> goal_request) = 0;
@@ -81,7 +81,7 @@ class ServerBase : public rclcpp::Waitable {
 
   void publish_status();
   void publish_feedback(const std::shared_ptr<void>& feedback_msg);
-  // Ends a goal: answers who waits for the result, keeps it for who will ask, and lets it expire.
+  // Ends a goal: answers the waiting requests for its result, keeps the result for later requests, and lets it expire.
   void publish_result(const GoalUUID& uuid, std::shared_ptr<void> result_response);
 
  private:
@@ -91,7 +91,7 @@ class ServerBase : public rclcpp::Waitable {
     bool result = false;
     bool expired = false;
   };
-  using Work = std::function<void()>;  // what take_data() gives
+  using Work = std::function<void()>;  // the result of take_data()
 
   Work take_goal_request();
   Work take_cancel_request();
@@ -100,7 +100,7 @@ class ServerBase : public rclcpp::Waitable {
   void answer_cancel_request(rmw_request_id_t header, const action_msgs::srv::CancelGoal::Request& request);
   void answer_result_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
   void forget_expired_goals();
-  // Lets the timer of get_timers() run as long as that of rcl. Needs the mutex.
+  // Sets the timer of get_timers() to the time of rcl's timer. The mutex must be held.
   void set_expiry() const;
   std::shared_ptr<rcl_action_goal_handle_t> accept(const GoalUUID& uuid, rcl_action_goal_info_t& info);
   void warn(rcl_ret_t ret, const char* what) const;
@@ -109,24 +109,24 @@ class ServerBase : public rclcpp::Waitable {
   rclcpp::Clock::SharedPtr clock_;
   const rclcpp::Logger logger_;
 
-  std::array<rclcpp::detail::OnReadyCallback, 3> on_ready_;  // by EntityType
+  std::array<rclcpp::detail::OnReadyCallback, 3> on_ready_;  // index: EntityType
 
-  // Whom the timer of get_timers() works for; null when the server is being destroyed.
+  // The server of the timer of get_timers(); null when the server is being destroyed.
   struct Owner {
     std::mutex mutex;
     ServerBase* server;
   };
   const std::shared_ptr<Owner> owner_;
 
-  mutable std::mutex mutex_;  // of everything below, the rcl server included
+  mutable std::mutex mutex_;  // guards everything below, including the rcl server
   rcl_action_server_t server_;
   const rosidl_action_type_support_t* const introspected_type_;
-  rclcpp::Clock::SharedPtr introspection_clock_;  // rcl has a pointer to what is in it
+  rclcpp::Clock::SharedPtr introspection_clock_;  // rcl points into it
   Ready ready_;
-  mutable rclcpp::TimerBase::SharedPtr expiry_;                           // null until somebody asks for it
-  std::map<GoalUUID, std::shared_ptr<rcl_action_goal_handle_t>> goals_;   // until they expire
-  std::map<GoalUUID, std::shared_ptr<void>> results_;                     // of goals at their end
-  std::map<GoalUUID, std::vector<rmw_request_id_t>> waiting_for_result_;  // of goals before it
+  mutable rclcpp::TimerBase::SharedPtr expiry_;                           // null until get_timers() is called
+  std::map<GoalUUID, std::shared_ptr<rcl_action_goal_handle_t>> goals_;   // kept until they expire
+  std::map<GoalUUID, std::shared_ptr<void>> results_;                     // of ended goals
+  std::map<GoalUUID, std::vector<rmw_request_id_t>> waiting_for_result_;  // of active goals
 };
 
 template <typename ActionT>
@@ -134,8 +134,8 @@ class Server : public ServerBase, public std::enable_shared_from_this<Server<Act
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(Server)
 
-  // Whether to accept a goal; must not block. Then what to do with it: long work belongs into another thread, or the
-  // executor cannot serve requests to cancel.
+  // Decides whether to accept a goal; must not block. Then the accepted goal is passed on. Long work must run in
+  // another thread: otherwise the executor cannot serve cancel requests.
   using GoalCallback = std::function<GoalResponse(const GoalUUID&, std::shared_ptr<const typename ActionT::Goal>)>;
   using CancelCallback = std::function<CancelResponse(std::shared_ptr<ServerGoalHandle<ActionT>>)>;
   using AcceptedCallback = std::function<void(std::shared_ptr<ServerGoalHandle<ActionT>>)>;
@@ -241,7 +241,7 @@ class Server : public ServerBase, public std::enable_shared_from_this<Server<Act
   AcceptedCallback handle_accepted_;
 
   std::mutex handles_mutex_;
-  std::map<GoalUUID, std::weak_ptr<ServerGoalHandle<ActionT>>> handles_;  // of goals before their end
+  std::map<GoalUUID, std::weak_ptr<ServerGoalHandle<ActionT>>> handles_;  // of active goals
 };
 
 }  // namespace rclcpp_action

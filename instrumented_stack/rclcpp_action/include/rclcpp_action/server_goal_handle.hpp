@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A goal that a server has accepted: what the user's code tells of its progress and its end.
+// A goal that a server has accepted. The user's code reports its progress and its end here.
 #pragma once
 
 #include <rcl_action/goal_handle.h>
@@ -14,13 +14,13 @@
 
 namespace rclcpp_action {
 
-// All functions may be called from any thread. Changes of state that are not allowed throw
-// rclcpp::exceptions::RCLError.
+// All functions may be called from any thread. They throw rclcpp::exceptions::RCLError if the change of state is not
+// allowed.
 class ServerGoalHandleBase {
  public:
-  // The client asked to cancel and the server agreed: work should stop and canceled() be called.
+  // Whether the client asked to cancel and the server agreed. Then stop the work and call canceled().
   bool is_canceling() const;
-  // The goal has not come to its end.
+  // Whether the goal has not ended yet.
   bool is_active() const;
   bool is_executing() const;
 
@@ -31,7 +31,7 @@ class ServerGoalHandleBase {
   RCLCPP_DISABLE_COPY(ServerGoalHandleBase)
 
   void update(rcl_action_goal_event_t event, const char* what);
-  // Whether a goal that nobody will bring to its end was canceled.
+  // Cancels a goal that will not be ended otherwise. Returns whether it was canceled.
   bool try_canceling() noexcept;
   static void note_untold_end(const std::exception& error);
 
@@ -47,20 +47,20 @@ class Server;
 template <typename ActionT>
 class ServerGoalHandle : public ServerGoalHandleBase {
  public:
-  // A goal that is given up without an end is canceled.
+  // A goal that is dropped without an end is canceled.
   ~ServerGoalHandle() override {
     if (try_canceling()) {
       auto result = std::make_shared<typename ActionT::Impl::GetResultService::Response>();
       result->status = GoalStatus::STATUS_CANCELED;
       try {
         on_terminal_state_(uuid_, result);
-      } catch (const std::exception& error) {  // nobody can be told after the shutdown
+      } catch (const std::exception& error) {  // after the shutdown nobody can be notified
         note_untold_end(error);
       }
     }
   }
 
-  // To every client that has the goal.
+  // Sent to every client that has the goal.
   void publish_feedback(std::shared_ptr<typename ActionT::Feedback> feedback_msg) {
     auto message = std::make_shared<typename ActionT::Impl::FeedbackMessage>();
     message->goal_id.uuid = uuid_;
@@ -68,8 +68,8 @@ class ServerGoalHandle : public ServerGoalHandleBase {
     publish_feedback_(std::move(message));
   }
 
-  // The three ends: nothing but the destructor may be called afterwards. Executing or canceling goals can succeed and
-  // abort, canceling ones be canceled.
+  // The three ends. After one of them only the destructor may be called. Goals can succeed or abort while executing or
+  // canceling; they can only be canceled while canceling.
   void succeed(typename ActionT::Result::SharedPtr result_msg) {
     end(GOAL_EVENT_SUCCEED, "succeed", GoalStatus::STATUS_SUCCEEDED, *result_msg);
   }
@@ -80,7 +80,7 @@ class ServerGoalHandle : public ServerGoalHandleBase {
     end(GOAL_EVENT_CANCELED, "be canceled", GoalStatus::STATUS_CANCELED, *result_msg);
   }
 
-  // Begins a goal that was accepted with ACCEPT_AND_DEFER.
+  // Starts a goal that was accepted with ACCEPT_AND_DEFER.
   void execute() {
     update(GOAL_EVENT_EXECUTE, "begin to execute");
     on_executing_(uuid_);

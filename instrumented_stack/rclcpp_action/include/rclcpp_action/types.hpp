@@ -18,7 +18,7 @@ using GoalUUID = std::array<uint8_t, UUID_SIZE>;
 using GoalStatus = action_msgs::msg::GoalStatus;
 using GoalInfo = action_msgs::msg::GoalInfo;
 
-// In hexadecimal, with dashes after 4, 6, 8 and 10 bytes.
+// Hexadecimal, with dashes after 4, 6, 8 and 10 bytes.
 std::string to_string(const GoalUUID& goal_id);
 
 void convert(const GoalUUID& goal_id, rcl_action_goal_info_t* info);
@@ -26,7 +26,7 @@ void convert(const rcl_action_goal_info_t& info, GoalUUID* goal_id);
 
 }  // namespace rclcpp_action
 
-// std::less works as it is.
+// std::less needs no specialisation.
 template <>
 struct std::hash<rclcpp_action::GoalUUID> {
   std::size_t operator()(const rclcpp_action::GoalUUID& goal_id) const noexcept {

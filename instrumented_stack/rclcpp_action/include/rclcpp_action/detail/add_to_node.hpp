@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives servers and clients of actions to a node's executor.
+// Adds servers and clients of actions to a node's executor.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace rclcpp_action::detail {
 
-// The pointer to be given to the user: its end takes the waitable from the executor, which may own it while it waits.
+// The pointer for the user. Its deleter removes the waitable from the executor, which may own it while it waits.
 template <typename WaitableT>
 std::shared_ptr<WaitableT> add_to_node(std::shared_ptr<WaitableT> waitable,
                                        const rclcpp::node_interfaces::NodeWaitablesInterface::SharedPtr& waitables,
