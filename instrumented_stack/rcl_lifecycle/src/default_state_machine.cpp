@@ -20,10 +20,10 @@ namespace {
 using lifecycle_msgs::msg::State;
 using lifecycle_msgs::msg::Transition;
 
-// Both tables in the order in which ROS 2 lists them. The transitions of a state follow each other.
+// Both tables are in the order of ROS 2. The transitions of a state follow each other.
 struct DefaultMap {
   DefaultMap() {
-    // Each transition state ends in one of three ways, told by the result of its callback.
+    // Each transition state ends in one of three ways, depending on the result of its callback.
     const auto add_ends = [&](unsigned int start, unsigned int success_id, unsigned int success,
                               unsigned int failure_id, unsigned int failure, unsigned int error_id,
                               unsigned int error) {
@@ -59,7 +59,7 @@ struct DefaultMap {
         State::TRANSITION_STATE_SHUTTINGDOWN);
     add(State::PRIMARY_STATE_ACTIVE, rcl_lifecycle_shutdown_label, Transition::TRANSITION_ACTIVE_SHUTDOWN,
         State::TRANSITION_STATE_SHUTTINGDOWN);
-    // A failed shutdown is one all the same.
+    // A failed shutdown still ends in `finalized`.
     add_ends(State::TRANSITION_STATE_SHUTTINGDOWN, Transition::TRANSITION_ON_SHUTDOWN_SUCCESS,
              State::PRIMARY_STATE_FINALIZED, Transition::TRANSITION_ON_SHUTDOWN_FAILURE, State::PRIMARY_STATE_FINALIZED,
              Transition::TRANSITION_ON_SHUTDOWN_ERROR, State::TRANSITION_STATE_ERRORPROCESSING);
@@ -67,7 +67,7 @@ struct DefaultMap {
              State::PRIMARY_STATE_UNCONFIGURED, Transition::TRANSITION_ON_ERROR_FAILURE, State::PRIMARY_STATE_FINALIZED,
              Transition::TRANSITION_ON_ERROR_ERROR, State::PRIMARY_STATE_FINALIZED);
 
-    // The transitions of one state side by side, each state's still in that order.
+    // The transitions of one state must be adjacent; a state's transitions keep that order.
     by_state = transitions;
     std::stable_sort(by_state.begin(), by_state.end(), [](const auto& a, const auto& b) { return a.start < b.start; });
     for (rcl_lifecycle_state_t& state : states) {

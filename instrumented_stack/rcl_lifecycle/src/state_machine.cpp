@@ -46,7 +46,7 @@ rcl_ret_t trigger(rcl_lifecycle_state_machine_t* state_machine, const rcl_lifecy
   if (publish_notification && state_machine->options.enable_com_interface) {
     ret = publish(state_machine->pub_transition_event, *transition);
   }
-  // In ROS 2 not if publishing failed. But the state has changed, which is what a trace is to show.
+  // ROS 2 does not fire it if publishing failed. But the state has changed, and a trace must show that.
   TRACETOOLS_TRACEPOINT(rcl_lifecycle_transition, static_cast<const void*>(state_machine), transition->start->label,
                         transition->goal->label);
   return ret;

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# Tells containers which components a library has, and makes programs of components.
+# Registers the components of a library for containers, and creates programs of components.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
-list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # when installed, StackPackage is in this folder
 include(StackPackage)
 
 set_property(GLOBAL PROPERTY RCLCPP_COMPONENTS_NODE_MAIN ${CMAKE_CURRENT_LIST_DIR}/node_main.cpp.in)
 
-# ROS 2's names of the parts of the package; here it is one library.
+# ROS 2 has several libraries with these names; here it is one library.
 if(TARGET rclcpp_components::rclcpp_components)
   foreach(part IN ITEMS component component_manager)
     add_library(rclcpp_components::${part} INTERFACE IMPORTED)
@@ -17,8 +17,8 @@ endif()
 
 # rclcpp_components_register_nodes(<target> <class>... [RESOURCE_INDEX <index>] [PACKAGE <pkg>])
 #
-# Enters components of the shared library <target> into the ament index. Install the library yourself, with LIBRARY
-# DESTINATION lib. The package is the current project unless told otherwise.
+# Adds components of the shared library <target> to the ament index. Install the library yourself, with LIBRARY
+# DESTINATION lib. By default the package is the current project.
 function(rclcpp_components_register_nodes target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "RESOURCE_INDEX;PACKAGE" "")
   _rclcpp_components_register("${ARG_RESOURCE_INDEX}" "${ARG_PACKAGE}" ${target} ${ARG_UNPARSED_ARGUMENTS})
@@ -27,9 +27,9 @@ endfunction()
 # rclcpp_components_register_node(<target> PLUGIN <class> EXECUTABLE <executable> [EXECUTOR <executor>]
 #                                 [RESOURCE_INDEX <index>] [PACKAGE <pkg>])
 #
-# The same for one component, and a program in lib/<pkg> that runs it: its CMake target is <executable>, with PACKAGE
-# <pkg>_<executable>. The executor is a class of rclcpp::executors, SingleThreadedExecutor unless told otherwise. ROS 2's
-# option NO_UNDEFINED_SYMBOLS lets the linker refuse undefined symbols in the library.
+# The same for one component, with a program in lib/<pkg> that runs it. The program's CMake target is <executable>; with
+# PACKAGE it is <pkg>_<executable>. The executor is a class of rclcpp::executors, by default SingleThreadedExecutor. ROS
+# 2's option NO_UNDEFINED_SYMBOLS makes the linker refuse undefined symbols in the library.
 function(rclcpp_components_register_node target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "NO_UNDEFINED_SYMBOLS" "PLUGIN;EXECUTABLE;EXECUTOR;RESOURCE_INDEX;PACKAGE" "")
   if(ARG_UNPARSED_ARGUMENTS)
@@ -64,7 +64,7 @@ function(rclcpp_components_register_node target)
   add_executable(${program} ${source})
   set_target_properties(${program} PROPERTIES OUTPUT_NAME ${ARG_EXECUTABLE})
   _stack_place(${program} lib/${pkg} "$ORIGIN/..")
-  # The program calls nothing of the library: it is there for what it registers.
+  # The program calls no function of the library. It links it for its registrations.
   target_link_libraries(${program} PRIVATE
     rclcpp_components::rclcpp_components "$<LINK_LIBRARY:NEEDED_COMPONENT,${target}>")
   install(TARGETS ${program} RUNTIME DESTINATION lib/${pkg})
@@ -74,7 +74,7 @@ set(CMAKE_LINK_LIBRARY_USING_NEEDED_COMPONENT
   LINKER:--push-state,--no-as-needed <LINK_ITEM> LINKER:--pop-state CACHE INTERNAL "")
 set(CMAKE_LINK_LIBRARY_USING_NEEDED_COMPONENT_SUPPORTED TRUE CACHE INTERNAL "")
 
-# The entries of a package are collected, and written when its folder is complete.
+# The entries of a package are collected first, and written when its folder is complete.
 function(_rclcpp_components_register index pkg target)
   if(NOT TARGET ${target})
     message(FATAL_ERROR "rclcpp_components: '${target}' is no target")
@@ -85,8 +85,8 @@ function(_rclcpp_components_register index pkg target)
   if(NOT pkg)
     set(pkg ${PROJECT_NAME})
   endif()
-  # An installed component finds the libraries that it was linked with: its own package's beside it, others wherever
-  # they are.
+  # An installed component finds the libraries that it was linked with: those of its package in its own folder, others
+  # where they are.
   set_target_properties(${target} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
   get_target_property(rpath ${target} INSTALL_RPATH)
   if(NOT rpath)
@@ -99,7 +99,7 @@ function(_rclcpp_components_register index pkg target)
   endforeach()
   if(NOT known)
     stack_package(${pkg})
-    # EVAL, for the arguments of a deferred call are evaluated when it is made: there these variables do not exist.
+    # EVAL, because the arguments of a deferred call are evaluated when it runs, and these variables do not exist then.
     cmake_language(EVAL CODE
       "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL _rclcpp_components_write [[${index}]] [[${pkg}]])")
   endif()

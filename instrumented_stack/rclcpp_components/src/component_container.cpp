@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process for components, which share one thread.
+// A process for components that share one thread.
 #include "container_main.hpp"
 #include "rclcpp_components/component_manager.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process for components, which share one thread that is told of what comes instead of asking for it.
+// A process for components that share one thread with an events executor: it is notified of arrivals instead of
+// polling.
 #include "container_main.hpp"
 #include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
 #include "rclcpp_components/component_manager.hpp"

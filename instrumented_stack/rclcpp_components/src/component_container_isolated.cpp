@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process for components, each with an executor and a thread of its own.
+// A process for components. Each has its own executor and thread.
 //
-// Option: --use_multi_threaded_executor  each with several threads
+// Option: --use_multi_threaded_executor  each has several threads
 #include <algorithm>
 
 #include "container_main.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process for components, which share several threads.
+// A process for components that share several threads.
 //
-// Parameter: thread_num  how many (default: one per processor)
+// Parameter: thread_num  number of threads (default: one per processor)
 #include "container_main.hpp"
 #include "rclcpp_components/component_manager.hpp"
 

@@ -12,7 +12,7 @@ namespace rclcpp_components {
 
 namespace {
 
-// Registrations come and go with libraries, in the threads that load them.
+// The threads that load libraries add registrations.
 struct Registry {
   std::mutex mutex;
   std::vector<const ComponentRegistration*> registrations;
@@ -46,8 +46,8 @@ std::shared_ptr<NodeFactory> create_first(MatchesT matches) {
 }  // namespace
 
 ComponentLibrary::ComponentLibrary(const std::string& path) {
-  // Now: a library with an undefined symbol is refused here rather than ending the container in some callback. Local:
-  // components of different libraries may have functions of one name.
+  // RTLD_NOW: a library with an undefined symbol is refused here; otherwise it would end the container in some
+  // callback. RTLD_LOCAL: components of different libraries may have functions with the same name.
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) {
     throw std::runtime_error(dlerror());

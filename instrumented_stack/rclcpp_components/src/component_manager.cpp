@@ -20,7 +20,7 @@ int64_t hardware_threads() {
   return std::max<int64_t>(1, std::thread::hardware_concurrency());
 }
 
-// Throws ComponentManagerException if the argument is no boolean.
+// Throws ComponentManagerException if the argument is not a boolean.
 bool boolean(const rclcpp::Parameter& argument) {
   if (argument.get_type() != rclcpp::ParameterType::PARAMETER_BOOL) {
     throw ComponentManagerException("Extra component argument '" + argument.get_name() + "' must be a boolean");
@@ -28,7 +28,7 @@ bool boolean(const rclcpp::Parameter& argument) {
   return argument.as_bool();
 }
 
-// The name under which ROS 2 logs a component.
+// The name that ROS 2 uses for a component in its log.
 std::string factory_class(const std::string& class_name) {
   return "rclcpp_components::NodeFactoryTemplate<" + class_name + ">";
 }
@@ -78,7 +78,7 @@ std::vector<ComponentManager::ComponentResource> ComponentManager::get_component
     if (line.empty()) {
       continue;
     }
-    // CLASS;LIBRARY, the library relative to the prefix
+    // The line is CLASS;LIBRARY, with the library relative to the prefix.
     const size_t semicolon = line.find(';');
     if (semicolon == std::string::npos || line.find(';', semicolon + 1) != std::string::npos) {
       throw ComponentManagerException("Invalid resource entry");
@@ -195,7 +195,7 @@ void ComponentManager::on_load_node(const std::shared_ptr<rmw_request_id_t>,
     response->unique_id = node_id;
     response->success = true;
   } catch (const std::exception& error) {
-    // Whatever it was costs this component, not the container.
+    // Any exception fails only this component, not the container.
     RCLCPP_ERROR(get_logger(), "Cannot load component '%s' of package '%s': %s", request->plugin_name.c_str(),
                  request->package_name.c_str(), error.what());
     response->error_message = error.what();

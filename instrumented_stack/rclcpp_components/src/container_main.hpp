@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the main functions of all containers do.
+// The common part of the main functions of all containers.
 #pragma once
 
 #include <cstdio>
@@ -13,8 +13,8 @@
 
 namespace rclcpp_components {
 
-// Calls `run` with the arguments that are not for ROS, the program's name first. An exception, from components too, is
-// one line on stderr. Returns the exit code of the program.
+// Calls `run` with the arguments that are not for ROS, starting with the program's name. Prints an exception, also of a
+// component, as one line on stderr. Returns the exit code of the program.
 template <typename RunT>
 int container_main(const char* program, int argc, char** argv, RunT run) {
   try {

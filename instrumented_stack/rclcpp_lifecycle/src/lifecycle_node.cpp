@@ -44,7 +44,7 @@ LifecycleNode::LifecycleNode(const std::string& node_name, const std::string& no
                              const rclcpp::NodeOptions& options, bool enable_communication_interface)
     : Node(node_name, node_namespace, options),
       states_(std::make_shared<StateManager>(*get_node_base_interface(), get_logger())) {
-  // In the trace the services come before the state machine that they belong to.
+  // In the trace, the services come before their state machine.
   if (enable_communication_interface) {
     services_ = std::make_unique<LifecycleServices>(*this, states_);
   }
@@ -58,7 +58,7 @@ LifecycleNode::LifecycleNode(const std::string& node_name, const std::string& no
 }
 
 LifecycleNode::~LifecycleNode() {
-  // An executor may still have a service of this node, and with it the states.
+  // An executor may still hold a service of this node, and the service holds the states.
   states_->forget_callbacks();
   if (get_current_state().id() != StateId::PRIMARY_STATE_FINALIZED) {
     RCLCPP_DEBUG(get_logger(), "LifecycleNode is not shut down: Node still in state(%u) in destructor",

@@ -36,13 +36,13 @@ void to_messages(const std::vector<Transition>& transitions, GetAvailableTransit
   }
 }
 
-// A service with a callback that gets the states and the request and fills in the response.
+// Creates a service. Its callback gets the states and the request and fills in the response.
 template <typename ServiceT, typename AnswerT>
 typename rclcpp::Service<ServiceT>::SharedPtr make_service(rclcpp::Node& node, std::shared_ptr<StateManager> states,
                                                            const char* name, AnswerT answer) {
   using Request = typename ServiceT::Request;
   using Response = typename ServiceT::Response;
-  // An executor may keep a service for longer than the node: the states stay with it.
+  // An executor may keep a service longer than the node lives, so the service holds the states.
   return node.create_service<ServiceT>(
       name,
       [states = std::move(states), answer](const std::shared_ptr<Request> request, std::shared_ptr<Response> response) {
@@ -56,7 +56,7 @@ LifecycleServices::LifecycleServices(rclcpp::Node& node, const std::shared_ptr<S
   change_state_ = make_service<ChangeState>(
       node, states, "~/change_state",
       [](StateManager& manager, const ChangeState::Request& request, ChangeState::Response& response) {
-        // A label wins: whoever gives one may leave out the id, which then is 0.
+        // A label takes precedence. A request with a label may leave the id at 0.
         StateManager::CallbackReturn result = StateManager::CallbackReturn::ERROR;
         if (request.transition.label.empty()) {
           manager.change_state(request.transition.id, result);

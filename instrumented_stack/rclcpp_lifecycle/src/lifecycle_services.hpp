@@ -13,7 +13,7 @@
 
 namespace rclcpp_lifecycle {
 
-// Answers in the default callback group of the node.
+// The services run in the default callback group of the node.
 class LifecycleServices {
  public:
   LifecycleServices(rclcpp::Node& node, const std::shared_ptr<StateManager>& states);

@@ -10,7 +10,7 @@ namespace rclcpp_lifecycle {
 
 namespace {
 
-// One object per state, so that a reference to the current one stays good when the state changes.
+// One object per state, so that a reference to the current state stays valid when the state changes.
 const State& constant_state(const rcl_lifecycle_state_t* state) {
   static const std::map<unsigned int, State> states = [] {
     std::map<unsigned int, State> all;
@@ -122,7 +122,7 @@ bool StateManager::change_state(uint8_t transition_id, CallbackReturn& result) {
     const std::lock_guard lock(mutex_);
     previous_state = &current_state();
     const rcl_lifecycle_state_t* state = state_machine_.current_state;
-    // The transitions that end a transition state are for the thread that runs its callback.
+    // Only the thread that runs the callback of a transition state may trigger the transitions that end it.
     if (!is_primary(state) || rcl_lifecycle_get_transition_by_id(state, transition_id) == nullptr) {
       RCLCPP_ERROR(logger_, "Unable to start transition %u from current state %s: Transition is not registered.",
                    unsigned{transition_id}, state->label);
@@ -147,7 +147,7 @@ void StateManager::finish(CallbackReturn result) {
 void StateManager::go_on(const char* transition_label) {
   const rcl_lifecycle_state_t* before = state_machine_.current_state;
   if (rcl_lifecycle_trigger_transition_by_label(&state_machine_, transition_label, true) != RCL_RET_OK) {
-    // The state has changed, only nobody heard of it: for example after the context has been shut down.
+    // The state has changed but was not published, for example because the context was shut down.
     RCLCPP_WARN(logger_, "Failed to publish transition %s of state %s: %s", transition_label, before->label,
                 rcl_get_error_string().str);
     rcl_reset_error();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leads a node through its transitions: the state machine of rcl_lifecycle with the callbacks of the node.
+// Performs the transitions of a node: the state machine of rcl_lifecycle with the callbacks of the node.
 #pragma once
 
 #include <rcl_lifecycle/rcl_lifecycle.h>
@@ -36,35 +36,35 @@ class StateManager {
 
   // The callback of a transition state, TRANSITION_STATE_… of lifecycle_msgs/msg/State. Replaces an earlier one.
   void set_callback(uint8_t transition_state, Callback callback);
-  // Transitions succeed from now on without calling anything.
+  // From now on transitions succeed without a callback.
   void forget_callbacks();
 
-  // Of the states that last as long as the program.
+  // The returned state lives as long as the program.
   const State& current_state() const { return *current_state_; }
   std::vector<State> states() const;
   std::vector<Transition> transitions() const;
   std::vector<Transition> transitions_of_current_state() const;
 
-  // Runs a whole transition with its callback, and error processing if that is needed. False, after logging why, if the
-  // current state has no such transition.
+  // Performs a whole transition with its callback, and error processing if needed. If the current state has no such
+  // transition, logs the reason and returns false.
   bool change_state(uint8_t transition_id, CallbackReturn& result);
-  // By label. False, without logging, if the current state has no such transition.
+  // Takes a label. Returns false, without logging, if the current state has no such transition.
   bool change_state(const std::string& transition_label, CallbackReturn& result);
 
  private:
-  // Triggers a transition that the current state has. Under the lock.
+  // Triggers a transition that the current state has. The lock must be held.
   void go_on(const char* transition_label);
-  // The end of a transition state.
+  // Ends a transition state.
   void finish(CallbackReturn result);
   CallbackReturn run_callback(const State& previous_state);
-  void update_current_state();  // under the lock
+  void update_current_state();  // the lock must be held
 
   const std::shared_ptr<rcl_node_t> node_handle_;
   const rclcpp::Logger logger_;
   mutable std::mutex mutex_;  // never held while a callback runs
   rcl_lifecycle_state_machine_t state_machine_ = rcl_lifecycle_get_zero_initialized_state_machine();
   std::atomic<const State*> current_state_{nullptr};
-  std::map<uint8_t, Callback> callbacks_;  // by transition state
+  std::map<uint8_t, Callback> callbacks_;  // key: transition state
 };
 
 }  // namespace rclcpp_lifecycle

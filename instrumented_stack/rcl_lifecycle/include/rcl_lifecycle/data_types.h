@@ -21,7 +21,7 @@ typedef struct rcl_lifecycle_state_s {
   unsigned int valid_transition_size;
 } rcl_lifecycle_state_t;
 
-// Labels are unique among the transitions of one state, not among all.
+// Labels are unique among the transitions of one state, but not among all transitions.
 struct rcl_lifecycle_transition_s {
   const char* label;
   unsigned int id;
@@ -29,7 +29,7 @@ struct rcl_lifecycle_transition_s {
   const rcl_lifecycle_state_t* goal;
 };
 
-// All states and transitions. They are constants: nothing here is owned.
+// All states and transitions. They are constants, so the map owns nothing.
 typedef struct rcl_lifecycle_transition_map_s {
   const rcl_lifecycle_state_t* states;
   unsigned int states_size;
@@ -38,11 +38,11 @@ typedef struct rcl_lifecycle_transition_map_s {
 } rcl_lifecycle_transition_map_t;
 
 typedef struct rcl_lifecycle_state_machine_options_s {
-  bool enable_com_interface;  // with the topic
+  bool enable_com_interface;  // whether there is a topic
 } rcl_lifecycle_state_machine_options_t;
 
 typedef struct rcl_lifecycle_state_machine_s {
-  const rcl_lifecycle_state_t* current_state;  // null when not initialized
+  const rcl_lifecycle_state_t* current_state;  // null if not initialized
   rcl_lifecycle_transition_map_t transition_map;
   rcl_publisher_t pub_transition_event;
   rcl_lifecycle_state_machine_options_t options;

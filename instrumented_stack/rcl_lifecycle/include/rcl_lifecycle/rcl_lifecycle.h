@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A state machine that tells of its transitions.
+// A state machine that publishes its transitions.
 //
-// Unlike in ROS 2 its services are made where they are answered, in rclcpp_lifecycle. Not thread safe.
+// Unlike in ROS 2, rclcpp_lifecycle creates its services, because it answers them. Not thread safe.
 #pragma once
 
 #include "rcl_lifecycle/data_types.h"
@@ -12,11 +12,12 @@ extern "C" {
 #endif
 
 rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(void);
-// With the topic.
+// The default includes the topic.
 rcl_lifecycle_state_machine_options_t rcl_lifecycle_get_default_state_machine_options(void);
 
-// Creates topic ~/transition_event, unless the options leave it out, and starts in `unconfigured`. Fires
-// rcl_lifecycle_state_machine_init. RCL_RET_INVALID_ARGUMENT, RCL_RET_ALREADY_INIT, RCL_RET_NODE_INVALID.
+// Creates topic ~/transition_event, unless the options disable it, and starts in `unconfigured`. Fires
+// rcl_lifecycle_state_machine_init. Returns RCL_RET_INVALID_ARGUMENT, RCL_RET_ALREADY_INIT or RCL_RET_NODE_INVALID on
+// errors.
 rcl_ret_t rcl_lifecycle_state_machine_init(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle,
                                            const rcl_lifecycle_state_machine_options_t* options);
 rcl_ret_t rcl_lifecycle_state_machine_fini(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle);
@@ -28,9 +29,9 @@ const rcl_lifecycle_transition_t* rcl_lifecycle_get_transition_by_id(const rcl_l
 const rcl_lifecycle_transition_t* rcl_lifecycle_get_transition_by_label(const rcl_lifecycle_state_t* state,
                                                                         const char* label);
 
-// Goes to the goal of a transition of the current state, publishes it if told to, and fires rcl_lifecycle_transition.
-// RCL_RET_ERROR, and the state is as before, if the current state has no such transition. If only the publishing
-// failed, its error is returned: the state has changed.
+// Performs a transition of the current state, publishes it if enabled, and fires rcl_lifecycle_transition. Returns
+// RCL_RET_ERROR and keeps the state if the current state has no such transition. If only publishing failed, returns its
+// error; the state has changed.
 rcl_ret_t rcl_lifecycle_trigger_transition_by_id(rcl_lifecycle_state_machine_t* state_machine, unsigned int id,
                                                  bool publish_notification);
 rcl_ret_t rcl_lifecycle_trigger_transition_by_label(rcl_lifecycle_state_machine_t* state_machine, const char* label,

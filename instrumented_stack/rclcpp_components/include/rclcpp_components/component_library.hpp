@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shared libraries with components.
 //
-// A library's components register themselves when it is loaded, be that by a container or because a program links it.
-// Libraries are never unloaded: code addresses of a trace stay valid, and so do the objects that a component gave away.
+// A library's components register themselves when a container loads it, or when a program links it. Libraries are never
+// unloaded. So code addresses in a trace stay valid, and so do objects that a component gave away.
 #pragma once
 
 #include <memory>
@@ -15,23 +15,24 @@ namespace rclcpp_components {
 
 class ComponentLibrary {
  public:
-  // Loads the library at `path`, or finds it loaded. Throws std::runtime_error with the reason of the dynamic loader.
+  // Loads the library at `path`, unless it is loaded already. Throws std::runtime_error with the reason of the dynamic
+  // loader.
   explicit ComponentLibrary(const std::string& path);
 
-  // Class names as they were registered, such as `composition::Talker`.
+  // The registered class names, such as `composition::Talker`.
   std::vector<std::string> get_available_classes() const;
 
   // Null if the library has no such component.
   std::shared_ptr<NodeFactory> create_factory(const std::string& class_name) const;
 
  private:
-  std::string name_;  // as the dynamic loader has it
+  std::string name_;  // as in the dynamic loader
 };
 
-// The factory of a component in whatever library of this process. Null if there is none.
+// The factory of a component in any library of this process. Null if there is none.
 std::shared_ptr<NodeFactory> create_component_factory(const std::string& class_name);
 
-// What RCLCPP_COMPONENTS_REGISTER_NODE defines: an entry in the list of this process's components, as long as it lives.
+// RCLCPP_COMPONENTS_REGISTER_NODE defines one. While it lives, the component is in the list of this process.
 class ComponentRegistration {
  public:
   using CreateFactory = std::shared_ptr<NodeFactory> (*)();
@@ -43,7 +44,7 @@ class ComponentRegistration {
 
   const std::string class_name;
   const CreateFactory create_factory;
-  const std::string library;  // the one that this object is in, as the dynamic loader has it
+  const std::string library;  // the library that contains this object, as in the dynamic loader
 };
 
 }  // namespace rclcpp_components

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node of a container: loads components into this process, unloads and lists them, at the request of others.
+// The node of a container. On request it loads components into this process, unloads them and lists them.
 //
-// Its services are ~/_container/load_node, unload_node and list_nodes of composition_interfaces. A component's node has
-// the container's process arguments only if the request says forward_global_arguments; the remap rules and parameters
-// of the request are its own. Library paths come from the ament index, resource rclcpp_components of the package.
+// Its services are ~/_container/load_node, unload_node and list_nodes of composition_interfaces. A component's node
+// gets the process arguments of the container only if the request says forward_global_arguments. The remap rules and
+// parameters of the request apply only to that node. Library paths come from the ament index, resource
+// rclcpp_components of the package.
 #pragma once
 
 #include <composition_interfaces/srv/list_nodes.hpp>
@@ -26,7 +27,7 @@
 
 namespace rclcpp_components {
 
-// Why a component was not loaded; what() is the error_message of the response.
+// The reason why a component was not loaded; what() is the error_message of the response.
 class ComponentManagerException : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -41,8 +42,8 @@ class ComponentManager : public rclcpp::Node {
   // Class name and absolute path of the library.
   using ComponentResource = std::pair<std::string, std::string>;
 
-  // Components are added to `executor`. It may be set later, before the first request. Parameter thread_num
-  // (read-only): threads of a multi-threaded executor, at most as many as the machine has, which is the default.
+  // Components are added to `executor`. It may be set later, before the first request. The read-only parameter
+  // thread_num is the number of threads of a multi-threaded executor. Default and maximum are the number of processors.
   explicit ComponentManager(std::weak_ptr<rclcpp::Executor> executor = std::weak_ptr<rclcpp::Executor>(),
                             std::string node_name = "ComponentManager",
                             const rclcpp::NodeOptions& node_options = rclcpp::NodeOptions()
@@ -54,20 +55,20 @@ class ComponentManager : public rclcpp::Node {
   virtual std::vector<ComponentResource> get_component_resources(
       const std::string& package_name, const std::string& resource_index = "rclcpp_components") const;
 
-  // Null if the library has no such component. Throws ComponentManagerException if it cannot be loaded.
+  // Null if the library has no such component. Throws ComponentManagerException if the library cannot be loaded.
   virtual std::shared_ptr<NodeFactory> create_component_factory(const ComponentResource& resource);
 
   virtual void set_executor(const std::weak_ptr<rclcpp::Executor> executor);
 
  protected:
-  // What a component is constructed with. Throws ComponentManagerException for wrong extra arguments.
+  // The options for constructing a component. Throws ComponentManagerException for wrong extra arguments.
   virtual rclcpp::NodeOptions create_node_options(const std::shared_ptr<LoadNode::Request> request);
 
-  // Called after a component was put into node_wrappers_, and before it is taken out.
+  // Called after a component was added to node_wrappers_, and before it is removed.
   virtual void add_node_to_executor(uint64_t node_id);
   virtual void remove_node_from_executor(uint64_t node_id);
 
-  // The services. The ids that they give are never used twice.
+  // The services. They never use an id twice.
   virtual void on_load_node(const std::shared_ptr<rmw_request_id_t> request_header,
                             const std::shared_ptr<LoadNode::Request> request,
                             std::shared_ptr<LoadNode::Response> response);
@@ -83,10 +84,10 @@ class ComponentManager : public rclcpp::Node {
   std::map<uint64_t, NodeInstanceWrapper> node_wrappers_;
 
  private:
-  // Instantiates the component, into node_wrappers_. Throws ComponentManagerException.
+  // Creates the component and adds it to node_wrappers_. Throws ComponentManagerException.
   uint64_t load_node(const std::shared_ptr<LoadNode::Request>& request);
 
-  std::map<std::string, ComponentLibrary> libraries_;  // by path
+  std::map<std::string, ComponentLibrary> libraries_;  // key: path
   rclcpp::Service<LoadNode>::SharedPtr load_node_srv_;
   rclcpp::Service<UnloadNode>::SharedPtr unload_node_srv_;
   rclcpp::Service<ListNodes>::SharedPtr list_nodes_srv_;

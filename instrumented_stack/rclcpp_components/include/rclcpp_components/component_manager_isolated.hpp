@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A container in which every component has an executor and a thread of its own.
+// A container in which every component has its own executor and thread.
 #pragma once
 
 #include <pthread.h>
@@ -38,7 +38,8 @@ class ComponentManagerIsolated : public ComponentManager {
     std::promise<void> ended;
     dedicated.ended = ended.get_future();
     dedicated.thread = std::thread([executor, node, ended = std::move(ended)]() mutable {
-      // Shows in traces and debuggers, also of the threads that the executor starts. It has at most 15 characters.
+      // Visible in traces and debuggers. Threads that the executor starts inherit the name. It has at most 15
+      // characters.
       pthread_setname_np(pthread_self(), std::string(node->get_name()).substr(0, 15).c_str());
       node.reset();
       executor->spin();
@@ -57,9 +58,9 @@ class ComponentManagerIsolated : public ComponentManager {
 
  private:
   struct Dedicated {
-    // Returns when the callback that runs now, if any, has returned.
+    // Returns when the currently running callback, if any, has returned.
     void end() {
-      // Again and again: a cancel() that comes before spin() has begun is without effect.
+      // Repeated, because a cancel() before spin() has begun has no effect.
       do {
         executor->cancel();
       } while (ended.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready);
@@ -68,7 +69,7 @@ class ComponentManagerIsolated : public ComponentManager {
 
     std::shared_ptr<rclcpp::Executor> executor;
     std::thread thread;
-    std::future<void> ended;  // when spin() has returned
+    std::future<void> ended;  // set when spin() has returned
   };
 
   std::map<uint64_t, Dedicated> dedicated_executors_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes instances of one component class.
+// Creates instances of one component class.
 #pragma once
 
 #include "rclcpp/node_options.hpp"

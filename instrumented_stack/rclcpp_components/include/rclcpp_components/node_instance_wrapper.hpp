@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component that was instantiated: the object, whatever its class, and the node in it.
+// An instance of a component: the object, of any class, and its node.
 #pragma once
 
 #include <functional>

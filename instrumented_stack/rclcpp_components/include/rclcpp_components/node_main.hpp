@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program of one component, as rclcpp_components_register_node(EXECUTABLE) makes it.
+// The program of one component, created by rclcpp_components_register_node(EXECUTABLE).
 #pragma once
 
 #include <cstdio>
@@ -14,8 +14,8 @@
 
 namespace rclcpp_components {
 
-// Spins an instance of a component that the program is linked with. An exception is one line on stderr. Returns the
-// exit code of the program.
+// Spins an instance of a component that is linked into the program. Prints an exception as one line on stderr. Returns
+// the exit code of the program.
 template <typename ExecutorT>
 int node_main(const char* class_name, int argc, char** argv) {
   try {

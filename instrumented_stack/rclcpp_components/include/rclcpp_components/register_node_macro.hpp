@@ -4,7 +4,7 @@
 //   RCLCPP_COMPONENTS_REGISTER_NODE(composition::Talker)
 //
 // in one source file, outside every namespace. The class is constructed from rclcpp::NodeOptions and has
-// get_node_base_interface(). In CMake, rclcpp_components_register_nodes() tells containers where the library is.
+// get_node_base_interface(). In CMake, rclcpp_components_register_nodes() tells containers the path of the library.
 //
 // Programs that load components themselves, with a class_loader::ClassLoader, find
 // rclcpp_components::NodeFactoryTemplate<composition::Talker> with base class rclcpp_components::NodeFactory.
@@ -18,7 +18,7 @@
 #include "rclcpp_components/node_factory_template.hpp"
 
 #define RCLCPP_COMPONENTS_REGISTER_NODE(NodeClass) RCLCPP_COMPONENTS_REGISTER_NODE_COUNTED(NodeClass, __COUNTER__)
-// A level of its own: __COUNTER__ must be a number before it becomes part of a name.
+// A separate macro level, because __COUNTER__ must be a number before it becomes part of a name.
 #define RCLCPP_COMPONENTS_REGISTER_NODE_COUNTED(NodeClass, number) \
   RCLCPP_COMPONENTS_REGISTER_NODE_NUMBERED(NodeClass, number)
 #define RCLCPP_COMPONENTS_REGISTER_NODE_NUMBERED(NodeClass, number)                         \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program of one component with the usual executor: compiled once, in the library.
+// The program of one component with the default executor. It is compiled once, in the library.
 #pragma once
 
 namespace rclcpp_components {

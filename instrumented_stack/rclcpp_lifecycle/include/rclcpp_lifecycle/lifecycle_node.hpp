@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A managed node: its states are `unconfigured`, `inactive`, `active` and `finalized`, and it is led from one to the
-// next by whoever calls its services, or by its own program.
+// A managed node: its states are `unconfigured`, `inactive`, `active` and `finalized`. Callers of its services, or its
+// own program, trigger the transitions between them.
 //
 //   class Camera : public rclcpp_lifecycle::LifecycleNode {
 //     CallbackReturn on_configure(const rclcpp_lifecycle::State &) override;
@@ -30,15 +30,15 @@ namespace rclcpp_lifecycle {
 class LifecycleServices;
 class StateManager;
 
-// Transitions may be triggered in any thread, one at a time: a second one meanwhile is refused, as one that the
-// (transition) state does not have. In ROS 2 the class is no rclcpp::Node but has the same functions; here it is one.
+// Any thread may trigger transitions, one at a time. A second transition meanwhile is refused, because the transition
+// state does not have it. In ROS 2 the class is not an rclcpp::Node but has the same functions; here it is one.
 class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNodeInterface {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(LifecycleNode)
   using CallbackReturn = node_interfaces::LifecycleNodeInterface::CallbackReturn;
 
-  // Throw what the constructors of rclcpp::Node throw. Without the communication interface there are neither topic nor
-  // services: transitions are the program's own.
+  // Throw what the constructors of rclcpp::Node throw. Without the communication interface there are no topic and no
+  // services: only the program triggers transitions.
   explicit LifecycleNode(const std::string& node_name, const rclcpp::NodeOptions& options = rclcpp::NodeOptions(),
                          bool enable_communication_interface = true);
   LifecycleNode(const std::string& node_name, const std::string& node_namespace,
@@ -55,7 +55,7 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
     return std::static_pointer_cast<LifecycleNode>(rclcpp::Node::weak_from_this().lock());
   }
 
-  // A publisher that is on only while the node is active.
+  // Creates a publisher that publishes only while the node is active.
   template <typename MessageT, typename AllocatorT = std::allocator<void>>
   std::shared_ptr<LifecyclePublisher<MessageT, AllocatorT>> create_publisher(
       const std::string& topic_name, const rclcpp::QoS& qos,
@@ -73,8 +73,8 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
   std::vector<Transition> get_available_transitions() const;
   std::vector<Transition> get_transition_graph() const;
 
-  // Run the callback in this thread and give the state that the node is in afterwards: the present one if it has no
-  // such transition. `cb_return_code` is that of the callback, ERROR if there was no transition.
+  // Run the callback in this thread and return the node's state afterwards. The state does not change if it has no such
+  // transition. `cb_return_code` is the result of the callback, ERROR if there was no transition.
   const State& trigger_transition(const Transition& transition);
   const State& trigger_transition(const Transition& transition, CallbackReturn& cb_return_code);
   const State& trigger_transition(uint8_t transition_id);
@@ -90,7 +90,7 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
   const State& shutdown();
   const State& shutdown(CallbackReturn& cb_return_code);
 
-  // Instead of the virtual functions. Always true.
+  // Replace the virtual functions. Always return true.
   bool register_on_configure(std::function<CallbackReturn(const State&)> callback);
   bool register_on_cleanup(std::function<CallbackReturn(const State&)> callback);
   bool register_on_shutdown(std::function<CallbackReturn(const State&)> callback);
@@ -98,11 +98,11 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
   bool register_on_deactivate(std::function<CallbackReturn(const State&)> callback);
   bool register_on_error(std::function<CallbackReturn(const State&)> callback);
 
-  // These switch the managed entities, so call them when you override them.
+  // These activate and deactivate the managed entities, so call them when you override them.
   CallbackReturn on_activate(const State& previous_state) override;
   CallbackReturn on_deactivate(const State& previous_state) override;
 
-  // Kept weakly.
+  // The entity is held weakly.
   void add_managed_entity(std::weak_ptr<ManagedEntityInterface> managed_entity);
   // Timers run in every state, as in ROS 2.
   void add_timer_handle(std::shared_ptr<rclcpp::TimerBase>) {}
@@ -112,7 +112,7 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
   std::vector<std::shared_ptr<ManagedEntityInterface>> managed_entities() const;
 
   std::shared_ptr<StateManager> states_;
-  std::unique_ptr<LifecycleServices> services_;  // null without communication interface
+  std::unique_ptr<LifecycleServices> services_;  // null without the communication interface
   mutable std::mutex managed_entities_mutex_;
   std::vector<std::weak_ptr<ManagedEntityInterface>> managed_entities_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A publisher that is silent while its node is not active. Created by LifecycleNode::create_publisher().
+// A publisher that does not publish while its node is inactive. Created by LifecycleNode::create_publisher().
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace rclcpp_lifecycle {
 
-// Publishing while it is off does nothing; the first time since it was switched off, it warns.
+// Publishing while it is off does nothing. It warns the first time after it was switched off.
 template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class LifecyclePublisher : public SimpleManagedEntity, public rclcpp::Publisher<MessageT, AllocatorT> {
  public:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is switched on and off with its node.
+// An entity that is activated and deactivated with its node.
 #pragma once
 
 #include <atomic>
 
 namespace rclcpp_lifecycle {
 
-// LifecycleNode::on_activate() and on_deactivate() call it for every entity that was added to the node.
+// LifecycleNode::on_activate() and on_deactivate() call these functions for every entity that was added to the node.
 class ManagedEntityInterface {
  public:
   virtual ~ManagedEntityInterface() = default;
@@ -14,7 +14,7 @@ class ManagedEntityInterface {
   virtual void on_deactivate() = 0;
 };
 
-// One that only knows whether it is on. Off at first.
+// A managed entity that only knows whether it is active. It starts inactive.
 class SimpleManagedEntity : public ManagedEntityInterface {
  public:
   void on_activate() override;

@@ -9,7 +9,7 @@
 
 namespace rclcpp_lifecycle {
 
-// A value: it may be copied to and read in any thread.
+// A value type: any thread may copy and read its own copy.
 class State {
  public:
   State() = default;  // unknown

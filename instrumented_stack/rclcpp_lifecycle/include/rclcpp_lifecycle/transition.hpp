@@ -11,7 +11,7 @@
 
 namespace rclcpp_lifecycle {
 
-// A value: it may be copied to and read in any thread.
+// A value type: any thread may copy and read its own copy.
 class Transition {
  public:
   explicit Transition(uint8_t id, const std::string& label = "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The callbacks of a managed node: override those that have something to do.
+// The callbacks of a managed node. Override those that you need.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ class LifecycleNodeInterface {
  public:
   enum class CallbackReturn : uint8_t {
     SUCCESS = lifecycle_msgs::msg::Transition::TRANSITION_CALLBACK_SUCCESS,
-    FAILURE = lifecycle_msgs::msg::Transition::TRANSITION_CALLBACK_FAILURE,  // back to where the transition began
+    FAILURE = lifecycle_msgs::msg::Transition::TRANSITION_CALLBACK_FAILURE,  // back to the previous state
     ERROR = lifecycle_msgs::msg::Transition::TRANSITION_CALLBACK_ERROR,      // on to on_error()
   };
 
   virtual ~LifecycleNodeInterface() = default;
 
-  // Called in the transition state, by the thread that triggered the transition; `previous_state` is where it began. An
-  // exception counts as ERROR. on_shutdown() leads to `finalized` also with FAILURE; on_error() to `unconfigured` with
-  // SUCCESS, else to `finalized`. Unless overridden all succeed but on_error(), which fails.
+  // Called in the transition state, by the thread that triggered the transition. `previous_state` is the state before
+  // it. An exception counts as ERROR. on_shutdown() leads to `finalized` even with FAILURE; on_error() leads to
+  // `unconfigured` with SUCCESS, else to `finalized`. By default all succeed except on_error(), which fails.
   virtual CallbackReturn on_configure(const State& previous_state);
   virtual CallbackReturn on_cleanup(const State& previous_state);
   virtual CallbackReturn on_shutdown(const State& previous_state);
