@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a launch asks of the ROS graph. The seam between the launcher, which links no middleware, and the program
-// launch-ros-client (launcher/ros/client/), which does.
+// The requests of a launch to the ROS graph. This is the seam between the launcher, which links no middleware, and the
+// program launch-ros-client (launcher/ros/client/), which does.
 //
 // Names are absolute: "/left/driver" for a node, "/left/scan" for a topic or a service.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace launch {
 
-// Calls of services. Each waits until the service is there, then until it has answered.
+// Calls of services. Each waits until the service exists, then until it has answered.
 struct LoadNode {
   std::string container;
   ComposableNode node;
@@ -37,11 +37,11 @@ struct GetState {
   std::string node;
 };
 
-// Conditions. Answered once they hold, at once when they do already.
+// Conditions. Each is answered when it holds; at once if it holds already.
 struct NodePresent {
   std::string node;
 };
-struct TopicPresent {  // somebody publishes it
+struct TopicPresent {  // a publisher exists
   std::string topic;
 };
 struct ServicePresent {
@@ -66,15 +66,15 @@ using RosRequest = std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, Ge
 
 struct RosAnswer {
   bool ok = false;
-  std::string error;         // when it is not: the container's words, or what was waited for in vain
-  bool client_lost = false;  // nobody can answer: launch-ros-client can't be started, or has ended
+  std::string error;         // when ok is false: the container's words, or what was waited for in vain
+  bool client_lost = false;  // no answer is possible: launch-ros-client can't be started, or has ended
 
   std::string node;                 // LoadNode: its full name
   std::uint64_t unique_id = 0;      // LoadNode: its number in the container
   std::vector<std::string> nodes;   // ListNodes: full names …
   std::vector<std::uint64_t> ids;   // … and their numbers
   std::string state;                // GetState, StateReached, WatchTransitions: the state now
-  std::string previous_state = {};  // WatchTransitions: the one before
+  std::string previous_state = {};  // WatchTransitions: the state before
 };
 
 // What the request waits for, for messages: "the '/c/_container/load_node' service", "a publisher of '/scan'".
@@ -86,13 +86,13 @@ class RosClient {
 
   virtual ~RosClient() = default;
 
-  // Never blocks. `environment` tells which graph is meant (ROS_DOMAIN_ID and the like). Without an answer within
-  // `timeout` the answer is an error; zero waits for ever. `done` is called in a later turn of the loop, once unless
-  // the request says otherwise. Destroying the source, which `done` may do, cancels the request.
+  // Never blocks. `environment` chooses the graph (ROS_DOMAIN_ID and the like). Without an answer within `timeout` the
+  // answer is an error; zero waits for ever. `done` is called in a later turn of the loop, once unless the request says
+  // otherwise. Destroying the source, which `done` may do, cancels the request.
   [[nodiscard]] virtual EventLoop::SourcePtr ask(const RosRequest& request, const Environment& environment,
                                                  Duration timeout, Done done) = 0;
 
-  // No more requests will come: frees what the client holds, without waiting.
+  // To be called when no more requests will come. Frees what the client holds, without waiting.
   virtual void close() = 0;
 };
 

@@ -21,10 +21,10 @@ namespace launch {
 namespace {
 
 constexpr std::chrono::milliseconds kEndLimit{1000};
-// Between tries to write to a client that doesn't read.
+// Time between tries to write to a client that doesn't read.
 constexpr std::chrono::milliseconds kWriteRetry{10};
 
-// Chooses a graph, or how Fast DDS reaches it.
+// Whether the variable chooses a graph, or how Fast DDS reaches it.
 bool chooses_graph(const std::string& variable) {
   for (const char* const prefix :
        {"ROS_DOMAIN_ID", "ROS_LOCALHOST_ONLY", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS",
@@ -45,7 +45,7 @@ std::string how_it_ended(int status) {
 
 }  // namespace
 
-// One running program. Destroyed, it closes the socket and waits for the program.
+// One running program. The destructor closes the socket and waits for the program.
 class RosClientProcess::Connection : public std::enable_shared_from_this<Connection> {
  public:
   // Throws std::system_error.
@@ -56,7 +56,7 @@ class RosClientProcess::Connection : public std::enable_shared_from_this<Connect
 
   RosRequestId send(const RosRequest& request, Duration timeout, Done done);
   void cancel(RosRequestId id);
-  // The program ends by itself from here on.
+  // Closes the socket, after which the program ends by itself.
   void close();
   bool is_open() const { return static_cast<bool>(socket_); }
 
@@ -66,7 +66,7 @@ class RosClientProcess::Connection : public std::enable_shared_from_this<Connect
   void on_readable();
   void on_line(std::string_view line);
   void lose();
-  // Its wait status; kills it when it takes too long.
+  // Returns its wait status. Kills the program when it takes too long.
   int reap();
 
   EventLoop& loop_;
@@ -80,7 +80,7 @@ class RosClientProcess::Connection : public std::enable_shared_from_this<Connect
   std::map<RosRequestId, Done> pending_;
 };
 
-// What ask() returns.
+// The source that ask() returns.
 class RosClientProcess::Ticket final : public EventLoop::Source {
  public:
   Ticket(std::weak_ptr<Connection> connection, RosRequestId id) : connection_(std::move(connection)), id_(id) {}
@@ -105,11 +105,11 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
   const UniqueFd other(ends[1]);
 
   Environment::Variables variables = environment.variables();
-  // Its libraries stand beside it; those of another installation of ROS 2 must not come before them. What is preloaded
-  // is meant for nodes.
+  // The program has its libraries beside it, and those of another installation of ROS 2 must not come before them.
+  // Preloaded libraries are meant for nodes.
   variables.erase("LD_LIBRARY_PATH");
   variables.erase("LD_PRELOAD");
-  variables["TRACETOOLS_RUNTIME_DISABLE"] = "1";  // the launcher's own traffic is no part of a trace
+  variables["TRACETOOLS_RUNTIME_DISABLE"] = "1";  // the launcher's own messages are no part of a trace
   pid_ = spawn({
       .program = program,
       .argv = {"launch-ros-client", fmt::format("launch_ros_{}", ::getpid())},
@@ -154,7 +154,7 @@ void RosClientProcess::Connection::write(const std::string& line) {
   }
 }
 
-// Never waits: a client that hangs must not stop the launcher. One that has ended is noticed by on_readable().
+// Never waits: a client that hangs must not stop the launcher. on_readable() notices a client that has ended.
 void RosClientProcess::Connection::flush() {
   retry_.reset();
   while (!unwritten_.empty()) {
@@ -222,7 +222,7 @@ int RosClientProcess::Connection::reap() {
 RosClientProcess::RosClientProcess(EventLoop& loop, std::string program) : loop_(loop), program_(std::move(program)) {}
 
 RosClientProcess::~RosClientProcess() {
-  close();  // all at once, then wait for each
+  close();  // closes all sockets first, then waits for each program
 }
 
 EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Environment& environment, Duration timeout,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The launcher's end of launch-ros-client: starts the program when the first request comes, one for each ROS graph that
-// requests are about, and talks to it over a socket (ros_protocol.hpp).
+// The launcher's end of launch-ros-client. It starts the program when the first request comes, one program for each ROS
+// graph, and exchanges messages with it over a socket (ros_protocol.hpp).
 //
-// The program has a session of its own, so that Ctrl-C does not reach it, and goes when its socket closes, hence also
+// The program has a session of its own, so that Ctrl-C does not reach it. It ends when its socket closes, and so also
 // when the launcher is killed.
 #pragma once
 
@@ -26,7 +26,7 @@ class RosClientProcess final : public RosClient {
                                          Done done) override;
   void close() override;
 
-  // ../lib/launch/launch-ros-client, seen from the directory of this program.
+  // ../lib/launch/launch-ros-client, relative to the directory of this program.
   static std::string default_program();
 
  private:
@@ -35,7 +35,7 @@ class RosClientProcess final : public RosClient {
 
   EventLoop& loop_;
   std::string program_;
-  // By the variables that choose the graph.
+  // The keys are the variables that choose the graph.
   std::map<Environment, std::shared_ptr<Connection>> connections_;
 };
 

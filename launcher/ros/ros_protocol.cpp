@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A double keeps its type: JSON writers drop neither the point nor the exponent. What is not finite goes as text.
+// A double keeps its type: JSON writers drop neither the point nor the exponent. Infinity and not-a-number are written
+// as text.
 Json scalar_to_json(const ParameterScalar& scalar) {
   if (const double* const number = std::get_if<double>(&scalar); number != nullptr && !std::isfinite(*number)) {
     return {{"float", std::isnan(*number) ? "nan" : *number > 0 ? "inf" : "-inf"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launcher and launch-ros-client say to each other: one JSON object a line, both ways.
+// The messages between the launcher and launch-ros-client: one JSON object a line, both ways.
 //
 //   {"id": 1, "do": "load_node", "container": "/c", "node": {"package": "demo", …}}       a request
 //   {"id": 2, "do": "wait_topic", "topic": "/scan", "timeout": 5.0}                        seconds; none: for ever
@@ -30,11 +30,11 @@ struct RosAnswerLine {
   RosAnswer answer;
 };
 
-// Lines with their line end.
+// Writes a message as a line, with its line end.
 std::string to_line(const RosRequestLine& line);
 std::string to_line(const RosAnswerLine& line);
 
-// Throw std::runtime_error when the text is no such line.
+// Throw std::runtime_error for any other text.
 RosRequestLine parse_request_line(std::string_view text);
 RosAnswerLine parse_answer_line(std::string_view text);
 

@@ -17,7 +17,7 @@ struct Sentence {
     return fmt::format("a message has come on '{}'", wait.topic);
   }
   std::string operator()(const StateReached& wait) const { return fmt::format("'{}' is {}", wait.node, wait.state); }
-  // No conditions; the registry of actions doesn't make them.
+  // These requests are no conditions; the registry of actions doesn't make conditions of them.
   template <typename Request>
   std::string operator()(const Request& request) const {
     return launch::describe(request);

@@ -9,8 +9,8 @@ namespace launch {
 
 class RosReadiness final : public ReadinessCondition {
  public:
-  // One of the requests that are conditions (ros_client.hpp). The client may be null where nothing is watched, as in a
-  // dry run; else it must outlive this object. `environment` tells which graph is meant.
+  // `condition` is one of the requests that are conditions (ros_client.hpp). The client may be null when nothing is
+  // watched, as in a dry run; otherwise it must outlive this object. `environment` chooses the graph.
   RosReadiness(RosClient* client, RosRequest condition, Environment environment)
       : client_(client), condition_(std::move(condition)), environment_(std::move(environment)) {}
 

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kLoadLogger = "launch_ros.actions.load_composable_nodes";
 constexpr const char* kLifecycleLogger = "launch_ros.utilities.lifecycle_event_manager";
 
-// A target of load_composable_node may lack the slash: relative names are those of the root namespace.
+// The target of load_composable_node may lack the first slash: relative names are those of the root namespace.
 std::string absolute(const std::string& name) {
   return name.starts_with('/') ? name : "/" + name;
 }
@@ -52,7 +52,7 @@ const char* logger_of(const TransitionRequest&) {
   return kLifecycleLogger;
 }
 
-// What a container says of a node that it can't load may end a line.
+// The error message of a container may end with a line end.
 std::string without_line_end(std::string text) {
   while (text.ends_with('\n')) {
     text.pop_back();
@@ -165,7 +165,7 @@ bool RosTasks::report(const LoadRequest& request, std::size_t step, const RosAns
     context_.message(LogLevel::kError, kLoadLogger,
                      fmt::format("Failed to load node '{}' of type '{}' in container '{}': {} ({})", node.name,
                                  node.plugin, request.target, without_line_end(answer.error), to_string(node.origin)));
-    return true;  // a component that can't be loaded doesn't keep the others out
+    return true;  // a component that can't be loaded doesn't prevent the loading of the others
   }
   context_.message(LogLevel::kInfo, kLoadLogger,
                    fmt::format("Loaded node '{}' in container '{}'", answer.node, request.target));

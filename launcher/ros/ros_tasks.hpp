@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Carries out what a launch asks of nodes by their services: components are loaded, states are changed.
+// Carries out requests to the services of nodes: components are loaded, states are changed.
 //
-// The steps of one request follow one another, different requests go on side by side, as in launch_ros. Each step waits
-// for the service as long as it takes; a failed one is an error in the log, and the launch goes on. What was asked of a
-// node whose process starts again is asked again; what waits for a process that has ended is given up.
+// The steps of one request follow one another; different requests run side by side, as in launch_ros. Each step waits
+// for the service as long as it takes. A failed step is an error in the log, and the launch goes on. When the process
+// of a node starts again, the requests to the node are made again. A request that waits for a process that has ended is
+// dropped.
 #pragma once
 
 #include <functional>
@@ -23,23 +24,23 @@ namespace launch {
 
 class RosTasks {
  public:
-  // How long a step waits before the user is told what it waits for.
+  // A step that waits longer than this tells the user what it waits for.
   static constexpr Duration kPatience = std::chrono::seconds(10);
 
-  // The references must outlive the tasks. The client is that of the context. `idle` is called when the last task has
-  // ended, `failed` when there is no client or it can't do its work.
+  // The references must outlive the tasks. The client is the one of the context. `idle` is called when the last task
+  // has ended, `failed` when there is no client or when it can't work.
   RosTasks(LaunchContext& context, EventLoop& loop, std::function<void()> idle,
            std::function<void(const LaunchError&)> failed);
 
   void start(std::vector<LoadRequest> loads, std::vector<TransitionRequest> transitions);
 
-  // Tells the names of a process. A fully qualified one is that of the node that it is.
+  // Gives the names of a process. A fully qualified name is the name of its node.
   void name_process(ProcessId process, const std::vector<std::string>& names);
   void on_process_event(const ProcessEvent& event);
   // The process with these names will never start.
   void on_skipped(const std::vector<std::string>& names);
 
-  // Gives up what is under way.
+  // Drops all tasks under way.
   void shutdown();
 
   bool idle() const { return tasks_.empty(); }
@@ -60,7 +61,7 @@ class RosTasks {
   void next(TaskPlace task);
   void end(TaskPlace task);
   void on_answer(TaskPlace task, const RosAnswer& answer);
-  // Whether the task goes on.
+  // Returns whether the task goes on.
   bool report(const LoadRequest& request, std::size_t step, const RosAnswer& answer);
   bool report(const TransitionRequest& request, std::size_t step, const RosAnswer& answer);
   // The process of a node has ended, for now or for good.
@@ -73,7 +74,7 @@ class RosTasks {
 
   std::list<Task> tasks_;
   std::map<ProcessId, std::string> nodes_;
-  std::map<std::string, std::vector<Request>> repeated_;  // by node: what each start of its process asks for
+  std::map<std::string, std::vector<Request>> repeated_;  // by node: the requests for each start of its process
   std::set<std::string> restarting_;                      // nodes whose process will start again
 };
 

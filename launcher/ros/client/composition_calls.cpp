@@ -48,7 +48,7 @@ struct SetValue {
     message.string_value = value;
   }
   void operator()(const ParameterScalar& value) const { std::visit(*this, value); }
-  // All items have one type; a list without items goes as ros2 launch sends it.
+  // All items have one type. A list without items is sent as ros2 launch sends it.
   void operator()(const std::vector<ParameterScalar>& list) const {
     if (list.empty()) {
       message.type = ParameterType::PARAMETER_BYTE_ARRAY;
@@ -68,7 +68,7 @@ struct SetValue {
   }
 };
 
-// The last of a name wins: a container would refuse a name that comes twice.
+// The last parameter of a name is the one that is sent: a container would refuse a name that comes twice.
 std::vector<rcl_interfaces::msg::Parameter> messages_of(const std::vector<NamedParameter>& parameters) {
   std::vector<rcl_interfaces::msg::Parameter> messages;
   for (const NamedParameter& parameter : parameters) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waiting for the first message on a topic of any type.
+// Waits for the first message on a topic of any type.
 //
-// The message is not read, so its type need not be known when this program is built: the type's name, which the graph
-// tells, is all that DDS asks of a reader.
+// The message is not read, so its type need not be known when this program is built. DDS only asks a reader for the
+// name of the type, and the graph has this name.
 #include <rcl/subscription.h>
 #include <rosidl_typesupport_fastrtps_cpp/message_type_support.h>
 
@@ -20,7 +20,7 @@ namespace launch {
 
 namespace {
 
-// The type support of a type of which nothing is known but its name.
+// The type support of a type of which only the name is known.
 class OpaqueType {
  public:
   // "std_msgs/msg/String"
@@ -32,7 +32,7 @@ class OpaqueType {
     }
     callbacks_.message_namespace_ = name_space_.c_str();
     callbacks_.message_name_ = name_.c_str();
-    callbacks_.type_hash_ = "";  // its definition is not known
+    callbacks_.type_hash_ = "";  // the definition of the type is not known
     callbacks_.cdr_serialize = write;
     callbacks_.cdr_deserialize = read;
     callbacks_.get_serialized_size = size;
@@ -125,7 +125,8 @@ class FirstMessage final : public Operation {
   std::string waits_for() const override { return describe(request_); }
 
  private:
-  // One that every publisher's quality of service suits, and one for messages that publishers keep for late comers.
+  // Makes one subscription whose quality of service fits every publisher, and one for messages that publishers keep for
+  // late subscribers.
   void subscribe() {
     const auto topics = node_.get_topic_names_and_types();
     const auto found = topics.find(request_.topic);

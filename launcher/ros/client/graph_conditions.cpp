@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waiting for what the graph shows: a node, a publisher, a service.
+// Waits until the graph shows something: a node, a publisher, a service.
 #include <algorithm>
 #include <functional>
 #include <string>

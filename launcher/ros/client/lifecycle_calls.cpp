@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of a managed node's services, and what it tells of its transitions (lifecycle_msgs).
+// Calls the services of a managed node, and follows the events of its transitions (lifecycle_msgs).
 #include <chrono>
 #include <lifecycle_msgs/msg/transition.hpp>
 #include <lifecycle_msgs/msg/transition_event.hpp>
@@ -21,7 +21,8 @@ using lifecycle_msgs::msg::Transition;
 using lifecycle_msgs::msg::TransitionEvent;
 using Clock = std::chrono::steady_clock;
 
-// An event that is published before its writer knows of our reader is lost: the state is asked for again now and then.
+// An event that is published before its writer knows our reader is lost. The state is therefore asked for again from
+// time to time.
 constexpr std::chrono::milliseconds kAskAgain{250};
 
 Transition transition_of(const std::string& label) {
@@ -87,7 +88,7 @@ class StateWait final : public Operation {
         asked_ = Clock::now();
         check(response->current_state.label);
       } else if (question_->is_orphaned()) {
-        ask();  // its process may come again
+        ask();  // the process of the node may come back
       }
     } else if (Clock::now() - asked_ >= kAskAgain) {
       ask();
@@ -148,9 +149,9 @@ class TransitionWatch final : public Operation {
   TransitionEvents events_;
 };
 
-// Asks a node for a transition whose events shall reach the watches of this program that are there already. The node is
-// first asked for its state: discovery tells of our endpoints in the order of their creation, so a node that can answer
-// a client knows of every reader before it.
+// Asks a node for a transition whose events must reach the watches that this program has already. The node is first
+// asked for its state. Discovery announces our endpoints in the order of their creation, so a node that can answer a
+// client knows every reader made before it.
 class TransitionCall final : public CallOperation<lifecycle_srv::ChangeState> {
  public:
   TransitionCall(const ChangeState& request, rclcpp::Node& node, Answer answer)

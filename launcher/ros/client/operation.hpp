@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One request while launch-ros-client works on it.
+// One request on which launch-ros-client works.
 #pragma once
 
 #include <rcl/client.h>
@@ -17,16 +17,16 @@
 
 namespace launch {
 
-// Everything happens on the thread of the RequestLoop.
+// All functions are called on the thread of the RequestLoop.
 class Operation {
  public:
   using Answer = std::function<void(const RosAnswer&)>;
 
-  // What wakes the loop, beside changes of the graph.
+  // The things that wake the loop, besides changes of the graph.
   struct WakeUps {
     std::vector<const rcl_subscription_t*> subscriptions;
     std::vector<const rcl_client_t*> clients;
-    std::chrono::nanoseconds patience{0};  // without any of them
+    std::chrono::nanoseconds patience{0};  // longest time without any of them
   };
 
   explicit Operation(Answer answer) : answer_(std::move(answer)) {}
@@ -34,8 +34,8 @@ class Operation {
   Operation(const Operation&) = delete;
   Operation& operator=(const Operation&) = delete;
 
-  // Goes on as far as it can without waiting. Called at the beginning, after each wake-up, and now and then. Throws
-  // rclcpp's exceptions.
+  // Goes on as far as it can without waiting. Called at the beginning, after each wake-up, and from time to time.
+  // Throws rclcpp's exceptions.
   virtual void look() = 0;
   virtual void add_to(WakeUps&) const {}
   // "the '/c/_container/load_node' service", for the message of a time-out.
@@ -44,9 +44,9 @@ class Operation {
   bool has_ended() const { return has_ended_; }
 
  protected:
-  // One answer of several.
+  // Sends one answer of several.
   void tell(const RosAnswer& answer) { answer_(answer); }
-  // The last or only one.
+  // Sends the last or only answer.
   void end(const RosAnswer& answer) {
     has_ended_ = true;
     answer_(answer);
@@ -62,10 +62,10 @@ class Operation {
   bool has_ended_ = false;
 };
 
-// The node is this program's, it must outlive the operation. Throws rclcpp's exceptions, for names that are invalid.
+// The node is the one of this program and must outlive the operation. Throws rclcpp's exceptions for invalid names.
 std::unique_ptr<Operation> make_operation(const RosRequest& request, rclcpp::Node& node, Operation::Answer answer);
 
-// The families that make_operation() chooses from.
+// The families of operations from which make_operation() chooses.
 std::unique_ptr<Operation> call(const LoadNode& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> call(const UnloadNode& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> call(const ListNodes& request, rclcpp::Node& node, Operation::Answer answer);

@@ -12,8 +12,8 @@ namespace launch {
 
 namespace {
 
-// The graph is looked at again after this time even when nothing has told of a change: endpoints are matched a little
-// later than they are found, which is no event of its own.
+// The graph is looked at again after this time even when no change was reported: endpoints are matched a little later
+// than they are found, and a match is no event of its own.
 constexpr std::chrono::milliseconds kPatience{50};
 
 void require_ok(rcl_ret_t ret) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of launch-ros-client: takes requests, looks after all that are under way whenever something changes, and
-// answers them.
+// The work of launch-ros-client: takes requests, continues all open requests whenever something changes, and answers
+// them.
 #pragma once
 
 #include <chrono>
@@ -22,14 +22,14 @@ class RequestLoop {
  public:
   using Send = std::function<void(const RosAnswerLine&)>;
 
-  // Answers go to `send`, on the thread of run().
+  // Answers are given to `send` on the thread of run().
   RequestLoop(rclcpp::Node& node, Send send);
 
-  // Thread safe.
+  // May be called from any thread.
   void post(RosRequestLine line);
   void quit();
 
-  // Until quit(), on one thread.
+  // Runs until quit(), on one thread.
   void run();
 
  private:
@@ -51,7 +51,7 @@ class RequestLoop {
   rclcpp::GuardCondition wake_;
   std::map<RosRequestId, UnderWay> under_way_;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::vector<RosRequestLine> posted_;
   bool quit_ = false;
 };

@@ -49,7 +49,7 @@ void send_answer(const launch::RosAnswerLine& line) {
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t count = ::send(STDIN_FILENO, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
     if (count < 0 && errno != EINTR) {
-      return;  // the launcher has gone, the reader sees it, too
+      return;  // the launcher has gone; the reader notices it, too
     }
     sent += count > 0 ? static_cast<std::size_t>(count) : 0;
   }
@@ -79,7 +79,7 @@ int main(int argc, char** argv) try {
       loop.run();
     } catch (const std::exception& error) {
       fmt::print(stderr, "launch-ros-client: error: {}\n", error.what());
-      std::_Exit(EXIT_FAILURE);  // the reader waits for input that may not come
+      std::_Exit(EXIT_FAILURE);  // the reader waits for input that may never come
     }
     reader.join();
   }

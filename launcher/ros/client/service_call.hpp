@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A call of a service that may not be there yet.
+// A call of a service that may not exist yet.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 
 namespace launch {
 
-// Sends the request once the service is matched, and again whenever one more service of the name appears: a process
-// that was killed stays in the graph until its lease ends, so the first may have been a ghost. The first response
-// counts.
+// Sends the request once the service is matched, and again whenever one more service of the name appears. The first one
+// may belong to a process that was killed, because such a process stays in the graph until its lease ends. The first
+// response counts.
 template <typename ServiceT>
 class ServiceCall {
  public:
@@ -29,7 +29,7 @@ class ServiceCall {
   ServiceCall(rclcpp::Node& node, std::string service, std::shared_ptr<Request> request)
       : node_(node), service_(std::move(service)), request_(std::move(request)) {}
 
-  // The response when there is one, null as long as there is none.
+  // Continues the call. Returns the response, or null as long as there is none.
   std::shared_ptr<Response> look() {
     const std::size_t services = node_.count_services(service_);
     if (tries_.empty() || (tries_.back().sent && services > services_)) {
@@ -53,7 +53,7 @@ class ServiceCall {
     return nullptr;
   }
 
-  // All that were asked have gone.
+  // Whether all services that got the request have gone.
   bool is_orphaned() const { return !tries_.empty() && tries_.back().sent && services_ == 0; }
 
   void add_to(Operation::WakeUps& wake_ups) const {
@@ -75,8 +75,8 @@ class ServiceCall {
     std::optional<Clock::time_point> ready_since = {};
   };
 
-  // A service is matched before or after the graph counts it, a moment apart. A request that went to a service which is
-  // counted only afterwards would go to it twice.
+  // A service is matched a moment before or after the graph counts it. Without this pause a request could go twice to a
+  // service that is counted only after it got the request.
   static constexpr std::chrono::nanoseconds kSettling = std::chrono::milliseconds(5);
 
   bool is_settled(Try& tried, std::size_t services) {
@@ -95,10 +95,10 @@ class ServiceCall {
   std::string service_;
   std::shared_ptr<Request> request_;
   std::vector<Try> tries_;
-  std::size_t services_ = 0;  // that there were when it was looked last
+  std::size_t services_ = 0;  // the number of services at the last look
 };
 
-// An operation that is nothing but a call.
+// An operation that is only a call.
 template <typename ServiceT>
 class CallOperation : public Operation {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A RosClient for tests: writes down what it is asked and answers when the test says so.
+// A RosClient for tests: notes the requests, and answers when the test says so.
 #pragma once
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ class FakeRosClient : public launch::RosClient {
     return false;
   }
 
-  // Tells those that watch a node's state of a change; how many there are.
+  // Reports a change to the watches of a node's state. Returns how many there are.
   int change_state(const std::string& node, const std::string& from, const std::string& to) {
     launch::RosAnswer answer;
     answer.ok = true;
@@ -65,7 +65,7 @@ class FakeRosClient : public launch::RosClient {
     return count;
   }
 
-  // "load /c talker", "change /n configure", else what the request waits for.
+  // "load /c talker", "change /n configure", or what the request waits for.
   static std::string text_of(const launch::RosRequest& request) {
     if (const auto* const load = std::get_if<launch::LoadNode>(&request)) {
       return fmt::format("load {} {}", load->container, load->node.name);
