@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # rosidl_generate_interfaces(<pkg> <file>... [DEPENDENCIES <pkg>...])
 #
-# Makes a package of messages, services and actions: the shared library <pkg> (to be linked as <pkg>::<pkg>) and the
-# headers <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. Files are given as "msg/<Name>.msg",
+# Makes a package of messages, services and actions: the shared library <pkg> (linked as <pkg>::<pkg>) and the headers
+# <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. Files are given as "msg/<Name>.msg",
 # "srv/<Name>.srv" or "action/<Name>.action", relative to the current folder. DEPENDENCIES are the packages whose
-# messages they use; outside the stack find_package them first. What services and actions need is added by itself.
-# SKIP_INSTALL makes the library for this build alone. ROS 2's options for linters and groups have no effect here.
+# messages they use; outside the stack find_package them first. Dependencies of services and actions in general are
+# added automatically. SKIP_INSTALL makes a library only for this build. ROS 2's options for linters and groups have no
+# effect here.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
-list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # when installed, StackPackage is in this folder
 include(StackPackage)
 
 set_property(GLOBAL PROPERTY ROSIDL_GENERATOR ${CMAKE_CURRENT_LIST_DIR}/../rosidl_generator)
@@ -69,7 +70,7 @@ function(rosidl_generate_interfaces pkg)
     if(of_dependency)
       list(APPEND known ${of_dependency})
       get_target_property(folder ${dependency}::${dependency} ROSIDL_OUTPUT)
-      if(NOT folder)  # of a package that was found
+      if(NOT folder)  # the package was found by find_package
         set(folder ${${dependency}_DIR}/..)
       endif()
       list(APPEND descriptions ${folder}/type_descriptions.json)
@@ -117,7 +118,7 @@ endfunction()
 
 # rosidl_target_interfaces(<target> <pkg> <typesupport>)
 #
-# The older way to let a target use the messages of its own package.
+# The older way for a target to use the messages of its own package.
 function(rosidl_target_interfaces target pkg typesupport)
   set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${pkg}::${pkg})
   set_property(TARGET ${target} APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${pkg}::${pkg})
@@ -125,7 +126,7 @@ endfunction()
 
 # rosidl_get_typesupport_target(<variable> <pkg> <name>)
 #
-# The target that executables of the package itself link to use its messages.
+# The target that executables of the same package link to use its messages.
 function(rosidl_get_typesupport_target variable pkg)
   set(${variable} ${pkg}::${pkg} PARENT_SCOPE)
 endfunction()

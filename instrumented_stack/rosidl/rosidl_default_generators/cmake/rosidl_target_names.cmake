@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# ROS 2 has a library per language and type support of a package; here each of these names is the one library.
+# In ROS 2 a package has a library for each language and type support. Here all these names mean the one library.
 foreach(part IN ITEMS rosidl_generator_cpp rosidl_typesupport_cpp rosidl_typesupport_fastrtps_cpp)
   set(target ${CMAKE_FIND_PACKAGE_NAME}::${CMAKE_FIND_PACKAGE_NAME}__${part})
   if(NOT TARGET ${target})

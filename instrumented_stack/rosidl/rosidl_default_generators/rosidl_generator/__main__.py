@@ -13,7 +13,7 @@ import os
 import sys
 
 if __package__ in (None, ''):
-    # Run by its path; the modules refer to each other as parts of a package.
+    # The program is run by its path, but the modules import each other as parts of a package.
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     __package__ = 'rosidl_generator'
 
@@ -22,7 +22,7 @@ from .interface_parser import InterfaceError, parse_file  # noqa: E402
 
 
 def write_if_changed(path: str, text: str) -> None:
-    """Leaves a file that has this text already alone, so that what includes it need not be compiled again."""
+    """Leaves a file alone if it already has this text, so that files that include it are not compiled again."""
     if os.path.exists(path):
         with open(path, encoding='utf-8') as old:
             if old.read() == text:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Emits what builds a message field by field, pkg::build<pkg::msg::Name>().x(1).y(2): msg/detail/<name>__builder.hpp."""
+"""Emits a message's builder, pkg::build<pkg::msg::Name>().x(1).y(2): msg/detail/<name>__builder.hpp."""
 
 from typing import List
 
@@ -24,7 +24,7 @@ auto build();
 
 
 def _steps(message: Message) -> str:
-    """A class for each field, whose one function sets it and gives the class of the next; the last gives the message."""
+    """A class for each field. Its function sets the field and returns the next class, at the end the message."""
     classes: List[str] = []
     following = f'::{message.cpp}'
     for field in reversed(message.fields):

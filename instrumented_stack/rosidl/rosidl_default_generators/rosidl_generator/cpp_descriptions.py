@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Emits what a package's library knows of its interfaces at run time: their descriptions and the text of their files."""
+"""Emits the descriptions of a package's interfaces and the text of their files, for use at run time."""
 
 from typing import Any, Dict, List, Mapping, Union
 
@@ -9,7 +9,7 @@ from .type_hash import Description
 
 
 def symbol(interface: Union[Message, Service, Action]) -> str:
-    """The rosidl_type_description_t of an interface."""
+    """The name of the rosidl_type_description_t of an interface."""
     return _symbol(f'{interface.package}/{interface.namespace}/{interface.name}')
 
 
@@ -18,7 +18,7 @@ def _symbol(type_name: str) -> str:
 
 
 def definitions(files: List[InterfaceFile], descriptions: List[Description], hashes: Mapping[str, str]) -> str:
-    """`descriptions` are those of all interfaces in the files."""
+    """`descriptions` has an entry for each interface in the files."""
     sources = {f'{file.package}/{file.namespace}/{file.name}': file for file in files}
     defaults = {(f'{m.package}/{m.namespace}/{m.name}', f.name): str_of(f.default)
                 for file in files for m in file.messages for f in m.fields if f.default is not None}
@@ -31,7 +31,7 @@ def definitions(files: List[InterfaceFile], descriptions: List[Description], has
 
 
 def str_of(default: Any) -> str:
-    """A default as the description of a field has it."""
+    """A default value as text, as in the description of a field."""
     if isinstance(default, list):
         return f'({", ".join(str(value) for value in default)})'
     return str(default)
@@ -41,7 +41,7 @@ def _definition(description: Description, file: Union[InterfaceFile, None], defa
                 type_hash: str) -> str:
     name = description['type_name']
     fields = ''.join(_field(field, defaults.get((name, field['name']), '')) for field in description['fields'])
-    # What is a part of a file, such as the request of a service, has no text of its own.
+    # A part of a file, such as the request of a service, has no text of its own.
     encoding = file.namespace if file else 'implicit'
     text = file.source if file else ''
     lines = ''.join(f'\n    {cpp_types.string_literal(line)}' for line in text.splitlines(keepends=True)) or ' ""'

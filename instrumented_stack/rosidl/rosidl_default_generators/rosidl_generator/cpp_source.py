@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Emits the one source file of a package's library, and the header that other packages' libraries need from it.
 
-One file for all types, because most of the time to compile it goes into headers that every type needs.
+There is one file for all types, because most of its compile time goes into headers that every type needs.
 """
 
 from typing import Iterable, List, Mapping
@@ -17,7 +17,7 @@ def codec_header_path(package: str) -> str:
 
 
 def codec_header(package: str, files: List[InterfaceFile]) -> str:
-    """Declares how the package's messages are turned into bytes. Needs no definition of any message."""
+    """Declares the conversion of the package's messages to bytes. Needs no definition of any message."""
     messages = [message for file in files for message in file.messages]
     forward = '\n'.join(cpp_types.namespace_blocks(package, namespace, ''.join(
         f'struct {m.name};\n' for m in messages if m.namespace == namespace)) for namespace in _namespaces(messages))

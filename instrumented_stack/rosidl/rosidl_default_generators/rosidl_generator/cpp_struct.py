@@ -84,7 +84,7 @@ def _struct(message: Message) -> str:
 
 
 def _constructor(message: Message) -> str:
-    """See rosidl_runtime_cpp::MessageInitialization for what each argument must set."""
+    """The constructors. rosidl_runtime_cpp::MessageInitialization says which members each argument sets."""
     nested = [m for m in message.members if m.type.is_message and not m.type.is_sequence]
     numbers = [m for m in message.members
                if not m.type.is_message and not m.type.is_sequence and not m.type.is_string]
@@ -105,7 +105,7 @@ def _constructor(message: Message) -> str:
 
 
 def _if_any(one: str, other: str, statements: List[str]) -> List[str]:
-    """The statements under the condition that the message is to be initialised in one of two ways."""
+    """The statements, for two of the ways to initialise a message."""
     if not statements:
         return []
     conditions = [f'_init == rosidl_runtime_cpp::MessageInitialization::{way}' for way in dict.fromkeys((one, other))]
@@ -152,7 +152,7 @@ def _constants(message: Message) -> str:
 
 
 def constant_definitions(message: Message) -> str:
-    """Strings are defined in the package's library; numbers stand in the header."""
+    """Strings are defined in the package's library; numbers are in the header."""
     return ''.join(f'const {cpp_types.element_type(c.type)} {message.name}::{c.name} = '
                    f'{cpp_types.literal(c.type, c.value)};\n' for c in message.constants if c.type.is_string)
 
@@ -174,7 +174,7 @@ def _pointers(name: str) -> str:
 
 
 def _comparison(message: Message) -> str:
-    # A field can be called `other`, but no field begins with an underscore.
+    # A field may be called `other`, but no field begins with an underscore.
     equal = ' &&\n           '.join(f'{m.name} == _other.{m.name}' for m in message.members)
     return f'''  bool operator==(const {message.name}& _other) const {{
     return {equal};

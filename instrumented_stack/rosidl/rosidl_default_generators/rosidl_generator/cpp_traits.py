@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Emits what templates ask about a type: msg/detail/<name>__traits.hpp and <name>__type_support.hpp."""
+"""Emits the traits that templates need of a type: msg/detail/<name>__traits.hpp and <name>__type_support.hpp."""
 
 from typing import List
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How types, values and names of interfaces are spelled in C++."""
+"""Spells types, values and names of interfaces in C++."""
 
 from typing import Any, Iterable, List
 
@@ -26,7 +26,7 @@ def member_type(type_: Type) -> str:
 
 
 def literal(type_: Type, value: Any) -> str:
-    """One value as C++ writes it."""
+    """One value as a C++ expression."""
     if type_.is_string:
         return string_literal(value, wide=type_.name == 'wstring')
     if type_.name == 'bool':
@@ -34,7 +34,7 @@ def literal(type_: Type, value: Any) -> str:
     if type_.name in ('float32', 'float64'):
         return _floating_literal(PRIMITIVES[type_.name], value)
     if type_.name == 'int64':
-        # The smallest integer has no literal of its own.
+        # The smallest integer has no literal in C++.
         return '(-9223372036854775807LL - 1)' if value == -(1 << 63) else f'{value}LL'
     if type_.name == 'int32' and value == -(1 << 31):
         return '(-2147483647 - 1)'
@@ -51,11 +51,11 @@ def _floating_literal(cpp: str, value: float) -> str:
 
 
 def string_literal(text: str, wide: bool = False) -> str:
-    """A literal in plain ASCII. Octal escapes end by themselves after three digits, hexadecimal ones would not."""
+    """A literal in plain ASCII. Octal escapes end after three digits; hexadecimal ones would have no end."""
     if wide:
         units = text.encode('utf-16-le')
         codes: Iterable[int] = (units[i] | units[i + 1] << 8 for i in range(0, len(units), 2))
-        # A universal character name may not stand for a surrogate or a basic character, hence the split literals.
+        # A universal character name cannot be a surrogate or a basic character, so the literal is split.
         return ' '.join(_wide_parts(codes)) or 'u""'
     return '"' + ''.join(_escaped(byte) for byte in text.encode()) + '"'
 

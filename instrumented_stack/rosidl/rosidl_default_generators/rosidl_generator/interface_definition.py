@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a .msg, .srv or .action file says: the parser's result and the emitters' input."""
+"""The content of a .msg, .srv or .action file: the parser's result and the emitters' input."""
 
 import re
 from dataclasses import dataclass, field
@@ -7,22 +7,22 @@ from typing import Any, List, Optional
 
 
 def snake_case(camel_case: str) -> str:
-    """Name of the files of a type: 'MultiArrayLayout' gives 'multi_array_layout', as everywhere in ROS 2."""
+    """The file name of a type: 'MultiArrayLayout' becomes 'multi_array_layout', as everywhere in ROS 2."""
     words = re.sub(r'(.)([A-Z][a-z]+)', r'\1_\2', camel_case)
     return re.sub(r'([a-z0-9])([A-Z])', r'\1_\2', words).lower()
 
 
 @dataclass(frozen=True)
 class Type:
-    """One element of a field, and how many of it there are."""
+    """The type of a field's elements, and their number."""
 
     name: str  # 'int32', 'string', or the name of a message
-    package: Optional[str] = None  # of a message; primitives have none
-    string_bound: Optional[int] = None  # most characters of a string or wstring
+    package: Optional[str] = None  # set for a message; primitives have none
+    string_bound: Optional[int] = None  # maximum length of a string or wstring
     array_size: Optional[int] = None  # N of [N]
     sequence_bound: Optional[int] = None  # N of [<=N]
     is_sequence: bool = False  # [] and [<=N]
-    namespace: str = 'msg'  # of a message
+    namespace: str = 'msg'  # for a message
 
     @property
     def is_message(self) -> bool:
@@ -55,7 +55,7 @@ class Constant:
     value: Any
 
 
-# An empty C++ struct and an empty CDR type are both awkward, so ROS 2 gives a message without fields this one.
+# An empty C++ struct and an empty CDR type cause problems, so ROS 2 gives a message without fields this one.
 PLACEHOLDER = Field(Type('uint8'), 'structure_needs_at_least_one_member')
 
 
@@ -69,7 +69,7 @@ class Message:
 
     @property
     def members(self) -> List[Field]:
-        """The fields that the C++ struct and the bytes have: never none."""
+        """The fields of the C++ struct and of the bytes. There is always at least one."""
         return self.fields or [PLACEHOLDER]
 
     @property
@@ -97,7 +97,7 @@ class Service:
 
     @property
     def event(self) -> Message:
-        """What is published of a call when the service is watched: the request or the response, or neither."""
+        """The message that introspection publishes about a call: with the request or the response, or neither."""
         def at_most_one(message: Message) -> Type:
             return Type(message.name, message.package, sequence_bound=1, is_sequence=True, namespace=message.namespace)
 
@@ -112,7 +112,7 @@ class Service:
 
 @dataclass
 class Action:
-    """The messages and services of an action have its name and more: Fibonacci_Goal, Fibonacci_SendGoal."""
+    """The messages and services of an action extend its name: Fibonacci_Goal, Fibonacci_SendGoal."""
 
     package: str
     name: str
@@ -126,10 +126,10 @@ class Action:
 
 @dataclass
 class InterfaceFile:
-    """One file: its messages and what is made of them.
+    """One file: its messages and the services and action made of them.
 
     A .msg file has one message, a .srv file the request, the response and the event of its service. An .action file has
-    goal, result and feedback, and what carries them: two services and the feedback message.
+    goal, result and feedback, and the types that carry them: two services and the feedback message.
     """
 
     package: str
@@ -156,7 +156,7 @@ class InterfaceFile:
 
 
 def action_file(package: str, name: str, goal: Message, result: Message, feedback: Message) -> InterfaceFile:
-    """The file of an action, with the services and the message by which ROS 2 carries its three parts."""
+    """The file of an action, with the services and the message that carry its three parts in ROS 2."""
     goal_id = Field(Type('UUID', 'unique_identifier_msgs'), 'goal_id')
 
     def part(message: Message) -> Type:

@@ -3,8 +3,8 @@
 
 A line is `type name [default]`, `type NAME=value`, a comment, or `---` between the request and response of a service,
 and between the goal, result and feedback of an action.
-A type is a primitive, `Name`, `package/Name` or `package/msg/Name`, strings with an optional bound `<=N`, followed by
-`[]`, `[N]` or `[<=N]` for many.
+A type is a primitive, `Name`, `package/Name` or `package/msg/Name`. Strings may have a bound `<=N`. `[]`, `[N]` or
+`[<=N]` at the end means many elements.
 """
 
 import difflib
@@ -26,7 +26,7 @@ PACKAGE_NAME = re.compile(r'(?!.*__)[a-z]([a-z0-9_]*[a-z0-9])?')
 PARTS = {'msg': (), 'srv': ('Request', 'Response'), 'action': ('Goal', 'Result', 'Feedback')}
 TOO_MANY_PARTS = {'msg': "a .msg file has no '---'", 'srv': "only a .srv file has '---', and only one",
                   'action': "an .action file has two '---'"}
-# What a file uses without naming it.
+# Types that a file uses implicitly.
 IMPLIED = {'msg': ('a message', ()), 'srv': ('a service', ('service_msgs/msg/ServiceEventInfo',)),
            'action': ('an action', ('unique_identifier_msgs/msg/UUID', 'builtin_interfaces/msg/Time',
                                     'service_msgs/msg/ServiceEventInfo'))}
@@ -34,7 +34,7 @@ ESCAPES = {'n': '\n', 't': '\t', 'r': '\r', '\\': '\\', '"': '"', "'": "'"}
 
 
 class InterfaceError(Exception):
-    """A mistake in an interface file; its text points at the place."""
+    """An error in an interface file. Its text points at the position."""
 
     def __init__(self, path: str, line_number: int, column: int, line: str, what: str):
         place = f'{path}:{line_number}:{column + 1}'
@@ -45,7 +45,7 @@ class InterfaceError(Exception):
 def parse_file(path: str, text: str, package: str, namespace: str, known_types: Collection[str]) -> InterfaceFile:
     """Parses one file.
 
-    `known_types` are the messages it may use, 'std_msgs/msg/Header' for example, those of `package` included.
+    `known_types` are the messages it may use, for example 'std_msgs/msg/Header', including those of `package`.
     """
     name = re.sub(r'.*/|\.\w+$', '', path)
     lines = text.splitlines()
@@ -83,7 +83,7 @@ def parse_file(path: str, text: str, package: str, namespace: str, known_types: 
 
 
 class _Line:
-    """A line without its comment, and the position up to which it was read."""
+    """A line without its comment, and the current read position."""
 
     def __init__(self, text: str, error: Callable[[int, str], InterfaceError]):
         self.text = _without_comment(text)
@@ -118,7 +118,7 @@ def _without_comment(text: str) -> str:
         elif character == '#':
             return text[:index]
         elif character in '"\'' and text[index - 1:index] in ('', ' ', '\t', '=', ',', '['):
-            quote = character  # an apostrophe inside a word opens nothing
+            quote = character  # an apostrophe inside a word is no quote
     return text
 
 
@@ -241,7 +241,7 @@ def _parse_array(line: _Line, type_: Type) -> List[Any]:
 
 
 def _list_items(line: _Line, begin: int, end: int) -> List[Tuple[int, str]]:
-    """Column and text of each item between the brackets; commas in quotes do not separate."""
+    """Column and text of each item between the brackets. Commas in quotes do not separate items."""
     item = re.compile(r'''\s*("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|[^,'"]*)\s*(,|$)''')
     items: List[Tuple[int, str]] = []
     position = begin

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Describes interfaces as type_description_interfaces does, and hashes the descriptions (RIHS01).
 
-The hash names the definition of a type: it is SHA-256 over a JSON text of the description, without defaults, and of
-those of all messages in it. Two ROS 2 systems have the same hash for the same definition.
+The hash identifies the definition of a type. It is SHA-256 over a JSON text of its description, without defaults, and
+of the descriptions of all messages in it. All ROS 2 systems have the same hash for the same definition.
 """
 
 import hashlib
@@ -20,11 +20,11 @@ ARRAY = 48
 BOUNDED_SEQUENCE = 96
 UNBOUNDED_SEQUENCE = 144
 
-Description = Dict[str, Any]  # of one interface: its name, and name and type of its fields
+Description = Dict[str, Any]  # an interface: its name, and name and type of its fields
 
 
 def describe_file(file: InterfaceFile) -> List[Description]:
-    """Everything that a file defines: its messages, its services, its action."""
+    """Describes everything that a file defines: its messages, its services, its action."""
     descriptions = [describe(message) for message in file.messages]
     for service in file.services:
         descriptions.append(_describe_service(service))
@@ -42,7 +42,7 @@ def describe(message: Message) -> Description:
 
 
 def _describe_service(service: Service) -> Description:
-    """The service as an interface of three messages."""
+    """Describes the service as an interface of three messages."""
     name = f'{service.package}/{service.namespace}/{service.name}'
     parts = ('request_message', 'Request'), ('response_message', 'Response'), ('event_message', 'Event')
     return {'type_name': name, 'fields': [_nested(field, f'{name}_{part}') for field, part in parts]}
@@ -85,7 +85,7 @@ def type_hash(description: Description, known: Mapping[str, Description]) -> str
 
 
 def referenced(descriptions: Iterable[Description], known: Mapping[str, Description]) -> List[str]:
-    """Names of the messages in these, and in those, and so on."""
+    """Names of the messages used by these descriptions, directly or indirectly."""
     found: Dict[str, None] = {}
     waiting = list(descriptions)
     while waiting:

@@ -6,7 +6,7 @@
 #include "rosidl_runtime_c/service_type_support_struct.h"
 #include "rosidl_runtime_c/type_description.h"
 
-/// The services and messages that carry an action. It has static storage duration.
+/// The type supports of the services and messages that carry an action. It has static storage duration.
 typedef struct rosidl_action_type_support_t {
   const rosidl_service_type_support_t* goal_service_type_support;
   const rosidl_service_type_support_t* result_service_type_support;

@@ -8,13 +8,14 @@ extern "C" {
 
 typedef struct rosidl_message_type_support_t rosidl_message_type_support_t;
 
-/// Gives the type support with the identifier asked for, or null if `handle` cannot lead to it.
+/// Returns the type support with the requested identifier; null if `handle` cannot provide it.
 typedef const rosidl_message_type_support_t* (*rosidl_message_typesupport_handle_function)(
     const rosidl_message_type_support_t* handle, const char* identifier);
 
-/// What a middleware needs to know about a message type. It has static storage duration.
+/// The facts about a message type that a middleware needs. It has static storage duration.
 struct rosidl_message_type_support_t {
-  /// Says what `data` is: rosidl_typesupport_fastrtps_cpp's identifier and message_type_support_callbacks_t here.
+  /// Tells what `data` is; here it is rosidl_typesupport_fastrtps_cpp's identifier for
+  /// message_type_support_callbacks_t.
   const char* typesupport_identifier;
   const void* data;
   rosidl_message_typesupport_handle_function func;

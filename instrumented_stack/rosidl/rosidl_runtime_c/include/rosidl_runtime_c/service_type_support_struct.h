@@ -12,11 +12,11 @@ extern "C" {
 
 typedef struct rosidl_service_type_support_t rosidl_service_type_support_t;
 
-/// Gives the type support with the identifier asked for, or null if `handle` cannot lead to it.
+/// Returns the type support with the requested identifier; null if `handle` cannot provide it.
 typedef const rosidl_service_type_support_t* (*rosidl_service_typesupport_handle_function)(
     const rosidl_service_type_support_t* handle, const char* identifier);
 
-/// What happened to a call of a service: the fields of service_msgs/msg/ServiceEventInfo.
+/// An event in a call of a service: the fields of service_msgs/msg/ServiceEventInfo.
 typedef struct rosidl_service_introspection_info_s {
   uint8_t event_type;
   int32_t stamp_sec;
@@ -25,23 +25,24 @@ typedef struct rosidl_service_introspection_info_s {
   int64_t sequence_number;
 } rosidl_service_introspection_info_t;
 
-/// A new event message of the service with `info` and copies of those messages that are not null. Null if there is no
-/// memory for it.
+/// Creates an event message of the service with `info` and copies of the messages that are not null. Returns null if
+/// memory runs out.
 typedef void* (*rosidl_service_introspection_event_create_function)(const rosidl_service_introspection_info_t* info,
                                                                     const void* request_message,
                                                                     const void* response_message);
 
 typedef void (*rosidl_service_introspection_event_destroy_function)(void* event_message);
 
-/// What a middleware needs to know about a service type. It has static storage duration.
+/// The facts about a service type that a middleware needs. It has static storage duration.
 struct rosidl_service_type_support_t {
-  /// Says what `data` is: rosidl_typesupport_fastrtps_cpp's identifier and service_type_support_callbacks_t here.
+  /// Tells what `data` is; here it is rosidl_typesupport_fastrtps_cpp's identifier for
+  /// service_type_support_callbacks_t.
   const char* typesupport_identifier;
   const void* data;
   rosidl_service_typesupport_handle_function func;
   const rosidl_message_type_support_t* request_typesupport;
   const rosidl_message_type_support_t* response_typesupport;
-  /// Of the message that tells of the service's calls, and how to make one.
+  /// The type support of the event message about calls, and the function that creates one.
   const rosidl_message_type_support_t* event_typesupport;
   rosidl_service_introspection_event_create_function event_message_create_handle_function;
   rosidl_service_introspection_event_destroy_function event_message_destroy_handle_function;

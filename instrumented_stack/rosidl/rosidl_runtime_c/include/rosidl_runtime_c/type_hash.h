@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hash of a type's description, which tells whether two sides mean the same definition.
+// The hash of a type's description. Equal hashes mean that two sides use the same definition.
 #pragma once
 
 #include <stdint.h>
@@ -28,8 +28,8 @@ static inline rosidl_type_hash_t rosidl_get_zero_initialized_type_hash(void) {
   return hash;
 }
 
-// `RIHS01_` and 64 hexadecimal digits. Free the output with `allocator`. RCUTILS_RET_INVALID_ARGUMENT for a null
-// pointer, RCUTILS_RET_BAD_ALLOC.
+// Returns `RIHS01_` and 64 hexadecimal digits. Free the output with `allocator`. Returns RCUTILS_RET_INVALID_ARGUMENT
+// for a null pointer, or RCUTILS_RET_BAD_ALLOC.
 static inline rcutils_ret_t rosidl_stringify_type_hash(const rosidl_type_hash_t* type_hash,
                                                        rcutils_allocator_t allocator, char** output_string) {
   const size_t prefix_length = 7;
@@ -50,7 +50,7 @@ static inline rcutils_ret_t rosidl_stringify_type_hash(const rosidl_type_hash_t*
   return RCUTILS_RET_OK;
 }
 
-// The inverse. RCUTILS_RET_INVALID_ARGUMENT, and a zero hash, for a text that is no such hash.
+// The inverse function. For a text that is not such a hash, returns RCUTILS_RET_INVALID_ARGUMENT and a zero hash.
 static inline rcutils_ret_t rosidl_parse_type_hash_string(const char* type_hash_string, rosidl_type_hash_t* hash_out) {
   const size_t prefix_length = 7;
   unsigned version;

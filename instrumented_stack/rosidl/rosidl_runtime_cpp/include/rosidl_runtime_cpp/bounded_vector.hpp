@@ -14,8 +14,8 @@
 
 namespace rosidl_runtime_cpp {
 
-/// A std::vector of at most UpperBound elements: what would make it longer throws std::length_error and leaves it
-/// alone.
+/// A std::vector of at most UpperBound elements. A function that would exceed the bound throws std::length_error and
+/// changes nothing.
 template <typename T, std::size_t UpperBound, typename Allocator = std::allocator<T>>
 class BoundedVector : protected std::vector<T, Allocator> {
   using Base = std::vector<T, Allocator>;

@@ -4,12 +4,12 @@
 
 namespace rosidl_runtime_cpp {
 
-/// What the constructor of a message sets. Strings and sequences are always valid.
+/// Selects the members that the constructor of a message sets. Strings and sequences are always valid.
 enum class MessageInitialization {
-  ALL,            ///< Defaults of the .msg file where it gives one, zero elsewhere.
-  SKIP,           ///< Nothing: plain members hold whatever was in memory.
-  ZERO,           ///< Zero, also where the .msg file gives a default.
-  DEFAULTS_ONLY,  ///< Defaults where given, plain members elsewhere are left alone.
+  ALL,            ///< Defaults of the .msg file where it has them, zero elsewhere.
+  SKIP,           ///< Nothing: plain members are uninitialised.
+  ZERO,           ///< Zero, even where the .msg file has a default.
+  DEFAULTS_ONLY,  ///< Defaults where they exist; other plain members are not set.
 };
 
 }  // namespace rosidl_runtime_cpp

@@ -43,11 +43,11 @@ struct is_action_feedback : std::false_type {};
 template <typename T>
 struct has_fixed_size : std::false_type {};
 
-/// There is an upper bound of the serialised size.
+/// The serialised size has an upper bound.
 template <typename T>
 struct has_bounded_size : std::false_type {};
 
-/// The message as YAML. The generated function, which has more options, is found through the type of its argument.
+/// Converts the message to YAML. The generated function has more options; it is found through its argument's type.
 template <typename Message, typename = std::enable_if_t<is_message<Message>::value>>
 std::string to_yaml(const Message& message) {
   return to_yaml(message, false);

@@ -12,11 +12,11 @@
 
 #include "rosidl_runtime_cpp/traits.hpp"
 
-/// Prints the members of messages as YAML that reads back as the same values. Only the generated source files include
-/// this header.
+/// Prints the members of messages as YAML. Reading it back gives the same values. Only the generated source files
+/// include this header.
 namespace rosidl_runtime_cpp::yaml {
 
-/// The shortest digits that read back as the same number; always recognisable as floating.
+/// The shortest digits that read back as the same number. They can always be recognised as floating point.
 template <typename Float>
 void write_floating(std::ostream& out, Float value) {
   if (std::isnan(value)) {
@@ -31,7 +31,7 @@ void write_floating(std::ostream& out, Float value) {
   }
 }
 
-/// A double-quoted YAML scalar. Bytes above 127 are taken for UTF-8 and stay as they are.
+/// A double-quoted YAML scalar. Bytes above 127 are treated as UTF-8 and do not change.
 inline void write_quoted(std::ostream& out, const std::string& text) {
   constexpr char hex[] = "0123456789abcdef";
   out << '"';
@@ -97,7 +97,7 @@ void write_flow_member(std::ostream& out, bool first, const char* name, const T&
   write_flow(out, value);
 }
 
-/// One member with its name, on lines of its own.
+/// Prints a member with its name, on separate lines.
 template <typename T>
 void write_member(std::ostream& out, const char* name, const T& value, std::size_t indentation) {
   const std::string spaces(indentation, ' ');
@@ -120,7 +120,7 @@ void write_member(std::ostream& out, const char* name, const T& value, std::size
         write_flow<Element>(out, value[i]);
         out << '\n';
       } else {
-        // In one line: a message in a list has no name to stand on a line of its own.
+        // Printed in one line, because a message in a list has no name to print on a separate line.
         to_flow_style_yaml(value[i], out);
         out << '\n';
       }

@@ -12,7 +12,7 @@ namespace rosidl_typesupport_cpp {
 template <typename T>
 const rosidl_action_type_support_t* get_action_type_support_handle();
 
-/// Made of the type supports of what carries the action.
+/// Combines the type supports of the services and messages that carry the action.
 template <typename T>
 const rosidl_action_type_support_t* action_type_support(const rosidl_type_description_t* description) {
   static const rosidl_action_type_support_t handle{

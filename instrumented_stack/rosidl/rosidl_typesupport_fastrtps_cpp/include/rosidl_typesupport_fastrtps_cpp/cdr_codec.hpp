@@ -13,26 +13,26 @@ namespace rosidl_typesupport_fastrtps_cpp {
 
 struct MaxSize;
 
-/// How a message type is turned into CDR bytes and back. Generated code specialises it for each message:
+/// Converts a message type to CDR bytes and back. Generated code specialises it for each message:
 ///   write      throws if the buffer is too small
-///   read       throws if the bytes are cut short or hold a longer sequence than the type allows
+///   read       throws if the bytes are cut short or contain a longer sequence than the type allows
 ///   end_after  the position after the message, if it is written at `position`
-///   add_to     adds the message to an upper bound
-/// Positions are bytes from the beginning of the payload, which alignment counts from.
+///   add_to     adds the message's maximum size to an upper bound
+/// Positions are bytes from the beginning of the payload; alignment counts from there.
 template <typename Message>
 struct CdrCodec;
 
-/// The sum of the sizes that the members of a type can have at most.
+/// The sum of the maximum sizes of a type's members.
 struct MaxSize {
   static constexpr std::size_t kUnbounded = std::numeric_limits<std::size_t>::max();
 
   std::size_t end = 0;
-  /// False once something without an upper bound was added: it counts as empty.
+  /// False once a member without an upper bound was added. Such a member counts as empty.
   bool bounded = true;
-  /// The bytes and the memory have the same layout.
+  /// The serialised bytes and the memory have the same layout.
   bool plain = true;
 
-  /// Adds a member of type T; `string_bound` is the greatest length of each string in it.
+  /// Adds a member of type T. `string_bound` is the maximum length of each string in it.
   template <typename T>
   void add(std::size_t string_bound = kUnbounded);
 

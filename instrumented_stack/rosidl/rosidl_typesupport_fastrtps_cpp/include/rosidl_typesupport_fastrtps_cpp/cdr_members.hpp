@@ -15,11 +15,11 @@
 #include "rosidl_runtime_cpp/bounded_vector.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/cdr_codec.hpp"
 
-/// The bytes of members of messages, as rmw_fastrtps_cpp writes them: plain CDR of the version before XTypes.
+/// The bytes of message members, as rmw_fastrtps_cpp writes them: plain CDR, the version before XTypes.
 ///   primitives         aligned to their size
 ///   string             u32 length with the final NUL, characters, NUL
 ///   wstring            u32 length, a u32 per UTF-16 unit, no final NUL
-///   array              its elements; there is no padding where there is no element
+///   array              its elements; an empty one adds no padding
 ///   sequence           u32 length, its elements
 /// Only the generated source files include this header.
 namespace rosidl_typesupport_fastrtps_cpp {
@@ -36,8 +36,8 @@ struct is_sequence<std::vector<T>> : std::true_type {};
 template <typename T, std::size_t N>
 struct is_sequence<rosidl_runtime_cpp::BoundedVector<T, N>> : std::true_type {};
 
-/// A bool is excluded from what is copied as a block: reading must check that it is 0 or 1, and std::vector<bool> holds
-/// bits.
+/// A bool is not copied as part of a block, because reading must check that it is 0 or 1, and because std::vector<bool>
+/// stores bits.
 template <typename T>
 inline constexpr bool is_block_of_primitives = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
@@ -50,7 +50,7 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
   if constexpr (std::is_arithmetic_v<T>) {
     cdr.serialize(value);
   } else if constexpr (std::is_same_v<T, std::string>) {
-    // Not Fast CDR's function for strings: it stops at an embedded NUL.
+    // Fast CDR's function for strings is not used, because it stops at an embedded NUL.
     cdr.serialize(static_cast<uint32_t>(value.size() + 1));
     cdr.serializeArray(value.c_str(), value.size() + 1);
   } else if constexpr (std::is_same_v<T, std::u16string>) {
@@ -77,7 +77,7 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
   }
 }
 
-/// Reads a length and checks it against the bytes that are left, before memory is taken for it.
+/// Reads a length and checks it against the remaining bytes, before memory is allocated for it.
 inline std::size_t read_length(eprosima::fastcdr::Cdr& cdr, std::size_t least_element_size) {
   uint32_t length = 0;
   cdr.deserialize(length);
@@ -110,7 +110,7 @@ void cdr_read(eprosima::fastcdr::Cdr& cdr, T& value) {
     value.resize(length);
     if (length != 0) {
       cdr.deserializeArray(value.data(), length);
-      // Some writers count no final NUL.
+      // Some writers do not count the final NUL.
       if (value.back() == '\0') {
         value.pop_back();
       }

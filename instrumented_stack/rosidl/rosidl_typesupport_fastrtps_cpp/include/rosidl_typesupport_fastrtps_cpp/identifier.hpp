@@ -4,8 +4,8 @@
 
 namespace rosidl_typesupport_fastrtps_cpp {
 
-/// Marks type supports whose data is a message_type_support_callbacks_t or service_type_support_callbacks_t.
-/// Compare by content: each shared library has a copy of its own.
+/// Identifies type supports whose data is a message_type_support_callbacks_t or service_type_support_callbacks_t.
+/// Compare it by content, because each shared library has its own copy.
 inline constexpr const char* typesupport_identifier = "rosidl_typesupport_fastrtps_cpp";
 
 }  // namespace rosidl_typesupport_fastrtps_cpp

@@ -14,33 +14,33 @@ class Cdr;
 
 /// Values of `bounds_info` of message_type_support_callbacks_t::max_serialized_size.
 #define ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE 0x00
-/// There is an upper bound of the serialised size.
+/// The serialised size has an upper bound.
 #define ROSIDL_TYPESUPPORT_FASTRTPS_BOUNDED_TYPE 0x01
-/// Bounded, and the object's memory has the very layout of its CDR form.
+/// Bounded, and the object has the same layout in memory as in CDR.
 #define ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE 0x03
 
-/// How Fast CDR reads and writes one message type. All sizes are bytes of the payload, without the four bytes of the
-/// encapsulation header, and alignment counts from the payload's first byte. Any thread; the object must not change
-/// meanwhile.
+/// Reads and writes one message type with Fast CDR. All sizes are bytes of the payload, without the four bytes of the
+/// encapsulation header. Alignment counts from the payload's first byte. May be called from any thread; the object must
+/// not change meanwhile.
 typedef struct message_type_support_callbacks_t {
   /// "std_msgs::msg"
   const char* message_namespace_;
   /// "String"
   const char* message_name_;
-  /// Names the definition of the type: "RIHS01_" and 64 hexadecimal digits.
+  /// Identifies the definition of the type: "RIHS01_" and 64 hexadecimal digits.
   const char* type_hash_;
-  /// Writes the message. False if the buffer is too small.
+  /// Writes the message. Returns false if the buffer is too small.
   bool (*cdr_serialize)(const void* untyped_ros_message, eprosima::fastcdr::Cdr& cdr);
-  /// Reads into the message. False if the bytes are cut short or hold a longer sequence than the type allows; the
-  /// message is then valid, but holds a part only. The bound of a string is not checked, as nowhere in ROS 2.
+  /// Reads into the message. Returns false if the bytes are cut short or contain a longer sequence than the type
+  /// allows. The message is then valid but incomplete. The bound of a string is not checked, as everywhere in ROS 2.
   bool (*cdr_deserialize)(eprosima::fastcdr::Cdr& cdr, void* untyped_ros_message);
-  /// What cdr_serialize would write, exactly.
+  /// The exact size that cdr_serialize would write.
   uint32_t (*get_serialized_size)(const void* untyped_ros_message);
-  /// The upper bound if `bounds_info` says that there is one; otherwise the size with all unbounded parts empty.
+  /// The upper bound if `bounds_info` says that there is one. Otherwise the size with all unbounded parts empty.
   size_t (*max_serialized_size)(char& bounds_info);
-  /// Null for a type of which only the name is known.
+  /// Null if only the name of the type is known.
   const rosidl_type_description_t* description_;
-  /// A new message with its defaults, to be given to destroy_message. Throws std::bad_alloc.
+  /// Creates a message with its defaults, to be freed with destroy_message. Throws std::bad_alloc.
   void* (*create_message)(void);
   void (*destroy_message)(void* untyped_ros_message);
 } message_type_support_callbacks_t;

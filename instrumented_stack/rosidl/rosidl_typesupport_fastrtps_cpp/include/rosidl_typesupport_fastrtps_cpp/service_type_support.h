@@ -6,13 +6,13 @@
 #include "rosidl_runtime_c/service_type_support_struct.h"
 #include "rosidl_runtime_c/type_description.h"
 
-/// Names of a service type and the type supports of its two messages.
+/// The names of a service type and the type supports of its two messages.
 typedef struct service_type_support_callbacks_t {
   /// "rcl_interfaces::srv"
   const char* service_namespace_;
   /// "GetParameters"
   const char* service_name_;
-  /// Of GetParameters_Request and GetParameters_Response.
+  /// The type supports of GetParameters_Request and GetParameters_Response.
   const rosidl_message_type_support_t* request_members_;
   const rosidl_message_type_support_t* response_members_;
   const rosidl_type_description_t* description_;

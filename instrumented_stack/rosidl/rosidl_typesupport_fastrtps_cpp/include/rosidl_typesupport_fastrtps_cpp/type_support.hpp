@@ -15,10 +15,10 @@
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 #include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
 
-/// Makes the handles of a package's types from their codecs. Only the generated source files include this header.
+/// Creates the handles of a package's types from their codecs. Only the generated source files include this header.
 namespace rosidl_typesupport_fastrtps_cpp {
 
-/// The callbacks of type support: the boundary at which exceptions become return values.
+/// The callbacks of type support. Here exceptions become return values.
 template <typename Message>
 struct Callbacks {
   static bool write(const void* message, eprosima::fastcdr::Cdr& cdr) {
@@ -53,7 +53,7 @@ struct Callbacks {
   }
 };
 
-/// These handles lead to nothing but themselves.
+/// Such a handle provides only itself.
 template <typename Handle>
 const Handle* itself(const Handle* handle, const char* identifier) {
   return std::strcmp(identifier, typesupport_identifier) == 0 ? handle : nullptr;
@@ -71,7 +71,7 @@ const rosidl_message_type_support_t* message_type_support(const char* message_na
   return &handle;
 }
 
-/// The event messages of a service, for whoever knows its type by its handle only.
+/// The event messages of a service, for code that knows the type only by its handle.
 template <typename Service>
 struct EventFunctions {
   static void* create(const rosidl_service_introspection_info_t* info, const void* request, const void* response) {
