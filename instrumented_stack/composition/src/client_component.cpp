@@ -17,7 +17,7 @@ Client::Client(const rclcpp::NodeOptions& options) : Node("client", options) {
 }
 
 void Client::ask() {
-  // A component must not wait for the server: it may be another component of this very thread.
+  // A component must not wait for the server, because it may be a component of the same thread.
   if (!client_->service_is_ready()) {
     RCLCPP_INFO(get_logger(), "waiting for service %s", client_->get_service_name());
     return;

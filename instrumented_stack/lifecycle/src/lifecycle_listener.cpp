@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what node lc_talker says and through which states it goes.
+// Prints the messages of node lc_talker and its transitions.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

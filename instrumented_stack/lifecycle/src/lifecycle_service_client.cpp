@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leads a managed node once through its life: configure, activate, deactivate, cleanup, shutdown.
+// Takes a managed node through its life: configure, activate, deactivate, cleanup, shutdown.
 //
 // Parameters: node       name of the managed node (default lc_talker)
-//             period_ms  how long it stays in each state (default 1000)
+//             period_ms  how long the node stays in each state (default 1000)
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +30,7 @@ class ServiceClient : public rclcpp::Node {
 
   std::chrono::milliseconds period() const { return period_; }
 
-  // False when the program was interrupted before the answer came.
+  // Returns false if the program was interrupted before the answer came.
   bool print_state() {
     const auto response = ask<GetState>(*get_state_, std::make_shared<GetState::Request>());
     if (response) {
@@ -40,7 +40,7 @@ class ServiceClient : public rclcpp::Node {
     return response != nullptr;
   }
 
-  // False when the transition failed, or as above.
+  // Returns false if the transition failed or the program was interrupted.
   bool change_state(uint8_t transition) {
     auto request = std::make_shared<ChangeState::Request>();
     request->transition.id = transition;

@@ -16,7 +16,7 @@ LifecycleTalker::LifecycleTalker(const rclcpp::NodeOptions& options) : Lifecycle
 
 LifecycleTalker::CallbackReturn LifecycleTalker::on_configure(const State&) {
   publisher_ = create_publisher<std_msgs::msg::String>("lifecycle_chatter", 10);
-  // The timer runs from now on: while the node is inactive the publisher keeps the messages back.
+  // The timer runs from now on. While the node is inactive the publisher drops the messages.
   timer_ = create_wall_timer(std::chrono::milliseconds(get_parameter("period_ms").as_int()), [this] { say_hello(); });
   RCLCPP_INFO(get_logger(), "on_configure() is called.");
   return CallbackReturn::SUCCESS;

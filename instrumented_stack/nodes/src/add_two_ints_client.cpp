@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks service add_two_ints for a sum, again and again, and ends when all answers have come.
+// Asks service add_two_ints for a sum repeatedly, and ends when all answers have come.
 //
-// Parameters: a, b   what to add (default 2 and 3)
+// Parameters: a, b   the numbers to add (default 2 and 3)
 //             count  how often to ask (default 1)
 #include <chrono>
 #include <cstdio>
@@ -14,7 +14,7 @@
 
 using AddTwoInts = example_interfaces::srv::AddTwoInts;
 
-// 0 when every request was answered.
+// Returns 0 if every request was answered.
 int ask(const rclcpp::Node::SharedPtr& node) {
   auto request = std::make_shared<AddTwoInts::Request>();
   request->a = node->declare_parameter("a", 2);

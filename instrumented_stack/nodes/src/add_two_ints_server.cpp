@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds two numbers for whoever asks on service add_two_ints.
+// Adds two numbers for clients of service add_two_ints.
 //
 // Parameter: count  end after this many requests (default 0: until interrupted)
 #include <chrono>
@@ -20,7 +20,7 @@ class AddTwoIntsServer : public rclcpp::Node {
     service_ = create_service<AddTwoInts>(
         "add_two_ints", [this](std::shared_ptr<AddTwoInts::Request> request,
                                std::shared_ptr<AddTwoInts::Response> response) { add(*request, *response); });
-    // The response to a request is sent after its callback, so the end must come later.
+    // The response to a request is sent after its callback, so the program must end later.
     end_timer_ = create_wall_timer(std::chrono::milliseconds(50), [this] {
       if (count_ != 0 && answered_ >= count_) {
         rclcpp::shutdown();

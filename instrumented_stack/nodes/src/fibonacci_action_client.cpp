@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks action fibonacci for a sequence, prints what there is of it so far, and ends with the result.
+// Asks action fibonacci for a sequence, prints the partial sequences, and ends with the result.
 //
 // Parameters: order         how many numbers after the first (default 10)
-//             cancel_after  cancels after that many messages of feedback (default 0: never)
+//             cancel_after  cancels after this many feedback messages (default 0: never)
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -40,7 +40,7 @@ const char* to_text(rclcpp_action::ResultCode code) {
   return "is unknown";
 }
 
-// 0 when there is a result.
+// Returns 0 if there is a result.
 int compute(const rclcpp::Node::SharedPtr& node) {
   Fibonacci::Goal goal;
   goal.order = static_cast<int32_t>(node->declare_parameter("order", 10));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes Fibonacci sequences for clients of action fibonacci, a number at a time, several goals side by side.
+// Computes Fibonacci sequences for clients of action fibonacci, one number at a time, for several goals at once.
 //
 // Parameter: period_ms  time between two numbers (default 1000)
 #include <chrono>
@@ -23,7 +23,7 @@ class FibonacciActionServer : public rclcpp::Node {
         this, "fibonacci",
         [this](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
           RCLCPP_INFO(get_logger(), "Received goal request with order %d", static_cast<int>(goal->order));
-          // The 47th number is the last that fits.
+          // The 47th number is the last one that fits.
           const bool is_possible = goal->order > 0 && goal->order <= 46;
           return is_possible ? rclcpp_action::GoalResponse::ACCEPT_AND_EXECUTE : rclcpp_action::GoalResponse::REJECT;
         },
@@ -47,7 +47,7 @@ class FibonacciActionServer : public rclcpp::Node {
     computations_.remove_if([this](Computation& computation) { return is_ended(computation); });
   }
 
-  // Computes the next number.
+  // Computes the next number. Returns whether the goal has ended.
   bool is_ended(Computation& computation) {
     auto& [goal, sequence] = computation;
     const auto order = static_cast<std::size_t>(goal->get_goal()->order);

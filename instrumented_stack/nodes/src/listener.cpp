@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what is said on topic chatter: the component of demo_nodes_cpp.
+// Prints the messages of topic chatter: the component of demo_nodes_cpp.
 #include "rclcpp_components/single_threaded_node_main.hpp"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends numbers on topic ping, waits for each to come back on topic pong, and ends when all have.
+// Sends numbers on topic ping, waits for each to come back on topic pong, and ends when all have come back.
 //
 // Parameters: count      how many replies to wait for (default 10, 0: until interrupted)
 //             period_ms  time between two messages (default 500)
@@ -26,7 +26,7 @@ class Ping : public rclcpp::Node {
 
  private:
   void send() {
-    // What is sent before both ends know each other would be lost.
+    // Messages that are sent before both ends have discovered each other would be lost.
     if (publisher_->get_subscription_count() == 0 || subscription_->get_publisher_count() == 0) {
       RCLCPP_INFO_ONCE(get_logger(), "waiting for pong");
       return;

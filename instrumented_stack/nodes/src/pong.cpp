@@ -22,7 +22,7 @@ class Pong : public rclcpp::Node {
   }
 
  private:
-  // How long the last reply may take to arrive.
+  // The maximum time for the last reply to arrive.
   static constexpr std::chrono::seconds kAcknowledgementTimeout{2};
 
   void answer(const std_msgs::msg::Int64& message) {

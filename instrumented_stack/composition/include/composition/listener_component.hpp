@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what is said on topic chatter.
+// Prints the messages of topic chatter.
 #pragma once
 
 #include "rclcpp/rclcpp.hpp"

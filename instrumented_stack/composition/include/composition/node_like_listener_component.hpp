@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A listener that has a node instead of being one: a component needs no more than get_node_base_interface().
+// A listener that has a node but is none: a component needs only get_node_base_interface().
 #pragma once
 
 #include "rclcpp/rclcpp.hpp"

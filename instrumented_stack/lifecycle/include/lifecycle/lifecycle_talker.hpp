@@ -9,7 +9,7 @@
 
 namespace lifecycle {
 
-// Parameter: period_ms  between two messages (default 1000), read when it is configured
+// Parameter: period_ms  time between two messages (default 1000), read when the node is configured
 class LifecycleTalker : public rclcpp_lifecycle::LifecycleNode {
  public:
   explicit LifecycleTalker(const rclcpp::NodeOptions& options = rclcpp::NodeOptions());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Latencies of messages and what can be said of them.
+// Latencies of messages and their statistics.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct LatencySummary {
   double max = 0;
 };
 
-// Of latencies in ns. A percentile is the smallest latency that at least so many of all do not exceed.
+// Takes latencies in ns. A percentile is the smallest latency that at least this share of all does not exceed.
 LatencySummary summarize(std::vector<int64_t> latencies_ns);
 
 }  // namespace performance_test

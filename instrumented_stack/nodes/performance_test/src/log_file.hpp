@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results of perf_test as a table (.csv) or for programs (.json).
+// Writes the results of perf_test as a table (.csv) or for programs (.json).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace performance_test {
 
-// What happened in a stretch of time.
+// The counts of an interval of time.
 struct Interval {
   double end = 0;     // s since the start
   double length = 0;  // s
@@ -23,11 +23,10 @@ struct Interval {
   LatencySummary latency;
 };
 
-// Writes as the run goes on: what has been written stays when the program is killed. A JSON file is complete only after
-// finish().
+// Writes during the run, so results remain if the program is killed. A JSON file is complete only after finish().
 class LogFile {
  public:
-  // An empty path: nothing is written. Throws std::runtime_error when the file cannot be created.
+  // With an empty path nothing is written. Throws std::runtime_error if the file cannot be created.
   explicit LogFile(const Settings& settings);
 
   void add(const Interval& interval);

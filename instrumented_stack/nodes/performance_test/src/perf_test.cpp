@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the latency of messages from publish() to the callback, and how many are lost, in the manner of
-// performance_test. Publishers and subscribers may be in one process or in several of one host.
+// Measures the latency of messages from publish() to the callback, and counts lost ones, like performance_test.
+// Publishers and subscribers may be in one process or in several of one host.
 //
 // Parameters: msg             Array1k (default), Array4k, Array16k, Array32k, Array64k, Array256k, Array1m, Array4m
 //             topic           (default test_topic)
 //             rate            messages per second of each publisher (default 1000, 0: as fast as possible)
-//             publishers      in this process (default 1); expected_publishers: to wait for, anywhere (default as many)
+//             publishers      in this process (default 1); expected_publishers: wait for so many, anywhere (default as
+//             many)
 //             subscribers     likewise (default 1), expected_subscribers
 //             reliability     reliable (default) or best_effort
 //             durability      volatile (default) or transient_local
 //             history         keep_last (default) or keep_all
 //             history_depth   (default 16)
 //             intra_process   deliver within the process by pointer (default false)
-//             zero_copy       publish messages that are made in memory of the middleware (default false)
+//             zero_copy       publish messages that are created in memory of the middleware (default false)
 //             max_runtime     seconds (default 0: until interrupted)
 //             ignore          seconds at the beginning that do not count (default 0)
 //             logfile         .csv or .json, one row a second
@@ -52,25 +53,25 @@ int64_t monotonic_now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
-// What publishers and subscriptions count. Thread safe.
+// Counts of publishers and subscriptions. Thread safe.
 class Counts {
  public:
   void sent() { ++sent_; }
 
-  // `last_id` is the subscription's own, of that publisher.
+  // `last_id` belongs to the subscription and this publisher.
   void received(int64_t sent_at, uint64_t id, uint64_t& last_id, size_t bytes) {
     const int64_t latency = monotonic_now() - sent_at;
     const std::lock_guard lock(mutex_);
     latencies_.push_back(latency);
     bytes_ += bytes;
-    // What was sent before the first that came does not count as lost: the subscription was not known yet.
+    // Messages sent before the first received one are not lost: the subscription was not discovered yet.
     if (last_id != 0 && id > last_id + 1) {
       lost_ += id - last_id - 1;
     }
     last_id = id;
   }
 
-  // What has happened since the last call, and the latencies of it.
+  // Returns the counts and latencies since the last call.
   Interval take(std::vector<int64_t>& latencies) {
     Interval interval;
     interval.sent = sent_.exchange(0);
@@ -98,9 +99,9 @@ class Counts {
 class Endpoints {
  public:
   virtual ~Endpoints() = default;
-  // Whether everybody knows everybody.
+  // Whether all endpoints have discovered each other.
   virtual bool matched() const = 0;
-  // Publishes until `stop`. A thread for each publisher.
+  // Publishes until `stop`. Each publisher has a thread.
   virtual void publish(size_t publisher, const std::atomic_bool& stop) = 0;
 };
 
@@ -224,14 +225,14 @@ void print(const char* label, const Interval& interval) {
   std::fflush(stdout);
 }
 
-// Looks at the counts every second until the end of the run.
+// Reads the counts every second until the end of the run.
 class Recorder {
  public:
   Recorder(const Settings& settings, Counts& counts) : settings_(settings), counts_(counts), log_file_(settings) {}
 
   void start() { start_ = last_ = steady_clock::now(); }
 
-  // False when the run is over.
+  // Returns false when the run is over.
   bool record() {
     const auto now = steady_clock::now();
     std::vector<int64_t> latencies;
@@ -239,7 +240,7 @@ class Recorder {
     interval.end = seconds(now - start_);
     interval.length = seconds(now - last_);
     last_ = now;
-    // By its middle: the timer is never quite on time.
+    // Uses the middle of the interval, because the timer is never quite on time.
     if (interval.end - interval.length / 2 > settings_.ignore) {
       add(whole_, interval);
       whole_.length += interval.length;
@@ -279,7 +280,7 @@ void run(const rclcpp::Node::SharedPtr& node) {
 
   rclcpp::executors::SingleThreadedExecutor executor;
   executor.add_node(node);
-  // Discovery wakes no executor.
+  // Discovery does not wake an executor, so this timer does.
   const auto look_again = node->create_wall_timer(std::chrono::milliseconds(20), [] {});
   while (rclcpp::ok() && !endpoints->matched()) {
     executor.spin_once();

@@ -21,7 +21,7 @@ int count(rclcpp::Node& node, const std::string& name, int default_value) {
 
 double number(rclcpp::Node& node, const std::string& name, double default_value) {
   rcl_interfaces::msg::ParameterDescriptor descriptor;
-  descriptor.dynamic_typing = true;  // 10 is as good as 10.0
+  descriptor.dynamic_typing = true;  // accept 10 as well as 10.0
   const rclcpp::ParameterValue& value = node.declare_parameter(name, rclcpp::ParameterValue(default_value), descriptor);
   const double result = value.get_type() == rclcpp::PARAMETER_INTEGER
                             ? static_cast<double>(value.get<rclcpp::PARAMETER_INTEGER>())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes the system has and what they listen to: that of the Autoware reference system of the ROS 2 real-time
-// working group. A node publishes on the topic of its own name.
+// The nodes of the system and their inputs: the graph of the Autoware reference system of the ROS 2 real-time working
+// group. A node publishes on the topic with its own name.
 #pragma once
 
 #include <chrono>
@@ -13,10 +13,10 @@ namespace reference_system {
 enum class Kind {
   Sensor,        // publishes periodically
   Transform,     // publishes for each message of its input
-  Fusion,        // publishes when each of its inputs has brought a new message
-  Cyclic,        // publishes periodically what its inputs have brought last
-  Intersection,  // passes each input on to an output of its own
-  Command,       // the end: tells how long messages took
+  Fusion,        // publishes when each of its inputs has received a new message
+  Cyclic,        // publishes the last messages of its inputs periodically
+  Intersection,  // passes each input on to its own output
+  Command,       // the end: reports how long messages took
 };
 
 struct NodeDescription {
@@ -24,15 +24,15 @@ struct NodeDescription {
   Kind kind;
   std::vector<std::string> inputs;      // topics
   std::vector<std::string> outputs;     // topics
-  std::chrono::milliseconds period{0};  // of sensors and cyclic nodes
+  std::chrono::milliseconds period{0};  // for sensors and cyclic nodes
 };
 
 const std::vector<NodeDescription>& graph();
 
-// Throws std::invalid_argument with the names there are.
+// Throws std::invalid_argument with the known names.
 const NodeDescription& find(const std::string& name);
 
-// The nodes that a message on this topic can have come through.
+// The nodes that a message on this topic may have passed.
 std::set<std::string> nodes_before(const std::string& topic);
 
 }  // namespace reference_system

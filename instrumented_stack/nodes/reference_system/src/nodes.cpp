@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kDepth = 10;
 
-// Work that takes time and cannot be optimised away: counts primes.
+// Work that takes time and cannot be optimised away: it counts primes.
 uint64_t crunch_numbers(uint64_t limit) {
   uint64_t primes = 0;
   for (uint64_t number = 2; number <= limit; ++number) {
@@ -52,7 +52,7 @@ class ReferenceNode : public rclcpp::Node {
     subscriptions_.push_back(create_subscription<Message>(topic, kDepth, std::move(callback)));
   }
 
-  // Keeps the message of an input and counts what its sender has sent in vain.
+  // Keeps the message of an input, and counts its sender's dropped messages.
   void keep(size_t input, Input message) {
     if (message->size > 0) {
       const auto& sender = message->stats[message->size - 1];
@@ -65,7 +65,7 @@ class ReferenceNode : public rclcpp::Node {
     inputs_[input] = std::move(message);
   }
 
-  // A message with the history of the inputs that are kept.
+  // Publishes a message with the history of the kept inputs.
   void publish(size_t output = 0) {
     auto message = std::make_unique<Message>();
     for (const Input& input : inputs_) {
@@ -77,7 +77,7 @@ class ReferenceNode : public rclcpp::Node {
     publishers_[output]->publish(std::move(message));
   }
 
-  // The rcl handles of all subscriptions and publishers, as the trace knows them.
+  // The rcl handles of all subscriptions and publishers, as in the trace.
   std::vector<const void*> subscription_handles() const {
     std::vector<const void*> handles;
     for (const auto& subscription : subscriptions_) {
@@ -101,7 +101,7 @@ class ReferenceNode : public rclcpp::Node {
   std::vector<rclcpp::Subscription<Message>::SharedPtr> subscriptions_;
   std::map<size_t, uint32_t> last_sequence_numbers_;
   uint32_t dropped_samples_ = 0;
-  std::vector<uint32_t> sequence_numbers_;  // by output
+  std::vector<uint32_t> sequence_numbers_;  // index: output
   uint64_t primes_ = 0;
 };
 
@@ -135,7 +135,7 @@ class Fusion : public ReferenceNode {
         fuse();
       });
     }
-    // The trace cannot see that a message which came earlier goes into what is published later.
+    // The trace cannot show that an earlier message is part of a message that is published later.
     [[maybe_unused]] std::vector<const void*> subscriptions = subscription_handles();
     [[maybe_unused]] std::vector<const void*> publishers = publisher_handles();
     TRACETOOLS_TRACEPOINT(message_link_partial_sync, subscriptions.data(), subscriptions.size(), publishers.data(),
@@ -191,7 +191,7 @@ class Intersection : public ReferenceNode {
   }
 };
 
-// Command nodes of this process that have not got all their messages.
+// Command nodes of this process that are still waiting for messages.
 std::atomic<size_t> waiting_commands{0};
 
 class Command : public ReferenceNode {

@@ -3,10 +3,11 @@
 //
 //   reference_system [--number-crunch-limit N] [--intra-process] [--messages N] [--list] [NODE…]
 //
-// Without a NODE all of them. Ends when it is interrupted, or when each node at the end of the graph has got N messages
-// that have come through all nodes before it. These nodes then tell how long messages took from each node before.
+// Without a NODE it runs all of them. It ends when it is interrupted, or when each node at the end of the graph has
+// received N messages that passed all nodes before it. These nodes then report how long messages took from each earlier
+// node.
 //
-// The executables of autoware_reference_system are this program, too, each with the executor of its name.
+// The executables of autoware_reference_system are also this program. Each uses the executor in its name.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way that messages have come, which they carry with them, and what can be read from it.
+// The path of a message, which the message carries, and statistics from it.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@ namespace reference_system {
 
 using Message = reference_interfaces::msg::Message4kb;
 
-// Copies the nodes that `from` has come through to `to`, without those that `to` has already, as far as there is room.
+// Copies the nodes in the history of `from` to `to`, except those that `to` already has, as far as there is room.
 void merge_history(const Message& from, Message& to);
 
-// Enters the node as the last one, sending now.
+// Adds the node as the last one, with the current time as its send time.
 void sign(const std::string& node_name, uint32_t sequence_number, uint32_t dropped_samples, Message& message);
 
-// How many nodes the message has come through.
+// The number of nodes that the message has passed.
 size_t number_of_nodes(const Message& message);
 
-// How long messages took from the nodes that they came through.
+// How long messages took from the nodes that they passed.
 class TravelTimes {
  public:
   void add(const Message& message);
@@ -31,7 +31,7 @@ class TravelTimes {
     int64_t min_ns = 0;
     int64_t max_ns = 0;
     double sum_ns = 0;
-    uint32_t dropped = 0;  // by the next node, so far
+    uint32_t dropped = 0;  // dropped by the next node, so far
   };
   const std::map<std::string, Time>& times() const { return times_; }
 
@@ -39,7 +39,7 @@ class TravelTimes {
   std::map<std::string, Time> times_;
 };
 
-// The monotonic clock, ns.
+// The monotonic clock, in ns.
 int64_t now();
 
 }  // namespace reference_system

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks on topic ping until it is answered on topic pong, and ends; with the argument do_more it goes on.
+// Sends requests on topic ping until an answer comes on topic pong, and ends. With the argument do_more it continues.
 //
-// The node of this name that the launch files of ros2_tracing start.
+// Launch files of ros2_tracing start a node with this name.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -23,7 +23,7 @@ class PingNode : public rclcpp::Node {
   }
 
  private:
-  // An answer that comes before this node's subscription is known there is lost: asked again until one arrives.
+  // An answer is lost if the other node has not discovered this subscription yet. So ask again until one arrives.
   void ask() {
     std_msgs::msg::String question;
     question.data = "are you there?";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers on topic pong what comes on topic ping, once, and ends; with the argument do_more it goes on.
+// Answers one message of topic ping on topic pong, and ends. With the argument do_more it continues.
 //
-// The node of this name that the launch files of ros2_tracing start.
+// Launch files of ros2_tracing start a node with this name.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -22,13 +22,13 @@ class PongNode : public rclcpp::Node {
   }
 
  private:
-  // How long the answer may take to arrive.
+  // The maximum time for the answer to arrive.
   static constexpr std::chrono::seconds kAcknowledgementTimeout{2};
 
   void answer(const std_msgs::msg::String& question) {
     RCLCPP_INFO(get_logger(), "[output] %s", question.data.c_str());
     if (publisher_->get_subscription_count() == 0) {
-      return;  // it would be lost; the question comes again
+      return;  // the answer would be lost; the question comes again
     }
     std_msgs::msg::String message;
     message.data = "yes, here I am";

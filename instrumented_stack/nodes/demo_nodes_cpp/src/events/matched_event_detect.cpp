@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells when subscriptions come to a publisher and leave it, and publishers to and from a subscription.
+// Prints when subscriptions match a publisher and leave it, and when publishers match a subscription and leave it.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -33,7 +33,7 @@ class MatchedEventDetectNode : public rclcpp::Node {
         kSubscriptionTopic, 10, [](const String&) {}, subscription_options);
   }
 
-  // How often something was told.
+  // The number of reported events.
   size_t events() const { return events_; }
 
  private:
@@ -54,7 +54,7 @@ class MatchedEventDetectNode : public rclcpp::Node {
   rclcpp::Subscription<String>::SharedPtr subscription_;
 };
 
-// Two of what `create` makes come one after the other and go in the same order.
+// Creates two entities with `create`, one after the other, and destroys them in the same order.
 template <typename CreateT>
 void come_and_go(rclcpp::Executor& executor, const MatchedEventDetectNode& detector, const rclcpp::Node& node,
                  const char* what, CreateT create) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes parameters that are even numbers, and no others.
+// Accepts only parameters that are even numbers.
 #include <string>
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the nodes have in common that change their own parameters as another node would.
+// The common part of the nodes that change their own parameters as another node would.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace demo_nodes_cpp {
 
-// False if that is interrupted.
+// Returns false if the program is interrupted.
 template <typename ClientT>
 bool wait_for_service(ClientT& client, const rclcpp::Logger& logger) {
   while (!client.wait_for_service(std::chrono::seconds(1))) {

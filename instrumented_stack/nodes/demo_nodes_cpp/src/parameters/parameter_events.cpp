@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same as parameter_events_async, with a client that waits for each answer.
+// Does the same as parameter_events_async, with a client that waits for each answer.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

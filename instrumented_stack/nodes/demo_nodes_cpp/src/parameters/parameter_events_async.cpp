@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes its own parameters twice, hears of that as every node does, and ends.
+// Changes its own parameters twice, gets the events as every node does, and ends.
 #include "own_parameters.hpp"
 #include "rclcpp_components/register_node_macro.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setting param1 sets param2, too; what the node made of them is noted when both are set.
+// Setting param1 also sets param2. Once both are set, the node logs them.
 #include <algorithm>
 #include <vector>
 

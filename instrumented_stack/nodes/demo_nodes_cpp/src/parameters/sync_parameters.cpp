@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes that set parameters of their own through their services, look at them and end.
+// Nodes that set their own parameters through their services, read them and end.
 #include <vector>
 
 #include "own_parameters.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks service add_two_ints, or the one given as first argument, for a sum and waits for the answer.
+// Asks service add_two_ints, or the service in the first argument, for a sum and waits for the answer.
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
@@ -13,7 +13,7 @@
 
 using AddTwoInts = example_interfaces::srv::AddTwoInts;
 
-// False if it is interrupted before the answer has come.
+// Returns false if the program is interrupted before the answer has come.
 bool ask(const rclcpp::Node::SharedPtr& node, const std::string& service) {
   const auto client = node->create_client<AddTwoInts>(service);
   while (!client->wait_for_service(std::chrono::seconds(1))) {

@@ -16,7 +16,7 @@ class ClientNode : public rclcpp::Node {
 
   explicit ClientNode(const rclcpp::NodeOptions& options) : Node("add_two_ints_client", options) {
     client_ = create_client<AddTwoInts>("add_two_ints");
-    // Not in the constructor: a container that loads this node goes on meanwhile.
+    // Not done in the constructor, because a container that loads this node must not wait.
     timer_ = create_wall_timer(std::chrono::milliseconds(100), [this] { ask_once_there_is_a_server(); });
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds two numbers for whoever asks on service add_two_ints.
+// Adds two numbers for clients of service add_two_ints.
 #include <cinttypes>
 #include <memory>
 

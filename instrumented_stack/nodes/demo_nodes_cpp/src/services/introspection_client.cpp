@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks for a sum twice a second, and tells on add_two_ints/_service_event of the requests it sent and the responses it
-// took if parameter client_configure_introspection wants it to.
+// Asks for a sum twice a second. If parameter client_configure_introspection enables it, publishes the requests sent
+// and the responses taken on add_two_ints/_service_event.
 #include <chrono>
 #include <cinttypes>
 #include <memory>

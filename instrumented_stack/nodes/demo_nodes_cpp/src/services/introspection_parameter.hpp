@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameter by which a demo node lets its calls be watched.
+// The parameter that turns on service introspection of a demo node.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace demo_nodes_cpp {
 
-// Declares a string parameter, disabled (the default), metadata or contents, and calls `configure` with what it stands
-// for: in the constructor and at every change. Throws if the command line gives it another value.
+// Declares a string parameter: disabled (the default), metadata or contents. Calls `configure` with its meaning in the
+// constructor and at every change. Throws if the command line sets another value.
 class IntrospectionParameter {
  public:
   using Configure = std::function<void(rcl_service_introspection_state_t)>;
@@ -24,7 +24,7 @@ class IntrospectionParameter {
       : name_(std::move(name)), configure_(std::move(configure)) {
     check_ = node.add_on_set_parameters_callback(
         [this](const std::vector<rclcpp::Parameter>& parameters) { return check(parameters); });
-    // Only after the change: a callback that checks must have no effect.
+    // Called only after the change, because a callback that checks values must have no effect.
     apply_ = node.add_post_set_parameters_callback(
         [this](const std::vector<rclcpp::Parameter>& parameters) { apply(parameters); });
     node.declare_parameter(name_, "disabled");

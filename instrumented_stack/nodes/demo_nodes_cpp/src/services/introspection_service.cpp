@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds two numbers, and tells on add_two_ints/_service_event of the requests it took and the responses it sent if
-// parameter service_configure_introspection wants it to.
+// Adds two numbers. If parameter service_configure_introspection enables it, publishes the requests taken and the
+// responses sent on add_two_ints/_service_event.
 #include <cinttypes>
 #include <memory>
 

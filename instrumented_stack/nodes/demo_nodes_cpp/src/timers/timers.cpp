@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A timer that runs all the time starts another one, which runs once: made anew each time, or used again.
+// A periodic timer starts another one, which runs once. It is created each time, or reused.
 #include <chrono>
 #include <memory>
 
@@ -10,7 +10,7 @@ namespace demo_nodes_cpp {
 
 using std::chrono::seconds;
 
-// Calls start_one_off() with every third tick.
+// Calls start_one_off() on every third tick.
 class TimersNode : public rclcpp::Node {
  protected:
   TimersNode(const char* name, const rclcpp::NodeOptions& options) : Node(name, options) {
@@ -55,7 +55,7 @@ class ReuseTimerNode : public TimersNode {
  public:
   explicit ReuseTimerNode(const rclcpp::NodeOptions& options) : TimersNode("reuse_timer", options) {
     timer_ = make_one_off();
-    timer_->cancel();  // not yet
+    timer_->cancel();  // started later
   }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One publishes temperatures, the other wants to hear of dangerous ones only.
+// One node publishes temperatures, the other subscribes only to dangerous ones.
 //
-// Parameter of the publisher: publish_ms  between two temperatures, in milliseconds (default 1000)
+// Parameter of the publisher: publish_ms  time between two temperatures, in milliseconds (default 1000)
 #include <chrono>
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Print what is said on topic chatter: one reliably, one as sensor data is received.
+// Two nodes that print the messages of topic chatter: one subscribes reliably, the other as to sensor data.
 #include <memory>
 
 #include "rclcpp/rclcpp.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends a number and a text in memory that belongs to the middleware, where the type of the message allows that.
+// Sends a number and a text. It uses memory of the middleware if the type of the message allows that.
 #include <chrono>
 #include <memory>
 #include <string>
@@ -22,13 +22,13 @@ class LoanedMessageTalker : public rclcpp::Node {
 
  private:
   void send() {
-    // The middleware has the memory of this message: nothing is copied for subscriptions that share it.
+    // The middleware owns the memory of this message. For subscriptions that share it, nothing is copied.
     auto number = number_publisher_->borrow_loaned_message();
     number.get().data = static_cast<double>(count_++);
     RCLCPP_INFO(get_logger(), "Publishing: '%f'", number.get().data);
     number_publisher_->publish(std::move(number));
 
-    // A text has no fixed size: its memory comes from the publisher's allocator instead.
+    // A text has no fixed size, so its memory comes from the publisher's allocator.
     auto text = text_publisher_->borrow_loaned_message();
     text.get().data = "Hello World: " + std::to_string(count_++);
     RCLCPP_INFO(get_logger(), "Publishing: '%s'", text.get().data.c_str());

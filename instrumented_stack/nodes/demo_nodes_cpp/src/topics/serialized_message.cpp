@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Talker and listener on topic chatter that handle the bytes of messages.
+// Talker and listener on topic chatter that work with the bytes of messages.
 #include <chrono>
 #include <cstdio>
 #include <memory>

@@ -20,7 +20,7 @@ class Talker : public rclcpp::Node {
 
  private:
   void say_hello() {
-    // A unique pointer, so that a subscription of the same process can have the very message.
+    // A unique pointer, so that a subscription of the same process gets this message without a copy.
     auto message = std::make_unique<std_msgs::msg::String>();
     message->data = "Hello World: " + std::to_string(++count_);
     RCLCPP_INFO(get_logger(), "Publishing: '%s'", message->data.c_str());
