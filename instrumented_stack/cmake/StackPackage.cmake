@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-# What makes a folder a ROS package: its library, its executables, and its place in a prefix.
+# Makes a folder a ROS package: its library, its executables, and its place in a prefix.
 #
-# The build tree holds a prefix of the same shape as the installed one, ${PROJECT_BINARY_DIR}/prefix, so that whatever
-# finds packages by AMENT_PREFIX_PATH works before installing:
+# The build tree contains a prefix with the layout of the installed one, ${PROJECT_BINARY_DIR}/prefix. So programs that
+# find packages by AMENT_PREFIX_PATH work before installing:
 #   lib/lib<pkg>.so   lib/<pkg>/<executable>   share/<pkg>/package.xml   share/ament_index/resource_index/packages/<pkg>
-# Run paths are relative ($ORIGIN), so either prefix can be moved. Users of an installed prefix write
-# find_package(<pkg> REQUIRED) and link <pkg>::<pkg>. This file is installed too: rosidl_generate_interfaces needs it in
-# the projects of users.
+# Run paths are relative ($ORIGIN), so either prefix can be moved. Users of an installed prefix write find_package(<pkg>
+# REQUIRED) and link <pkg>::<pkg>. This file is also installed, because rosidl_generate_interfaces needs it in users'
+# projects.
 include_guard(GLOBAL)
-cmake_policy(VERSION 3.20...3.25)  # projects of users may ask for older behaviour for themselves
+cmake_policy(VERSION 3.20...3.25)  # users' projects may ask for older behaviour for themselves
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # stack_library(<pkg> [SOURCES <file>...] [PUBLIC <target>...] [PRIVATE <target>...] [INCLUDE <dir>...]
 #               [CONFIG_EXTRAS <file>...] [SKIP_INSTALL])
 #
-# A shared library (without SOURCES: headers only) with the alias <pkg>::<pkg>. Its headers are those under each
-# <dir>, include/ unless told otherwise. CONFIG_EXTRAS are CMake files that
-# find_package(<pkg>) runs. With SKIP_INSTALL it is a library of the build tree alone, not a package.
+# A shared library (without SOURCES: headers only) with the alias <pkg>::<pkg>. Its headers are those under each <dir>,
+# by default include/. CONFIG_EXTRAS are CMake files that find_package(<pkg>) runs. With SKIP_INSTALL it is only a
+# library of the build tree, not a package.
 function(stack_library pkg)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS")
   if(ARG_UNPARSED_ARGUMENTS)
@@ -34,9 +34,9 @@ function(stack_library pkg)
       target_link_libraries(${pkg} PRIVATE project_options)
     endif()
     target_link_libraries(${pkg} PRIVATE ${ARG_PRIVATE})
-    # What a message runs through has left the caches by the time that it comes, so each line of memory less counts: calls
-    # go straight to where they lead, without stubs, and a library's calls of its own functions not even through a table.
-    # The dynamic linker resolves all at the start, which takes less than a millisecond.
+    # When a message comes, the code on its way is no longer in the caches, so every cache line counts. Calls go
+    # directly to their target, without stubs, and calls within a library do not even use a table. The dynamic linker
+    # resolves all symbols at the start, which takes less than a millisecond.
     target_compile_options(${pkg} PRIVATE -fno-plt $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
     target_link_options(${pkg} PRIVATE -Wl,-Bsymbolic-functions)
   else()
@@ -68,7 +68,7 @@ endfunction()
 
 # stack_node(<pkg> <executable> SOURCES <file>... LINK <target>...)
 #
-# An executable that `<node pkg="<pkg>" exec="<executable>"/>` finds. Several packages may have executables of one name;
+# An executable for `<node pkg="<pkg>" exec="<executable>"/>`. Several packages may have executables with the same name;
 # the CMake target is <pkg>_<executable>.
 function(stack_node pkg executable)
   cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "SOURCES;LINK")
@@ -89,8 +89,8 @@ endfunction()
 
 # stack_plugin(<pkg> <library> SOURCES <file>... LINK <target>...)
 #
-# A shared library that is loaded by name at run time, such as one with components; nobody links it. The CMake target is
-# <library>.
+# A shared library that is loaded by name at run time, such as one with components. No target links it. The CMake target
+# is <library>.
 function(stack_plugin pkg library)
   cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "SOURCES;LINK")
   if(ARG_UNPARSED_ARGUMENTS)
@@ -108,8 +108,8 @@ endfunction()
 
 # stack_package(<pkg>)
 #
-# Enters the package into the ament index and puts its package.xml beside it, in both prefixes. stack_library and
-# stack_node call it; call it yourself for a package that has neither.
+# Adds the package to the ament index and copies its package.xml, in both prefixes. stack_library and stack_node call
+# it; call it yourself for a package that has neither.
 function(stack_package pkg)
   get_property(known GLOBAL PROPERTY STACK_PACKAGE_${pkg})
   if(known)
@@ -127,7 +127,7 @@ endfunction()
 
 # stack_package_version(<variable>)
 #
-# The version in the current folder's package.xml; the project's where there is none.
+# The version in the current folder's package.xml, or the project's version if there is none.
 function(stack_package_version variable)
   set(version ${PROJECT_VERSION})
   if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/package.xml)
@@ -141,8 +141,8 @@ function(stack_package_version variable)
   set(${variable} ${version} PARENT_SCOPE)
 endfunction()
 
-# Puts a binary at `place` in the build tree's prefix and lets it find the libraries of its own prefix from there. What it
-# was linked with from elsewhere it finds there: the packages of users are in other prefixes than the stack.
+# Puts a binary at `place` in the build tree's prefix. The binary finds the libraries of its own prefix by relative
+# paths. Others are found where they were linked, because the packages of users are in other prefixes than the stack.
 function(_stack_place target place rpath)
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # ament_environment_hooks(<file>...)
 #
-# Installs scripts for who sets up an environment, in share/<pkg>/environment; one that ends in .in is configured first.
-# Nothing here runs them. Those that ROS 2 provides for library and program paths are not needed: programs know where
+# Installs scripts that set up an environment, in share/<pkg>/environment; one that ends in .in is configured first.
+# Nothing here runs them. ROS 2's scripts for library and program paths are not needed, because programs know where
 # their libraries are.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What find_package() of this package gives to others. Collected here, written by ament_package().
+# What find_package() of this package provides to others. Collected here, written by ament_package().
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 
@@ -11,7 +11,7 @@ endfunction()
 
 # ament_export_dependencies(<pkg>...)
 #
-# Packages that are found with this one, and whose libraries and headers count as its own.
+# Packages that are found together with this one. Their libraries and headers count as its own.
 function(ament_export_dependencies)
   _ament_collect(DEPENDENCIES ${ARGN})
 endfunction()
@@ -39,7 +39,7 @@ function(ament_export_include_directories)
   _ament_collect(INCLUDE_DIRS ${ARGN})
 endfunction()
 
-# ament_export_libraries(<library>...): targets of the project, names in the prefix's lib, or absolute files.
+# ament_export_libraries(<library>...): targets of the project, names in the prefix's lib folder, or absolute files.
 function(ament_export_libraries)
   foreach(library IN LISTS ARGN)
     if(TARGET ${library})

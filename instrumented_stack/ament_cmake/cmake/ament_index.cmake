@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# Entries of the ament index beside the package itself.
+# Entries of the ament index besides the package itself.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 
 # ament_index_register_resource(<type> [CONTENT <text>] [CONTENT_FILE <file>] [PACKAGE_NAME <pkg>])
 #
-# Enters the package among the resources of a type. Text and file may hold generator expressions.
+# Registers the package as a resource of a type. Text and file may contain generator expressions.
 function(ament_index_register_resource type)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "CONTENT;CONTENT_FILE;PACKAGE_NAME" "")
   if(NOT ARG_PACKAGE_NAME)

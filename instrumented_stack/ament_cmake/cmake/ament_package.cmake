@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # ament_package([CONFIG_EXTRAS <file>...] [CONFIG_EXTRAS_POST <file>...])
 #
-# Last in the CMakeLists.txt of a package: enters it into the ament index, installs its package.xml, and writes what
-# find_package() of it reads. The extras are CMake files that find_package() runs before and after the exported targets;
-# one that ends in .in is configured first. The project must be called as the package is.
+# Call it last in the CMakeLists.txt of a package. It adds the package to the ament index, installs its package.xml, and
+# writes the files that find_package() reads. The extras are CMake files that find_package() runs before and after the
+# exported targets; one that ends in .in is configured first. The project must have the name of the package.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
-list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # StackPackage stands beside it when installed
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # when installed, StackPackage is in this folder
 include(StackPackage)
 
 set_property(GLOBAL PROPERTY AMENT_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
@@ -43,7 +43,7 @@ function(ament_package)
   set(exports ${CMAKE_CURRENT_BINARY_DIR}/ament_cmake/${pkg}Exports.cmake)
   configure_file(${modules}/package_exports.cmake.in ${exports} @ONLY)
   install(FILES ${exports} DESTINATION share/${pkg}/cmake)
-  # A package with messages has a configuration already, which reads the exports.
+  # A package with messages already has a configuration, which reads the exports.
   get_property(has_config GLOBAL PROPERTY STACK_CONFIG_${pkg})
   if(NOT has_config)
     _stack_config(${pkg} "")

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the package.xml of the project says.
+# Reads the package.xml of the project.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 
 # ament_package_xml()
 #
 # Sets in the caller's scope <project>_NAME, <project>_VERSION and the lists <project>_BUILD_DEPENDS,
-# _BUILDTOOL_DEPENDS, _BUILD_EXPORT_DEPENDS, _EXEC_DEPENDS and _TEST_DEPENDS. A <depend> is in three of them. Conditions
-# on dependencies are not evaluated: they count as true.
+# _BUILDTOOL_DEPENDS, _BUILD_EXPORT_DEPENDS, _EXEC_DEPENDS and _TEST_DEPENDS. A <depend> goes into three of them.
+# Conditions on dependencies are not evaluated: they count as true.
 function(ament_package_xml)
   set(file ${PROJECT_SOURCE_DIR}/package.xml)
   if(NOT EXISTS ${file})

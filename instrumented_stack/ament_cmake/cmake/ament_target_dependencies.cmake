@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # ament_target_dependencies(<target> [PUBLIC|PRIVATE|INTERFACE] [SYSTEM] <pkg>...)
 #
-# Lets a target use packages that were found: their targets, and what they name in <pkg>_LIBRARIES, _INCLUDE_DIRS,
-# _DEFINITIONS and _INTERFACES. Who links the target gets them too, unless they are PRIVATE.
+# Lets a target use packages that were found: their targets, and the contents of <pkg>_LIBRARIES, _INCLUDE_DIRS,
+# _DEFINITIONS and _INTERFACES. Targets that link it get them too, unless they are PRIVATE.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 
@@ -38,8 +38,8 @@ function(ament_target_dependencies target)
     if(NOT libraries AND TARGET ${package}::${package})
       set(libraries ${package}::${package})
     endif()
-    # The properties, not target_link_libraries: a target takes either its form with PUBLIC and so on or the one without,
-    # and the package may use both.
+    # Properties are used instead of target_link_libraries. A target accepts either its form with PUBLIC and so on or
+    # the form without, and the package may use both.
     foreach(property IN LISTS properties)
       set_property(TARGET ${target} APPEND PROPERTY ${property} ${libraries})
     endforeach()
@@ -50,7 +50,7 @@ endfunction()
 
 # ament_include_directories_order(<variable> <dir>...), ament_libraries_deduplicate(<variable> <library>...)
 #
-# Here the order is as it comes, without duplicates.
+# Here the order does not change; duplicates are removed.
 function(ament_include_directories_order variable)
   list(REMOVE_DUPLICATES ARGN)
   set(${variable} ${ARGN} PARENT_SCOPE)

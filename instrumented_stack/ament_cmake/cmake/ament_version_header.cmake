@@ -2,7 +2,7 @@
 # ament_generate_version_header(<target> [HEADER_PATH <path>] [INSTALL_PATH <dir>])
 #
 # Lets a target include <pkg>/version.h, with <PKG>_VERSION_MAJOR, _MINOR, _PATCH, _STR and <PKG>_VERSION_GTE(major,
-# minor, patch), from the version in package.xml; and installs it.
+# minor, patch), and installs it. The version comes from package.xml.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# ament_cmake_auto: a package whose CMakeLists.txt takes its dependencies from its package.xml.
+# ament_cmake_auto: for packages whose CMakeLists.txt takes its dependencies from package.xml.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)
 include_guard(GLOBAL)
@@ -7,8 +7,8 @@ cmake_policy(VERSION 3.20...3.25)
 
 # ament_auto_find_build_dependencies([REQUIRED <pkg>...])
 #
-# find_package() for what package.xml says is needed for building. What is not found is skipped, as it may not be a CMake
-# package, unless it is REQUIRED.
+# Calls find_package() for the build dependencies in package.xml. A dependency that is not found is skipped, because it
+# may not be a CMake package, unless it is REQUIRED.
 macro(ament_auto_find_build_dependencies)
   cmake_parse_arguments(_ament_auto "" "" "REQUIRED" ${ARGN})
   ament_package_xml()
@@ -27,7 +27,7 @@ macro(ament_auto_find_build_dependencies)
   list(REMOVE_DUPLICATES ${PROJECT_NAME}_FOUND_BUILD_DEPENDS)
 endmacro()
 
-# ament_auto_find_test_dependencies(): the same for tests.
+# ament_auto_find_test_dependencies(): does so for test dependencies.
 macro(ament_auto_find_test_dependencies)
   ament_package_xml()
   foreach(_ament_auto_package IN LISTS ${PROJECT_NAME}_TEST_DEPENDS)
@@ -53,7 +53,7 @@ function(_ament_auto_use target)
   endif()
 endfunction()
 
-# <sources> are files, or all those in the DIRECTORY.
+# <sources> are the given files, or all sources in the DIRECTORY.
 function(_ament_auto_sources variable)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "DIRECTORY" "")
   set(sources ${ARG_UNPARSED_ARGUMENTS})
@@ -67,7 +67,7 @@ endfunction()
 
 # ament_auto_add_library(<target> [STATIC|SHARED|MODULE|INTERFACE] [DIRECTORY <dir>] <source>...)
 #
-# add_library() with the headers in include/ and the dependencies that were found.
+# Calls add_library(), with the headers in include/ and the dependencies that were found.
 function(ament_auto_add_library target)
   _ament_auto_sources(sources ${ARGN})
   add_library(${target} ${sources})
@@ -77,7 +77,7 @@ endfunction()
 
 # ament_auto_add_executable(<target> [DIRECTORY <dir>] <source>...)
 #
-# The same for a program, which also links the libraries made by ament_auto_add_library() so far.
+# Does so for a program, which also links the libraries that ament_auto_add_library() has made so far.
 function(ament_auto_add_executable target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "NO_TARGET_LINK_LIBRARIES" "" "")
   _ament_auto_sources(sources ${ARG_UNPARSED_ARGUMENTS})
@@ -119,8 +119,8 @@ endfunction()
 
 # ament_auto_package([INSTALL_TO_PATH] [INSTALL_TO_SHARE <dir>...] [arguments of ament_package])
 #
-# Installs headers, libraries, programs (in lib/<pkg>, or bin with INSTALL_TO_PATH) and folders of data, exports what was
-# found for building, and calls ament_package().
+# Installs headers, libraries, programs (in lib/<pkg>, or bin with INSTALL_TO_PATH) and data folders. Exports the build
+# dependencies that were found, and calls ament_package().
 macro(ament_auto_package)
   cmake_parse_arguments(_ament_auto "INSTALL_TO_PATH;USE_SCOPED_HEADER_INSTALL_DIR" "" "INSTALL_TO_SHARE" ${ARGN})
   _ament_auto_install("${_ament_auto_INSTALL_TO_PATH}" "${_ament_auto_INSTALL_TO_SHARE}")

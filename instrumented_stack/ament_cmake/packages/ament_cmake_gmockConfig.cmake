@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# ament_cmake_gmock: tests with GoogleMock, run by ctest. For the arguments see ament_cmake_gtest.
+# ament_cmake_gmock: tests with GoogleMock, run by ctest. The arguments are those of ament_cmake_gtest.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake_gtest)
 include_guard(GLOBAL)

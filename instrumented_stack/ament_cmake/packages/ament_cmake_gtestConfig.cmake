@@ -9,12 +9,12 @@ cmake_policy(VERSION 3.20...3.25)
 #                 [WORKING_DIRECTORY <dir>] [RUNNER <file>] [ENV <name=value>...] [APPEND_ENV <name=value>...]
 #                 [APPEND_LIBRARY_DIRS <dir>...])
 #
-# A program with GoogleTest's main() and a test of its name. RUNNER has no effect.
+# Creates a program with GoogleTest's main() and a test with its name. RUNNER has no effect.
 function(ament_add_gtest target)
   _ament_test(${target} "GTest::gtest;GTest::gtest_main" TRUE ${ARGN})
 endfunction()
 
-# The same in two steps.
+# Do the same in two steps.
 function(ament_add_gtest_executable target)
   _ament_test(${target} "GTest::gtest;GTest::gtest_main" FALSE ${ARGN})
 endfunction()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# ament_cmake_python: Python modules in a package that is built by CMake.
+# ament_cmake_python: Python modules in a package built with CMake.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)
 include_guard(GLOBAL)
@@ -9,7 +9,7 @@ set(PYTHON_INSTALL_DIR lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINO
 
 # ament_python_install_package(<module> [PACKAGE_DIR <dir>] [DESTINATION <dir>])
 #
-# Installs the folder of a module, ./<module> unless told otherwise.
+# Installs the folder of a module, by default ./<module>.
 function(ament_python_install_package module)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_COMPILE" "PACKAGE_DIR;DESTINATION;VERSION;SETUP_CFG;SCRIPTS_DESTINATION" "")
   if(NOT ARG_PACKAGE_DIR)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# ament_lint_auto: the linters that package.xml names as test dependencies. None of them comes with this stack.
+# ament_lint_auto: the linters that package.xml names as test dependencies. This stack contains none of them.
 include(CMakeFindDependencyMacro)
 find_dependency(ament_cmake)
 

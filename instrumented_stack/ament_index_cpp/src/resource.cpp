@@ -34,7 +34,7 @@ bool has_resource(const std::string& resource_type, const std::string& resource_
     throw std::runtime_error("ament_index_cpp: the resource name must not be empty");
   }
   if (resource_name.find('/') != std::string::npos) {
-    return false;  // would leave the index
+    return false;  // it would lead out of the index
   }
   for (const std::string& prefix : get_search_paths()) {
     std::error_code error;
@@ -74,7 +74,7 @@ std::map<std::string, std::string> get_resources(const std::string& resource_typ
     for (fs::directory_iterator entry(index_folder(prefix, resource_type), error), end; !error && entry != end;
          entry.increment(error)) {
       const std::string name = entry->path().filename().string();
-      // Hidden files are no resources.
+      // Hidden files are not resources.
       if (name.front() != '.' && entry->is_regular_file(error)) {
         resources.emplace(name, prefix);
       }

@@ -19,7 +19,7 @@ bool exists_as_directory(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
-// PREFIX of PREFIX/lib/libament_index_cpp.so, which may have been moved. Empty if that is not where the library is.
+// PREFIX in PREFIX/lib/libament_index_cpp.so, which may have been moved. Empty if the library is in another folder.
 std::string own_prefix() {
   Dl_info info{};
   if (dladdr(reinterpret_cast<const void*>(&own_prefix), &info) == 0 || info.dli_fname == nullptr) {

@@ -12,10 +12,10 @@ namespace class_loader {
 namespace {
 
 std::shared_ptr<void> open(const std::string& path) {
-  // Registrations of libraries that another thread loads meanwhile are made in that thread.
+  // Another thread may load libraries meanwhile; it makes their registrations itself.
   const detail::Loading loading;
-  // Now: an undefined symbol is told here rather than ending the program in some function. Local: classes of different
-  // libraries may have functions of one name.
+  // RTLD_NOW: an undefined symbol is reported here; otherwise it would end the program in some function. RTLD_LOCAL:
+  // classes of different libraries may have functions with the same name.
   void* const handle = dlopen(path.empty() ? nullptr : path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) {
     throw LibraryLoadException("cannot load the library '" + path + "': " + dlerror());
@@ -106,7 +106,7 @@ void* ClassLoader::create(const std::type_info& base, const std::string& class_n
 
 void ClassLoader::keep_for_ever(const std::shared_ptr<void>& library) {
   static std::mutex mutex;
-  // Never destroyed, so no library is closed when the process ends.
+  // Never destroyed, so that no library is closed when the process ends.
   static auto& libraries = *new std::vector<std::shared_ptr<void>>;
   const std::lock_guard lock(mutex);
   libraries.push_back(library);

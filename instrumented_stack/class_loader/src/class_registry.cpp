@@ -10,7 +10,7 @@ namespace class_loader::detail {
 
 namespace {
 
-// Registrations come and go with libraries, in the threads that load them.
+// The threads that load and unload libraries add and remove registrations.
 struct Registry {
   std::mutex mutex;
   std::vector<const Registration*> registrations;

@@ -40,7 +40,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-// The package is the one whose share folder holds the file, or has the nearest package.xml.
+// The package whose share folder contains the file, or the one with the nearest package.xml.
 std::string package_of(const fs::path& file) {
   for (fs::path folder = file.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
     tinyxml2::XMLDocument document;
@@ -144,7 +144,7 @@ std::map<std::string, ClassDesc> read_plugins(const std::vector<std::string>& fi
 }
 
 std::string find_library(const ClassDesc& plugin) {
-  // Descriptions name libraries as CMake does, as files, or with a folder: shapes, libshapes, lib/libshapes.so.
+  // Descriptions may name a library as in CMake, as a file, or with a folder: shapes, libshapes, lib/libshapes.so.
   const fs::path named(plugin.library_name_);
   std::vector<fs::path> names;
   const std::string stem = named.filename().string();
@@ -156,7 +156,7 @@ std::string find_library(const ClassDesc& plugin) {
     const fs::path prefix = ament_index_cpp::get_package_prefix(plugin.package_);
     folders = {prefix / "lib", prefix / "lib" / plugin.package_, prefix};
   } catch (const std::exception&) {
-    // A description that was given by its path may be of no package.
+    // A description that was given by its path may belong to no package.
   }
   folders.push_back(fs::path(plugin.plugin_manifest_path_).parent_path());
   std::string places;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a package is installed.
+// Finds the prefix in which a package is installed.
 #pragma once
 
 #include <stdexcept>

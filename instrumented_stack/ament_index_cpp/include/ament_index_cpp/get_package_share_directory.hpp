@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the files of a package are that are no programs and no libraries.
+// Finds the folder of a package's files other than programs and libraries.
 #pragma once
 
 #include <filesystem>

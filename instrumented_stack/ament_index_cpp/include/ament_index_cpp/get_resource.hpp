@@ -6,8 +6,8 @@
 
 namespace ament_index_cpp {
 
-// The first one in the order of get_search_paths(). False, and nothing changed, if there is none. Throws
-// std::runtime_error for an empty type or name, and when the file cannot be read.
+// Reads the first one in the order of get_search_paths(). Returns false and changes nothing if there is none. Throws
+// std::runtime_error for an empty type or name, and if the file cannot be read.
 bool get_resource(const std::string& resource_type, const std::string& resource_name, std::string& content,
                   std::string* prefix_path = nullptr);
 

@@ -7,7 +7,7 @@
 
 namespace ament_index_cpp {
 
-// Names with the first prefix, in the order of get_search_paths(), that has them. Throws std::runtime_error for an
+// Each name with the first prefix, in the order of get_search_paths(), that has it. Throws std::runtime_error for an
 // empty type.
 std::map<std::string, std::string> get_resources(const std::string& resource_type);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the ament index is looked for.
+// The folders in which the ament index is searched.
 #pragma once
 
 #include <list>
@@ -7,8 +7,8 @@
 
 namespace ament_index_cpp {
 
-// The directories of AMENT_PREFIX_PATH that exist, in order, and last the prefix that this library is installed in: its
-// own packages are found with no environment set up. Unlike in ROS 2 an unset variable is no error.
+// The existing directories of AMENT_PREFIX_PATH, in order. The last one is the prefix in which this library is
+// installed, so its own packages are found without an environment. Unlike in ROS 2 an unset variable is no error.
 std::list<std::string> get_search_paths();
 
 }  // namespace ament_index_cpp

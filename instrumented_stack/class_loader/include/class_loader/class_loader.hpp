@@ -20,7 +20,8 @@ std::string systemLibrarySuffix();
 // "libshapes.so" for "shapes".
 std::string systemLibraryFormat(const std::string& library_name);
 
-// Thread safe. Objects keep the library: it goes with the loader, or unloadLibrary(), or later with the last of them.
+// Thread safe. Objects keep the library loaded. It is unloaded with the loader, by unloadLibrary(), or later with the
+// last object.
 class ClassLoader {
  public:
   template <typename Base>
@@ -28,14 +29,14 @@ class ClassLoader {
   template <typename Base>
   using UniquePtr = std::unique_ptr<Base, DeleterType<Base>>;
 
-  // `library_path` as dlopen() takes it; empty for the libraries that the program was linked with. Loads it at once, or
-  // with the first object if `ondemand_load_unload`. Throws LibraryLoadException.
+  // `library_path` is passed to dlopen(); empty means the libraries that the program was linked with. Loads the library
+  // at once, or for the first object if `ondemand_load_unload`. Throws LibraryLoadException.
   explicit ClassLoader(const std::string& library_path, bool ondemand_load_unload = false);
   virtual ~ClassLoader();
   ClassLoader(const ClassLoader&) = delete;
   ClassLoader& operator=(const ClassLoader&) = delete;
 
-  // Of a library that is not loaded: none.
+  // Empty if the library is not loaded.
   template <typename Base>
   std::vector<std::string> getAvailableClasses() const {
     return classes_of(typeid(Base));
@@ -50,7 +51,7 @@ class ClassLoader {
     return false;
   }
 
-  // Throw CreateClassException for a class that there is not, or whose library is not loaded.
+  // Throw CreateClassException if the class does not exist or its library is not loaded.
   template <typename Base>
   std::shared_ptr<Base> createSharedInstance(const std::string& derived_class_name) {
     return createUniqueInstance<Base>(derived_class_name);
@@ -65,7 +66,7 @@ class ClassLoader {
     auto* const object = static_cast<Base*>(create(typeid(Base), derived_class_name, library));
     return UniquePtr<Base>(object, [library](Base* created) { delete created; });
   }
-  // For the caller to delete. The library then stays to the end of the process.
+  // The caller deletes the object. The library then stays loaded until the process ends.
   template <typename Base>
   Base* createUnmanagedInstance(const std::string& derived_class_name) {
     std::shared_ptr<void> library;
@@ -79,9 +80,9 @@ class ClassLoader {
   bool isLibraryLoadedByAnyClassloader() const;
   bool isOnDemandLoadUnloadEnabled() const { return on_demand_; }
 
-  // Throws LibraryLoadException with what the dynamic loader says.
+  // Throws LibraryLoadException with the message of the dynamic loader.
   void loadLibrary();
-  // To be called as often as loadLibrary(), the constructor's call included; how often that still is.
+  // Call it as often as loadLibrary(), including the constructor's call. Returns how many calls are still needed.
   int unloadLibrary();
 
  private:
@@ -93,8 +94,8 @@ class ClassLoader {
   const bool on_demand_;
   mutable std::mutex mutex_;
   std::shared_ptr<void> library_;     // null: not loaded by this loader
-  std::weak_ptr<void> last_library_;  // of objects that outlive the on-demand loading
-  std::string name_;                  // as registrations know the library
+  std::weak_ptr<void> last_library_;  // for objects that outlive on-demand loading
+  std::string name_;                  // as in registrations
   int loads_ = 0;
 };
 

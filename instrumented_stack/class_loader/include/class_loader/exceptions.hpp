@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What loaders throw.
+// The exceptions of loaders.
 #pragma once
 
 #include <stdexcept>

@@ -11,14 +11,14 @@
 
 namespace class_loader {
 
-// Not thread safe, unlike its parts.
+// Not thread safe, unlike its loaders.
 class MultiLibraryClassLoader {
  public:
   explicit MultiLibraryClassLoader(bool enable_ondemand_loadunload) : on_demand_(enable_ondemand_loadunload) {}
 
-  // Throws LibraryLoadException. Nothing happens for one that is there already.
+  // Throws LibraryLoadException. Does nothing if the library is loaded already.
   void loadLibrary(const std::string& library_path);
-  // How often it must still be called: 0. Throws LibraryUnloadException for a library that is not there.
+  // Returns how many calls are still needed: 0. Throws LibraryUnloadException if the library is not loaded.
   int unloadLibrary(const std::string& library_path);
   bool isLibraryAvailable(const std::string& library_path) const { return loaders_.count(library_path) != 0; }
   std::vector<std::string> getRegisteredLibraries() const;
@@ -46,8 +46,8 @@ class MultiLibraryClassLoader {
     return false;
   }
 
-  // Without a path: of the first library, by its path, that has the class. Throw CreateClassException, and
-  // NoClassLoaderExistsException for a library that is not there.
+  // Without a path, the first library (sorted by path) that has the class is used. Throw CreateClassException, and
+  // NoClassLoaderExistsException if the library is not loaded.
   template <typename Base>
   std::shared_ptr<Base> createInstance(const std::string& class_name) {
     return loader_of<Base>(class_name).template createInstance<Base>(class_name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a class of this library one that loaders can create:
+// Lets loaders create a class of this library:
 //
 //   CLASS_LOADER_REGISTER_CLASS(shapes::Square, shapes::Shape)
 //
@@ -9,10 +9,10 @@
 #include "class_loader/detail/class_registry.hpp"
 
 #define CLASS_LOADER_REGISTER_CLASS(Derived, Base) CLASS_LOADER_REGISTER_CLASS_COUNTED(Derived, Base, __COUNTER__)
-// In ROS 2 the message is logged when the library is loaded; here nothing is.
+// In ROS 2 the message is logged when the library is loaded; here it is not.
 #define CLASS_LOADER_REGISTER_CLASS_WITH_MESSAGE(Derived, Base, Message) \
   CLASS_LOADER_REGISTER_CLASS_COUNTED(Derived, Base, __COUNTER__)
-// A level of its own: __COUNTER__ must be a number before it becomes part of a name.
+// A separate macro level, because __COUNTER__ must be a number before it becomes part of a name.
 #define CLASS_LOADER_REGISTER_CLASS_COUNTED(Derived, Base, number) \
   CLASS_LOADER_REGISTER_CLASS_NUMBERED(Derived, Base, number)
 #define CLASS_LOADER_REGISTER_CLASS_NUMBERED(Derived, Base, number)                                              \

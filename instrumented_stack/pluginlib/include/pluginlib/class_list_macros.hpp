@@ -3,7 +3,8 @@
 //
 //   PLUGINLIB_EXPORT_CLASS(shapes::Square, shapes::Shape)
 //
-// in one source file, outside every namespace. In CMake, pluginlib_export_plugin_description_file() tells of it.
+// in one source file, outside every namespace. In CMake, pluginlib_export_plugin_description_file() registers its
+// description.
 #pragma once
 
 #include "class_loader/register_macro.hpp"

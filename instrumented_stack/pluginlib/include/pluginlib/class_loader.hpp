@@ -40,15 +40,15 @@ class ClassLoaderBase {
   virtual void refreshDeclaredClasses() = 0;
 };
 
-// Functions that take the name of a plugin throw LibraryLoadException for one that nobody exports, or whose library
-// cannot be loaded. Not thread safe.
+// Functions that take the name of a plugin throw LibraryLoadException if no package exports it or its library cannot be
+// loaded. Not thread safe.
 template <typename T>
 class ClassLoader : public ClassLoaderBase {
  public:
   using UniquePtr = pluginlib::UniquePtr<T>;
 
-  // `base_class` is written as in the descriptions; `plugin_xml_paths` are descriptions instead of those in the ament
-  // index. Throws ClassLoaderException for a package that is not found.
+  // `base_class` is written as in the descriptions. If `plugin_xml_paths` are given, they replace the descriptions in
+  // the ament index. Throws ClassLoaderException if the package is not found.
   ClassLoader(std::string package, std::string base_class, std::string attrib_name = std::string("plugin"),
               std::vector<std::string> plugin_xml_paths = std::vector<std::string>())
       : package_(std::move(package)),
@@ -62,7 +62,7 @@ class ClassLoader : public ClassLoaderBase {
     plugins_ = detail::read_plugins(files_, base_class_);
   }
 
-  // Load the library if need be. Objects keep it; it goes with the loader and the last of them. Throw
+  // Load the library if needed. Objects keep it loaded; it is unloaded with the loader and the last object. Throw
   // CreateClassException if the library has no such class.
   std::shared_ptr<T> createSharedInstance(const std::string& lookup_name) { return createUniqueInstance(lookup_name); }
   UniquePtr createUniqueInstance(const std::string& lookup_name) {
@@ -70,7 +70,7 @@ class ClassLoader : public ClassLoaderBase {
       return loader_.createUniqueInstance<T>(class_name, library);
     });
   }
-  // For the caller to delete. The library then stays to the end of the process.
+  // The caller deletes the object. The library then stays loaded until the process ends.
   T* createUnmanagedInstance(const std::string& lookup_name) {
     return create(lookup_name, [this](const std::string& class_name, const std::string& library) {
       return loader_.createUnmanagedInstance<T>(class_name, library);
@@ -86,11 +86,11 @@ class ClassLoader : public ClassLoaderBase {
     return names;
   }
   std::string getBaseClassType() const override { return base_class_; }
-  // What follows the last '/' or ':'.
+  // The part after the last '/' or ':'.
   std::string getName(const std::string& lookup_name) override {
     return lookup_name.substr(lookup_name.find_last_of("/:") + 1);
   }
-  // Empty for a plugin that nobody exports, as the following ones.
+  // Empty if no package exports the plugin; so are the following functions.
   std::string getClassType(const std::string& lookup_name) override {
     return told_of(lookup_name, &ClassDesc::derived_class_);
   }
@@ -103,7 +103,7 @@ class ClassLoader : public ClassLoaderBase {
   std::string getPluginManifestPath(const std::string& lookup_name) override {
     return told_of(lookup_name, &ClassDesc::plugin_manifest_path_);
   }
-  // Where the library is.
+  // The path of the library.
   std::string getClassLibraryPath(const std::string& lookup_name) override {
     return detail::find_library(plugin(lookup_name));
   }
@@ -122,7 +122,7 @@ class ClassLoader : public ClassLoaderBase {
       throw LibraryLoadException("failed to load the library of plugin '" + lookup_name + "': " + error.what());
     }
   }
-  // How often it must still be called: 0. Throws LibraryUnloadException for a library that is not loaded.
+  // Returns how many calls are still needed: 0. Throws LibraryUnloadException if the library is not loaded.
   int unloadLibraryForClass(const std::string& lookup_name) override {
     try {
       return loader_.unloadLibrary(plugin(lookup_name).resolved_library_path_);
@@ -132,7 +132,7 @@ class ClassLoader : public ClassLoaderBase {
   }
   std::vector<std::string> getRegisteredLibraries() override { return loader_.getRegisteredLibraries(); }
 
-  // Finds what has come since; what is loaded stays.
+  // Finds new plugins; loaded libraries stay loaded.
   void refreshDeclaredClasses() override {
     files_ = detail::find_descriptions(package_, attribute_);
     std::map<std::string, ClassDesc> found = detail::read_plugins(files_, base_class_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What loaders of plugins throw.
+// The exceptions of plugin loaders.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The classes that the libraries of this process have to offer.
+// The classes that the libraries of this process offer.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace class_loader::detail {
 
-// A static object in the library of the class, made by CLASS_LOADER_REGISTER_CLASS.
+// CLASS_LOADER_REGISTER_CLASS creates it as a static object in the library of the class.
 class Registration {
  public:
-  // The pointer that `create` returns is one to the base class.
+  // `create` returns a pointer to the base class.
   using Create = void* (*)();
 
   Registration(const char* class_name, const std::type_info& base, Create create);
@@ -20,13 +20,13 @@ class Registration {
   Registration& operator=(const Registration&) = delete;
 
   const std::string class_name;
-  const std::string base;  // by its name: libraries may have a type_info each
+  const std::string base;  // by name: each library may have its own type_info
   const Create create;
-  const std::string library;  // as the dynamic loader names it
-  const bool is_linked;       // not of a library that a loader has loaded
+  const std::string library;  // as in the dynamic loader
+  const bool is_linked;       // the library was not loaded by a loader
 };
 
-// While one lives, what this thread registers is of libraries that are loaded at run time.
+// While one lives, registrations of this thread belong to libraries that are loaded at run time.
 class Loading {
  public:
   Loading();
@@ -35,11 +35,11 @@ class Loading {
   Loading& operator=(const Loading&) = delete;
 };
 
-// The library "" stands for all that the program was linked with.
+// The library "" means all libraries that the program was linked with.
 
-// Those with the base class in the library, in the order in which they were registered.
+// The classes of the library with the base class, in the order of registration.
 std::vector<std::string> classes_in(const std::string& library, const std::type_info& base);
-// Null if there is no such class.
+// Null if the class does not exist.
 Registration::Create find_class(const std::string& library, const std::type_info& base, const std::string& class_name);
 
 }  // namespace class_loader::detail

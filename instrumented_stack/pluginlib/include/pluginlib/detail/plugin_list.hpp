@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plugins that packages export: their descriptions, and where their libraries are.
+// The exported plugins: their descriptions, and the paths of their libraries.
 #pragma once
 
 #include <map>
@@ -16,12 +16,12 @@ void require_package(const std::string& package);
 // The descriptions of plugins for the package, in all prefixes of AMENT_PREFIX_PATH.
 std::vector<std::string> find_descriptions(const std::string& package, const std::string& attribute);
 
-// The plugins with that base class, by lookup name. A file that cannot be read, or that is no description, is reported
-// on stderr and costs its plugins only.
+// The plugins with that base class, by lookup name. A file that cannot be read, or is not a description, is reported on
+// stderr. Only its own plugins are then missing.
 std::map<std::string, ClassDesc> read_plugins(const std::vector<std::string>& files, const std::string& base_class);
 
-// Where the library is: in the prefix of the package, next to it, or where the dynamic loader looks. Throws
-// LibraryLoadException with the places.
+// Finds the library: in the prefix of the package, next to the package, or in the folders of the dynamic loader. Throws
+// LibraryLoadException with the searched places.
 std::string find_library(const ClassDesc& plugin);
 
 }  // namespace pluginlib::detail
