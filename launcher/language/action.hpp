@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One thing that a launch file asks for.
 //
-// An action is made once, while its file is loaded, and never changes. It is visited by LaunchContext::visit()
-// (launcher/visit/launch_context.hpp), which asks the condition and then lets the action change the context. Deriving
-// classes implement execute() and, when they hold other actions, introspect().
+// An action is made once, while its file is loaded, and never changes. LaunchContext::visit()
+// (launcher/visit/launch_context.hpp) visits it: the context asks the condition, and then lets the action change the
+// context. Derived classes implement execute() and, when they hold other actions, introspect().
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ struct LaunchDescription;
 
 using ActionPtr = std::shared_ptr<const Action>;
 
-// A launch argument as its `arg` declares it.
+// A launch argument, from the declaration of its `arg`.
 struct ArgumentDeclaration {
   std::string name;
   std::optional<Template> default_value;
@@ -32,20 +32,20 @@ struct ArgumentDeclaration {
   SourceRange where;
 };
 
-// What an `include` names, before anything is performed.
+// The target of an `include`, before anything is performed.
 struct IncludeDeclaration {
   Template file;
   std::vector<std::pair<Template, Template>> arguments;  // name, value
   SourceRange where;
 };
 
-// What can be known about an action without running it (`--show-args`, the check for required arguments).
+// The facts about an action that are known without running it (for `--show-args` and the check for required arguments).
 struct Introspection {
   const ArgumentDeclaration* argument = nullptr;
   const IncludeDeclaration* include = nullptr;
   const std::shared_ptr<const LaunchDescription>* description = nullptr;  // a launch file that is already loaded
   const std::vector<ActionPtr>* children = nullptr;
-  bool children_may_not_run = false;  // they wait for something, like those of a timer
+  bool children_may_not_run = false;  // they wait for something, like the children of a timer
 };
 
 class Action {
@@ -55,7 +55,7 @@ class Action {
   Action(const Action&) = delete;
   Action& operator=(const Action&) = delete;
 
-  // Does what the action is for, whatever its condition says. Called by the context. Throws LaunchError.
+  // Does the work of the action, whatever its condition says. Called by the context. Throws LaunchError.
   virtual void execute(LaunchContext& context) const = 0;
 
   virtual Introspection introspect() const { return {}; }

@@ -13,7 +13,7 @@ namespace launch {
 
 namespace {
 
-// What the messages call a value of another type than the declared one.
+// The name that messages have for the type of a value.
 std::string kind_of(const Value& value) {
   return value.scalar() != nullptr ? std::string(type_name(value.scalar()->type)) : "list";
 }
@@ -45,7 +45,7 @@ bool accepts(const AttributeSpec& spec, const Scalar& scalar) {
          (type == AttributeType::kInteger && scalar.type == Type::kInt);
 }
 
-// Whether a list holds what a Python launch file gives as the words of a command line.
+// Whether the list holds the words of a command line from a Python launch file.
 bool is_made(const std::vector<Value>& words) {
   return std::all_of(words.begin(), words.end(),
                      [](const Value& word) { return word.scalar() != nullptr && word.scalar()->made != nullptr; });
@@ -90,7 +90,7 @@ std::vector<Template> words_of_list(const Entity& entity, const Attribute& attri
 
 constexpr std::size_t kMostNames = 8;  // in a line of help
 
-// What to do about a name that is not among the known ones.
+// The help for a name that is not among the known ones.
 std::string help_for_name(const std::string& name, const std::vector<std::string>& known, const std::string& former,
                           std::string_view what) {
   std::string help = former.empty() ? did_you_mean(name, known) : former;

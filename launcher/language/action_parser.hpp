@@ -18,7 +18,7 @@ class ActionParser {
  public:
   explicit ActionParser(const Registry& registry) : registry_(registry) {}
 
-  // Makes the actions among `entities`. Every error of the tree is found before LaunchError is thrown with them all.
+  // Makes the actions of `entities`. Finds every error of the tree, and then throws one LaunchError with all of them.
   // Frees each entity when its action is made.
   std::vector<ActionPtr> parse(std::vector<Entity> entities);
 
@@ -33,14 +33,14 @@ class ActionParser {
   };
 
   ActionPtr parse_action(const Entity& entity);
-  // `items` are those that may stand beside the attributes.
+  // `items` are the items that may stand beside the attributes.
   void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
                         bool conditions, Fields& fields);
   void parse_condition(const Entity& entity, Fields& fields);
   void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
   Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
   void report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions);
-  // Runs `step`, keeping the errors that it throws.
+  // Runs `step` and keeps the errors that it throws.
   template <typename Step>
   void collect(Step step);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which exit codes a launch file means: "0", "nonzero", "1, 2, SIGSEGV".
+// The exit codes that a launch file means: "0", "nonzero", "1, 2, SIGSEGV".
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace launch {
 
 class ExitCodeFilter {
  public:
-  ExitCodeFilter() = default;  // any
+  ExitCodeFilter() = default;  // any code
   // `text` is "any", "nonzero", or codes separated by commas: numbers, -N or SIGNAME for an end by signal. Throws
   // LaunchError at `where`.
   ExitCodeFilter(const std::string& text, const SourceRange& where);
 
-  // `code` as in ProcessExit: -N for an end by signal N.
+  // `code` is as in ProcessExit: -N for an end by signal N.
   bool matches(int code) const;
-  // As it was written; "any" when nothing was.
+  // The text of the launch file; "any" when there was none.
   const std::string& text() const { return text_; }
   // A code that it accepts.
   int example() const;
@@ -31,8 +31,8 @@ class ExitCodeFilter {
   std::string text_ = "any";
 };
 
-// The number of a signal by its name, with or without "SIG", or by its number; 0 when there is none. The names that are
-// known, for suggestions, come from signal_names().
+// The number of a signal from its name, with or without "SIG", or from its number; 0 when there is no such signal.
+// signal_names() gives the known names, for suggestions.
 int signal_number(const std::string& name);
 std::vector<std::string> signal_names();
 

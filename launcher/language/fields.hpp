@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an action's declaration found in the file: attributes by name, parsed by their declared type.
+// The fields of an action, read from the file by its declaration: attributes by name, parsed by their declared type.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace launch {
 
-// A boolean attribute: a literal checked at load, or a template that must give one.
+// A boolean attribute: a literal that is checked at load, or a template whose text must be a boolean.
 class BooleanField {
  public:
   explicit BooleanField(bool fallback) : fallback_(fallback) {}
@@ -28,7 +28,7 @@ class BooleanField {
   bool fallback_ = false;
 };
 
-// A number attribute, likewise.
+// A number attribute: a literal that is checked at load, or a template whose text must be a number.
 class NumberField {
  public:
   NumberField(Template source, bool whole);
@@ -51,12 +51,12 @@ class Fields {
   explicit Fields(SourceRange where) : where_(std::move(where)) {}
 
   const SourceRange& where() const { return where_; }
-  // Place of an attribute's value; of the tag when it isn't given.
+  // The place of an attribute's value, or of the tag when the attribute isn't given.
   const SourceRange& where(std::string_view attribute) const;
   bool has(std::string_view attribute) const { return find(attribute) != nullptr; }
 
-  // Attributes by the type of their declaration. A getter without fallback must be asked for given attributes only,
-  // those that return an optional give nullopt for others.
+  // Attributes by the type of their declaration. A getter without fallback must be used for given attributes only. A
+  // getter that returns an optional gives nullopt for others.
   const Template& text(std::string_view attribute) const;
   std::optional<Template> optional_text(std::string_view attribute) const;
   std::string literal(std::string_view attribute, std::string fallback = {}) const;
@@ -73,7 +73,7 @@ class Fields {
 
  private:
   friend class ActionParser;
-  // Names are those of the declarations, which outlive the fields.
+  // The names belong to the declarations, which outlive the fields.
   struct Entry {
     std::string_view name;
     Parsed parsed;

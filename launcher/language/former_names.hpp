@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What to write in ROS 2 for what ROS 1's roslaunch, or an engine beside it, calls otherwise.
+// The names in ROS 2 of what ROS 1's roslaunch, or an engine beside it, calls by another name.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace launch {
 
-// Help for an element or an attribute that does not exist; empty when nothing is known of it.
+// The help for an element or an attribute that does not exist; empty when nothing is known about it.
 std::string help_for_former_tag(std::string_view tag);
 std::string help_for_former_attribute(std::string_view tag, std::string_view attribute);
 

@@ -12,10 +12,10 @@ namespace launch {
 
 namespace {
 
-// Deeper chains than this are includes that include themselves.
+// A longer chain of includes than this includes itself.
 constexpr int kMaximumDepth = 64;
 
-// Walks the actions of a description and of the files that it includes. `seen` hears of each declaration and of the
+// Walks the actions of a description and of the files that it includes. Calls `seen` for each declaration, with the
 // names that the includes on the way to it give.
 class Walk {
  public:
@@ -66,7 +66,7 @@ class Walk {
       }
     } catch (const LaunchError&) {
       complete_ = false;
-      return;  // not to be known before it is visited, where the error is reported
+      return;  // it is not known before the visit, which reports the error
     }
     loaded_.push_back(included);
     description(*included, given, conditional, depth + 1);

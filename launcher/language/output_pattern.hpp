@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lines of a process a launch file means.
+// The lines of a process that a launch file means.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@ namespace launch {
 
 class OutputPattern {
  public:
-  // Only so much of a line is looked at: the time and the memory of a search grow with it.
+  // Only this part of a line is searched, because the time and the memory of a search grow with the line.
   static constexpr std::size_t kSearchedLength = 4096;
 
   OutputPattern() = default;  // every line
   // `expression` is an ECMAScript regular expression that is searched for in each line; empty: every line. `stream` is
-  // "stdout", "stderr" or "both". Throws LaunchError at the places of the two.
+  // "stdout", "stderr" or "both". Throws LaunchError at the place of the one that is wrong.
   OutputPattern(const std::string& expression, const SourceRange& expression_where, const std::string& stream,
                 const SourceRange& stream_where);
 

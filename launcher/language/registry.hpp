@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launcher knows of launch files: a declaration for each action, and who loads the files that are programs.
+// What the launcher knows of launch files: a declaration for each action, and a loader for each kind of file that is a
+// program.
 //
 // The declaration of an action is its tag, its attributes and items with their types, a line of help, and how to make
 // it. Parsing, the errors for unknown or missing attributes, and the reference page all come from the declaration.
@@ -24,9 +25,9 @@ struct Scope;
 enum class AttributeType {
   kText,         // text with substitutions, performed when the action is visited
   kLiteral,      // text as it stands; `\x` gives x
-  kBoolean,      // true or false (YAML 1.1 words, 1, 0), or substitutions that give one
-  kFloat,        // a number, or substitutions that give one
-  kInteger,      // a whole number, or substitutions that give one
+  kBoolean,      // true or false (YAML 1.1 words, 1, 0), or substitutions that give a boolean
+  kFloat,        // a number, or substitutions that give a number
+  kInteger,      // a whole number, or substitutions that give a whole number
   kCommandLine,  // split into words as a POSIX shell does, then performed
   kWords,        // the same; in YAML also a list of texts, each of them a word
   kParameter,    // any scalar or list: the value of a parameter
@@ -47,9 +48,9 @@ struct ItemSpec {
   std::string help;
   std::vector<AttributeSpec> attributes;
   bool recursive = false;       // may hold items of its own tag
-  std::vector<ItemSpec> items;  // that it may hold besides
+  std::vector<ItemSpec> items;  // other items that it may hold
   bool has_condition = false;   // takes `if` and `unless`
-  bool extension = false;       // as that of an attribute
+  bool extension = false;       // as for an attribute
 };
 
 struct ActionType {
@@ -58,12 +59,13 @@ struct ActionType {
   std::vector<AttributeSpec> attributes;  // without `if` and `unless`, which every action has
   std::vector<ItemSpec> items;
   bool holds_actions = false;
-  bool extension = false;  // as that of an attribute
-  // Makes the action from fields that agree with this declaration. May throw LaunchError for what it doesn't say.
+  bool extension = false;  // as for an attribute
+  // Makes the action from fields that agree with this declaration. May throw LaunchError for rules that the declaration
+  // doesn't hold.
   std::function<ActionPtr(const Fields&)> make;
 };
 
-// Makes the actions of a launch file that is a program. `scope` is where it will be visited. Throws LaunchError.
+// Makes the actions of a launch file that is a program. `scope` is the scope of the visit. Throws LaunchError.
 using LaunchFileLoader = std::function<std::shared_ptr<const LaunchDescription>(
     std::shared_ptr<const SourceFile> file, const Registry& registry, const Scope& scope)>;
 
@@ -74,7 +76,7 @@ class Registry {
   const ActionType* find(std::string_view tag) const;
   const std::map<std::string, ActionType, std::less<>>& types() const { return types_; }
 
-  // Launch files whose path ends so are loaded by `loader` instead of being read as XML or YAML.
+  // Launch files whose path has this ending are loaded by `loader`, and not read as XML or YAML.
   void add_loader(std::string ending, LaunchFileLoader loader);
   const LaunchFileLoader* find_loader(std::string_view path) const;
 
