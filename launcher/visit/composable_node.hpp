@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a launch asks of component containers and of nodes with a managed life cycle.
+// The requests of a launch to component containers and to nodes with a managed life cycle.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct ComposableNode {
   std::string plugin;
   std::string name;
   std::string name_space;                                   // empty: the container's choice
-  std::vector<NamedParameter> parameters;                   // in order, the last of a name wins
+  std::vector<NamedParameter> parameters;                   // in order; the last parameter of a name wins
   std::vector<std::pair<std::string, std::string>> remaps;  // from, to
   std::vector<NamedParameter> extra_arguments;
   bool autostart = false;  // configure and activate it once it is loaded
@@ -28,7 +28,7 @@ struct ComposableNode {
 struct LoadRequest {
   std::string target;  // node name of the container
   std::vector<ComposableNode> nodes;
-  Environment environment;  // tells the ROS graph, by ROS_DOMAIN_ID and the like
+  Environment environment;  // chooses the ROS graph, by ROS_DOMAIN_ID and the like
   SourceRange origin;
 };
 

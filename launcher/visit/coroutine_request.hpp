@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An OpaqueCoroutine of a Python launch file that has been visited: it is to run beside the processes.
+// A visited OpaqueCoroutine of a Python launch file. It should run beside the processes.
 #pragma once
 
 #include <memory>

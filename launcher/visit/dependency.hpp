@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a process waits for before it starts: one `depends_on` of a launch file.
+// A condition that a process waits for before it starts: one `depends_on` of a launch file.
 #pragma once
 
 #include <memory>
@@ -32,17 +32,17 @@ struct ProcessCondition {
   std::variant<UntilStarted, UntilExited, UntilOutput> state;
 };
 
-// When a condition can't hold any more, or its time is over.
+// What happens when a condition can't hold any more, or when its time is over.
 enum class OnFailure { kShutdown, kStart, kSkip };
 
 struct Dependency {
-  std::size_t process = 0;  // the one that waits: which of the requested processes
+  std::size_t process = 0;  // the process that waits, as its index in the requested processes
   std::variant<ProcessCondition, std::shared_ptr<ReadinessCondition>> condition;
-  std::optional<Duration> timeout;  // from the moment at which the process was asked for; nothing: for ever
+  std::optional<Duration> timeout;  // from the moment at which the process was asked for; nullopt: for ever
   OnFailure on_failure = OnFailure::kShutdown;
   SourceRange where;
 
-  TrackedProcess* target = nullptr;  // of a ProcessCondition, by resolve_dependencies() (dependency_resolution.hpp)
+  TrackedProcess* target = nullptr;  // of a ProcessCondition, set by resolve_dependencies() (dependency_resolution.hpp)
 };
 
 // "'talker' has started", "'calibrate' has exited with code 0", "service /map/load is offered".

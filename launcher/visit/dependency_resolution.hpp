@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which process each `depends_on` of a traversal speaks of.
+// Finds the process that each `depends_on` of a traversal means.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace launch {
 
-// Finds the processes that the conditions speak of and sets Dependency::target. `asked_for` are the processes that the
-// dependencies belong to, already in the table. A name means one of them, else the latest that was asked for before.
+// Finds the processes that the conditions name and sets Dependency::target. `asked_for` are the processes that the
+// dependencies belong to, already in the table. A name means one of them, or else the latest that was asked for before.
 // Throws LaunchError with every name that is unknown or ambiguous, and for a cycle.
 void resolve_dependencies(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
                           const ProcessTable& table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An event of a launch file: what it waits for and what is visited then.
+// An event handler of a launch file: the event that it waits for, and the actions to visit then.
 #pragma once
 
 #include <memory>
@@ -25,9 +25,9 @@ struct OnProcessExit {
 struct OnProcessIo {
   OutputPattern pattern;
 };
-// Processes that it starts run before the others are asked to end.
+// Processes that the handler starts run before the others are asked to end.
 struct OnShutdown {
-  Duration timeout{0};  // at most so long
+  Duration timeout{0};  // the longest time that they may take
 };
 // A node with a managed life cycle has gone from one state to another; empty: any.
 struct OnStateTransition {
@@ -35,18 +35,18 @@ struct OnStateTransition {
   std::string start_state;
   std::string goal_state;
 };
-// Something outside of the launch. Its handler is visited once.
+// Something outside the launch. The handler is visited once.
 struct OnceReady {
   std::shared_ptr<ReadinessCondition> condition;
 };
 
 struct EventHandler {
   std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown, OnStateTransition, OnceReady> event;
-  std::string name;     // by which unregister_event_handler means it; empty: not at all
+  std::string name;     // the name for unregister_event_handler; empty: none
   std::string process;  // a name (process_table.hpp); empty: every process
   bool once = false;
   std::vector<ActionPtr> actions;
-  Scope scope;  // as it was where the handler stands
+  Scope scope;  // the scope at the place of the handler
   SourceRange where;
 };
 
@@ -55,7 +55,7 @@ std::string describe(const EventHandler& handler);
 
 using EventValues = std::vector<std::pair<std::string, std::string>>;
 
-// A handler and the event that it shall handle. The values are for its scope: what $(var event.NAME) reads.
+// A handler and the event that it should handle. The values belong in its scope, where $(var event.NAME) reads them.
 struct Invocation {
   std::shared_ptr<const EventHandler> handler;
   EventValues values;

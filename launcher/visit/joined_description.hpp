@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several launch files that are given together, as one.
+// Joins several launch files that are given together.
 #pragma once
 
 #include <memory>

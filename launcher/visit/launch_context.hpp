@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state that actions are visited in, and what they ask for.
+// The state in which actions are visited, and their requests.
 //
-// Visiting changes nothing outside: an action reads and changes the scope and leaves requests. Whoever drives the visit
-// takes the requests afterwards and carries them out (launch_service.hpp) or prints them (launch_plan.hpp), so that an
-// error in the middle of a file has started nothing.
+// Visiting changes nothing outside: an action reads and changes the scope and leaves requests. The code that drives the
+// visit takes the requests afterwards and carries them out (launch_service.hpp) or prints them (launch_plan.hpp). An
+// error in the middle of a file has therefore started nothing.
 #pragma once
 
 #include <functional>
@@ -39,11 +39,11 @@ class LaunchContext {
   const Environment& initial_environment() const { return initial_environment_; }
   const std::string& own_prefix() const { return own_prefix_; }
 
-  // From now on nothing of what is visited will be carried out.
+  // From now on no request will be carried out.
   void plan_only() { plan_only_ = true; }
   bool is_plan_only() const { return plan_only_; }
 
-  // The client that answers what actions ask of the ROS graph. It must outlive the context. Null while nothing is
+  // The client that answers requests of actions to the ROS graph. It must outlive the context. Null while nothing is
   // carried out.
   void use_ros_client(RosClient& client) { ros_client_ = &client; }
   RosClient* ros_client() const { return ros_client_; }
@@ -52,7 +52,8 @@ class LaunchContext {
   void visit(const Action& action);
   // Visits actions in order, in the current scope. Throws LaunchError.
   void visit(const std::vector<ActionPtr>& actions);
-  // Visits a whole file: $(dirname) and $(filename) mean it until it ends. `before` runs once they do.
+  // Visits a whole file: $(dirname) and $(filename) mean this file until the visit ends. `before` is called when they
+  // do.
   void visit(const LaunchDescription& description, const std::function<void()>& before = {});
   // Visits actions in a scope of their own, which ends with them.
   void visit_in(Scope scope, const std::vector<ActionPtr>& actions);
@@ -62,12 +63,13 @@ class LaunchContext {
 
   void message(LogLevel level, std::string_view logger, std::string_view text) { messages_(level, logger, text); }
 
-  // From now on the visit goes on after an error with the next action, and visits, on the side, what conditions leave
-  // out: in a copy of the scope, without messages, and what it asks for is dropped. Nothing is left out inside what is
-  // itself visited on the side, so that a file that includes itself comes to an end. `report` hears of the errors.
+  // From now on the visit goes on after an error with the next action. It also visits what conditions leave out, on the
+  // side: in a copy of the scope, without messages, and the requests are dropped. Inside such a visit nothing left out
+  // is visited, so that a file that includes itself comes to an end. `report` gets the errors.
   void explore(std::function<void(const LaunchError&, bool left_out)> report) { report_ = std::move(report); }
 
-  // What PushEnvironment or PushLaunchConfigurations of a Python launch file have put by, the last one at the end.
+  // The scopes that PushEnvironment or PushLaunchConfigurations of a Python launch file have kept, the last one at the
+  // end.
   std::vector<Scope>& kept_scopes(bool environment) {
     return environment ? pushed_environments_ : pushed_configurations_;
   }

@@ -17,7 +17,7 @@ void append(std::vector<Item>& to, std::vector<Item>& from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-// An event that could have happened.
+// An event such as could have happened.
 EventValues made_up_event(const EventHandler& handler) {
   EventValues values = {{"process", handler.process.empty() ? "process-1" : handler.process + "-1"}, {"pid", "0"}};
   if (const auto* const exit = std::get_if<OnProcessExit>(&handler.event)) {
@@ -40,7 +40,7 @@ class Planner {
  public:
   explicit Planner(LaunchContext& context) : context_(context) {}
 
-  // What was requested since the last call, with all that follows from it.
+  // The requests since the last call, with everything that follows from them.
   LaunchPlan plan_requests() {
     LaunchPlan plan;
     std::multimap<Duration, TimerRequest> timers;
@@ -110,7 +110,7 @@ class Planner {
 
   LaunchContext& context_;
   ProcessTable table_;
-  std::vector<const RunScope*> scopes_;  // that are active at this point
+  std::vector<const RunScope*> scopes_;  // scopes that are active at this point
 };
 
 }  // namespace

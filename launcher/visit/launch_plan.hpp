@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a launch would do, found by visiting it without carrying anything out.
+// What a launch would do. A visit finds it, and nothing is carried out.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ struct PlannedHandler;
 struct LaunchPlan {
   std::vector<std::unique_ptr<RunScope>> scopes;
   std::vector<ProcessSpec> processes;    // in the order of their start
-  std::vector<NodeDescription> nodes;    // those of the processes that are ROS nodes
+  std::vector<NodeDescription> nodes;    // the nodes among the processes
   std::vector<Dependency> dependencies;  // of the processes
   std::vector<PlannedHandler> handlers;
   std::vector<ProcessCommand> commands;
@@ -27,7 +27,7 @@ struct LaunchPlan {
   bool shutdown = false;  // a `shutdown` was visited
 };
 
-// An event handler and what it would do. Where $(var event.…) is read, a made-up event stands in.
+// An event handler and what it would do. A made-up event gives the values of $(var event.…).
 struct PlannedHandler {
   EventHandler handler;
   LaunchPlan plan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launcher itself did and when, for a trace of the run: LTTng provider `launch`.
+// The steps of the launcher itself and their times, for a trace of the run: LTTng provider `launch`.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace launch {
 struct LaunchRecord {
   enum class Kind {
     kLoad,     // a launch file was read and checked, name: its path
-    kInclude,  // another one was visited, name: its path
+    kInclude,  // another launch file was visited, name: its path
     kVisit,    // the launch file, or the children of a timer, were visited
-    kReady,    // what a process waits for is there, name: its own, what: the condition, where: the depends_on
-    kSpawn,    // a process is about to be started, name: as all below its label
+    kReady,    // the condition of a process holds, name: the process, what: the condition, where: the depends_on
+    kSpawn,    // a process is about to be started, name: its label, as for all below
     kExec,     // its program runs
     kExit,     // it ended, value: its exit code, -N for signal N
     kRespawn,  // it ended and will be started again
-    kSignal    // a signal was sent to its group, value: which
+    kSignal    // a signal was sent to its group, value: the signal
   };
 
   Kind kind = Kind::kVisit;
@@ -29,18 +29,18 @@ struct LaunchRecord {
   std::int32_t pid = 0;
   std::int32_t value = 0;
   bool asked_for = false;     // exit: a signal of the launcher or its shutdown came before
-  std::int64_t time = 0;      // monotonic_time(), of the beginning where it took a while
+  std::int64_t time = 0;      // monotonic_time(), of the beginning if it took a while
   std::int64_t duration = 0;  // nanoseconds: load, include, visit
 };
 
-// Where records go. All calls come from the loop's thread and must not block it, but for end().
+// The receiver of records. All calls come from the loop's thread and must not block it, except end().
 class LaunchRecorder {
  public:
   virtual ~LaunchRecorder() = default;
 
-  // A session records from now on: what was recorded before follows at once, with the times at which it happened.
+  // A session records from now on: earlier records follow at once, with the times at which their steps happened.
   virtual void begin() = 0;
-  // No session will: what was kept is dropped.
+  // No session will record: the kept records are dropped.
   virtual void drop() = 0;
   virtual void record(LaunchRecord record) = 0;
   // Returns when everything has been handed over, before the sessions end.

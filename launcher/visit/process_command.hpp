@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a launch file asks to be done to processes that run: `stop`, `restart`, `signal`.
+// What a launch file asks to do to running processes: `stop`, `restart`, `signal`.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct ProcessCommand {
   enum class Kind { kStop, kRestart, kSignal };
 
   Kind kind = Kind::kStop;
-  std::string process;  // a name of it (process_table.hpp)
+  std::string process;  // one of its names (process_table.hpp)
   int signal = 0;       // of kSignal
   SourceRange where;
 };

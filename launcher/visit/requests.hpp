@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What visited actions ask for. Plain data: nothing has happened yet.
+// The requests of visited actions. They are plain data: nothing has happened yet.
 #pragma once
 
 #include <cstddef>
@@ -27,48 +27,48 @@ struct TimerRequest {
   Duration period{0};
   bool cancel_on_shutdown = true;
   std::vector<ActionPtr> actions;
-  Scope scope;  // as it was where the timer stands
+  Scope scope;  // the scope at the place of the timer
 };
 
 struct ShutdownRequest {
   std::string reason;
 };
 
-// The ROS node that a process is asked to be; empty where the launch file leaves it to the program.
+// The ROS node that a process will be; a part is empty when the launch file leaves it to the program.
 struct NodeDescription {
-  std::size_t process = 0;  // which of the processes
+  std::size_t process = 0;  // index in the processes
   std::optional<std::string> package;
   std::string executable;
   std::optional<std::string> name;
   std::optional<std::string> name_space;
 };
 
-// Event handlers that are to be forgotten.
+// Event handlers to forget.
 struct UnregisterRequest {
   std::string name;  // of the handlers
   SourceRange where;
 };
 
-// What one traversal asked for. Scopes begin before its processes start.
+// The requests of one traversal. Scopes begin before its processes start.
 struct Requests {
   std::vector<std::unique_ptr<RunScope>> scopes;
   std::vector<ProcessSpec> processes;
   std::vector<NodeDescription> nodes;
   std::vector<Dependency> dependencies;         // of the processes
   std::vector<EventHandler> handlers;           // registered before the processes start
-  std::vector<UnregisterRequest> unregistered;  // before that
-  std::vector<ProcessCommand> commands;         // for what ran before
+  std::vector<UnregisterRequest> unregistered;  // before the new handlers are registered
+  std::vector<ProcessCommand> commands;         // for processes that ran before
   std::vector<CoroutineRequest> coroutines;
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;
   std::vector<TimerRequest> timers;
   std::optional<ShutdownRequest> shutdown;
   std::vector<std::string> logs;             // messages of `log` actions
-  std::vector<std::string> python_includes;  // paths of Python launch files, which are only ever noted
+  std::vector<std::string> python_includes;  // paths of Python launch files, which are only noted
   int includes = 0;                          // other launch files that were included
-  std::vector<LaunchRecord> records;         // what the visit did
+  std::vector<LaunchRecord> records;         // the steps of the visit
 
-  // Nothing is to be carried out.
+  // Whether nothing is to be carried out.
   bool empty() const;
 };
 

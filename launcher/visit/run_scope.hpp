@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Something that must begin before every process of a launch and end after the last has gone, like a trace session.
+// Something that must begin before every process of a launch and end after the last process, like a trace session.
 #pragma once
 
 #include <chrono>
@@ -34,7 +34,7 @@ class RunScope {
  public:
   // Called once, on the loop's thread, later than the call that it answers. The exception is null on success.
   using Completion = std::function<void(std::exception_ptr)>;
-  // What it has to tell the user.
+  // Tells something to the user.
   using Tell = std::function<void(bool warning, const std::string& text)>;
 
   virtual ~RunScope() = default;
@@ -42,30 +42,30 @@ class RunScope {
   // The processes that will start once the scope has begun. Called before begin(), once.
   virtual void expect(const std::vector<ProcessSpec>&) {}
 
-  // Neither blocks the loop. end() is called once, only after begin() succeeded, and must succeed in releasing what
-  // begin() took even when it then reports an error.
+  // Neither blocks the loop. end() is called once, and only after begin() succeeded. It must release what begin() took,
+  // even if it then reports an error.
   virtual void begin(EventLoop& loop, Tell tell, Completion done) = 0;
   virtual void end(EventLoop& loop, Tell tell, Completion done) = 0;
-  // The user is in a hurry: an end() under way shall finish at once, with what is there.
+  // The user is in a hurry: an end() under way must finish at once, with the data that is there.
   virtual void hurry() = 0;
 
   // The program and its arguments that release what begin() takes when the launcher is killed before end(). It runs
-  // after the last process has gone. Empty: nothing would be left. Called before begin(), once, and not when nothing is
-  // to run.
+  // after the last process has gone. Empty: nothing would be left. Called once, before begin(), and not when nothing
+  // will run.
   virtual std::vector<std::string> clean_up_command() { return {}; }
 
-  // Changes what every process that starts while the scope is active is given, such as LD_PRELOAD.
+  // Changes the spec of every process that starts while the scope is active, such as its LD_PRELOAD.
   virtual void prepare(ProcessSpec& spec) const = 0;
 
-  // What the launcher does from begin() to end(), on the loop's thread. The first returns true when the recorder of the
-  // launch shall have it, too: the scope's trace then holds it.
+  // The steps of the launcher from begin() to end(), on the loop's thread. wants_records() is true when the recorder of
+  // the launch should get them, too, so that the scope's trace holds them.
   virtual bool wants_records() const { return false; }
   virtual void record(const LaunchRecord&) {}
 
-  // "trace", and what it was evaluated to.
+  // "trace", and its evaluated settings.
   virtual std::string kind() const = 0;
   virtual std::vector<ScopeSetting> describe() const = 0;
-  virtual std::vector<TimedStep> timing() const = 0;  // of begin(); once that is done, of end()
+  virtual std::vector<TimedStep> timing() const = 0;  // of begin(); when that is done, of end()
   virtual const SourceRange& origin() const = 0;
 };
 
