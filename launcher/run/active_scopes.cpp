@@ -103,7 +103,7 @@ void ActiveScopes::keep_timing(const RunScope& scope) {
   }
 }
 
-// From before begin(), so that there is no moment at which a killed launcher leaves the scope's work behind.
+// The guard begins before begin(): a launcher that is killed never leaves the scope's work behind.
 void ActiveScopes::guard(RunScope& scope) {
   const std::vector<std::string> command = scope.clean_up_command();
   if (guardian_ != nullptr && !command.empty()) {

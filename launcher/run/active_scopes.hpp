@@ -19,28 +19,28 @@ namespace launch {
 
 class ActiveScopes {
  public:
-  // Called in a later turn of the loop, with what went wrong.
+  // Called in a later turn of the loop, with the error if there was one.
   using Begun = std::function<void(const std::optional<LaunchError>& error)>;
 
   // `timing` receives the steps of every scope. Both references must outlive this object.
   ActiveScopes(EventLoop& loop, RunScope::Tell tell, std::vector<TimedStep>& timing);
 
-  // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive this object.
+  // Makes the guardian run the scopes' clean-up commands when the launcher is killed. It must outlive this object.
   void use_guardian(Guardian& guardian) { guardian_ = &guardian; }
 
   // Begins one scope, for the processes that will start after it. The next one may begin when `done` is called. A scope
   // that can't begin is forgotten.
   void begin(std::unique_ptr<RunScope> scope, const std::vector<ProcessSpec>& processes, Begun done);
-  // Ends all scopes, the last one first. `failed` is given the error of a scope that ends with one; the others end all
-  // the same. `done` follows at once when no scope is active.
+  // Ends all scopes, the last one first. `failed` gets the error of a scope that ends with one; the others end all the
+  // same. `done` follows at once when no scope is active.
   void end(std::function<void(const LaunchError&)> failed, std::function<void()> done);
-  // The user is in a hurry: ends finish at once, with what is there.
+  // The user is in a hurry: ends finish at once, with the data that is there.
   void hurry();
 
-  // Changes what a process that is about to start is given.
+  // Changes the spec of a process that is about to start.
   void prepare(ProcessSpec& spec) const;
   void record(const LaunchRecord& record);
-  // Some scope's trace shall hold what the launcher does.
+  // Whether the trace of some scope should hold the steps of the launcher.
   bool want_records() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The event handlers that are registered, and which of them an event concerns.
+// The registered event handlers, and the choice of those that an event concerns.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace launch {
 
-// Each event is matched with the handlers of its own process only, so that its cost doesn't grow with their number.
-// What is returned is in the order of registration; a handler with `once` is returned once.
+// An event is compared only with the handlers of its own process, so that its cost doesn't grow with the number of
+// handlers. Invocations are in the order of registration; a handler with `once` is returned once.
 class EventHandlers {
  public:
   void add(EventHandler handler);
@@ -28,7 +28,7 @@ class EventHandlers {
   std::vector<Invocation> on_shutdown(const std::string& reason);
 
   bool has_on_shutdown() const;
-  // Some handler wants lines.
+  // Whether some handler wants lines.
   bool watch_output() const { return watch_output_; }
 
  private:
@@ -37,7 +37,7 @@ class EventHandlers {
     std::shared_ptr<const EventHandler> handler;
   };
 
-  // Takes those of the process for which `concerned` is true.
+  // Takes the handlers of the process for which `concerned` is true.
   template <typename Concerned, typename Values>
   std::vector<Invocation> take(const ProcessSpec& spec, const std::string& label, Concerned concerned, Values values);
 

@@ -21,7 +21,7 @@ void Farewell::say(std::vector<Invocation> handlers) {
 
 void Farewell::visit_handlers() {
   if (!under_way_) {
-    return;  // it was cut short before
+    return;  // it was cut short earlier
   }
   Duration timeout{0};
   for (const Invocation& invocation : std::exchange(handlers_, {})) {

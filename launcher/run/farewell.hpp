@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first thing of the end: what on_shutdown handlers ask for. Everything still runs meanwhile, and the processes
+// The first step of the end: the actions of on_shutdown handlers. Everything still runs meanwhile, and the processes
 // that the handlers start have a limited time.
 #pragma once
 
@@ -20,7 +20,7 @@ class Farewell {
   struct Callbacks {
     // Visits a handler. Calls wait_for() before each process that it starts.
     std::function<void(const Invocation&)> visit;
-    // Called once: what the handlers asked for is done, or its time is over.
+    // Called once, when the requests of the handlers are done or their time is over.
     std::function<void()> over;
     std::function<void(const std::string&)> warn;
   };
@@ -28,13 +28,13 @@ class Farewell {
   // The loop must outlive this object.
   Farewell(EventLoop& loop, Callbacks callbacks) : loop_(loop), callbacks_(std::move(callbacks)) {}
 
-  // The handlers, all with an OnShutdown, are visited in a turn of the loop of their own. Without handlers it is over
-  // at once.
+  // Visits the handlers, each with an OnShutdown, in a turn of the loop of their own. Without handlers the farewell is
+  // over at once.
   void say(std::vector<Invocation> handlers);
   void wait_for(ProcessId process) { processes_.insert(process); }
   // The process will not run again.
   void on_done(ProcessId process);
-  // Cuts it short.
+  // Cuts the farewell short.
   void end();
 
  private:
@@ -44,7 +44,7 @@ class Farewell {
   Callbacks callbacks_;
   bool under_way_ = false;
   std::vector<Invocation> handlers_;
-  std::set<ProcessId> processes_;  // that the handlers have started, until they are done
+  std::set<ProcessId> processes_;  // processes that the handlers have started, until they are done
   EventLoop::SourcePtr timer_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that a launch reacts to: its event handlers of all kinds, and the visits that they wait for.
+// Everything to which a launch reacts: its event handlers of all kinds, and the visits that wait.
 #pragma once
 
 #include <functional>
@@ -21,12 +21,12 @@ namespace launch {
 
 class Handlers {
  public:
-  // `visit` and `visited` are as in InvocationQueue; `fail` is given what keeps a handler from hearing of its event.
-  // The loop must outlive this object.
+  // `visit` and `visited` are as in InvocationQueue. `fail` gets an error that prevents a handler from getting its
+  // event. The loop must outlive this object.
   Handlers(EventLoop& loop, std::function<void(const Invocation&)> visit, std::function<void()> visited,
            const std::function<void(const LaunchError&)>& fail);
 
-  // The client watches the states of nodes; it may be null where no handler wants them.
+  // The client watches the states of nodes; it may be null when no handler needs them.
   void add(EventHandler handler, RosClient* client);
   // Forgets the handlers of that name, also for events that wait for their visit; false when none is registered.
   bool remove(const std::string& name);
@@ -35,13 +35,13 @@ class Handlers {
   void on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
     queue_.add(events_.on_line(spec, label, stream, line));
   }
-  // Nothing outside is watched any more. Returns the handlers of the shutdown, which are not in the queue.
+  // Ends all watches outside the launch. Returns the handlers of the shutdown, which are not in the queue.
   std::vector<Invocation> shutdown(const std::string& reason);
 
   bool has_on_shutdown() const { return events_.has_on_shutdown(); }
-  // Some handler wants lines.
+  // Whether some handler wants lines.
   bool watch_output() const { return events_.watch_output(); }
-  // No event waits for the visit of its handlers.
+  // Whether no event waits for the visit of its handlers.
   bool idle() const { return queue_.empty(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events that have happened and whose handlers are still to be visited.
+// Events that have happened and whose handlers have not been visited yet.
 #pragma once
 
 #include <deque>
@@ -17,16 +17,16 @@ namespace launch {
 // which an observer of their events must not do. Events keep their order.
 class InvocationQueue {
  public:
-  // `visited` follows when all handlers of one event have been visited. The loop must outlive this object.
+  // `visited` is called when all handlers of one event have been visited. The loop must outlive this object.
   InvocationQueue(EventLoop& loop, std::function<void(const Invocation&)> visit, std::function<void()> visited)
       : loop_(loop), visit_(std::move(visit)), visited_(std::move(visited)) {}
 
-  // All handlers of one event; none is no event.
+  // Adds all handlers of one event. Does nothing without handlers.
   void add(std::vector<Invocation> invocations);
-  // Handlers of that name are not visited any more, but for the event whose handlers are being visited: one of them may
-  // forget another, which still hears of this event.
+  // Handlers of that name are not visited any more, except for the event whose handlers are being visited: one of them
+  // may forget another one, which still gets this event.
   void forget(const std::string& name);
-  // False also while handlers are being visited: the system is not idle between two of them.
+  // False also while handlers are being visited, because the system is not idle between two of them.
   bool empty() const { return events_.empty(); }
 
  private:

@@ -79,7 +79,7 @@ int LaunchService::run(const LaunchDescription& description) {
   return exit_code_;
 }
 
-// What happens in the course of the launch.
+// The events in the course of the launch.
 
 void LaunchService::on_signal(int signal) {
   const std::string name = signal == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal));
@@ -113,7 +113,7 @@ void LaunchService::on_end_of_required(const ProcessEvent& event) {
   if (failed_to_start) {
     exit_code_ = 1;
   }
-  // One that is ended to be started again doesn't end the system.
+  // A process that is ended to be started again doesn't end the system.
   const bool restarts = exited != nullptr && exited->expected && exited->will_respawn;
   const bool ends_system = event.spec.shutdown_on_exit || event.spec.required;
   if (!ends_system || (!failed_to_start && exited == nullptr) || restarts || phase_ != Phase::kRunning) {
@@ -246,7 +246,7 @@ void LaunchService::shutdown(const std::string& reason) {
   check_finished();
 }
 
-// Everything is still up, but nothing else starts any more.
+// Everything still runs, but nothing else starts any more.
 void LaunchService::visit_farewell(const Invocation& invocation) {
   Requests requests;
   try {

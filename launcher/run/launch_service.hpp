@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a launch: visits, begins scopes, starts processes, ends everything in the opposite order.
+// Runs a launch: visits, begins scopes, starts processes, and ends everything in the opposite order.
 //
 // Each traversal (the file, later the children of a timer or of an event handler) leaves Requests. They are carried out
 // whole or not at all: first every scope begins, then the processes start. When everything has ended, scopes end in
 // reverse order. That holds on every path: idle, `shutdown`, on_exit, an error, signals. The end begins with the visit
 // of on_shutdown handlers; processes that they start run before the others are asked to end.
 //
-// This class says what happens when. Each of its parts does one thing, and tells the service what follows.
+// This class decides the order of events. Each of its parts does one thing, and reports to the service what follows.
 #pragma once
 
 #include <functional>
@@ -35,27 +35,27 @@ class LaunchService {
  public:
   using ErrorSink = std::function<void(const LaunchError&)>;
 
-  // All references must outlive the service. `errors` receives what goes wrong while the launch runs.
+  // All references must outlive the service. `errors` receives the errors that occur while the launch runs.
   LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors);
   ~LaunchService();
   LaunchService(const LaunchService&) = delete;
   LaunchService& operator=(const LaunchService&) = delete;
 
-  // Has the scopes' clean-up commands run should the launcher be killed. The guardian must outlive the service.
+  // Makes the guardian run the scopes' clean-up commands when the launcher is killed. It must outlive the service.
   void guard_scopes(Guardian& guardian) { scopes_.use_guardian(guardian); }
 
-  // Has a trace tell what the launcher does. The recorder must outlive the service.
+  // Lets a trace hold the steps of the launcher. The recorder must outlive the service.
   void record_to(LaunchRecorder& recorder) { recording_.use_recorder(recorder); }
-  // Tells the recorder and the scopes that want to know.
+  // Passes the record to the recorder and to the scopes that want records.
   void record(const LaunchRecord& record) { recording_.record(record); }
 
-  // The client loads components and changes states. Without a client a launch that asks for either fails. It must
-  // outlive the service.
+  // The client loads components and changes states. Without a client, a launch that asks for either fails. The client
+  // must outlive the service.
   void use_ros_client(RosClient& client) { context_.use_ros_client(client); }
 
-  // Visits the description and runs the loop until nothing is left. Returns the exit code: 0, or 1 after an error of
-  // the launch itself, a process that could not be started included, else that of the `required` process that has ended
-  // the launch, 128+N when signal N ended it. How other processes ended doesn't count.
+  // Visits the description and runs the loop until nothing is left. Returns the exit code: 1 after an error of the
+  // launch itself, such as a process that could not be started. Otherwise it is the exit code of the `required` process
+  // that has ended the launch, 128+N when signal N ended it, else 0. The exit codes of other processes don't count.
   // SIGINT, SIGTERM, SIGHUP and SIGQUIT shut down; a second one kills what is left and ends at once.
   int run(const LaunchDescription& description);
 
@@ -63,23 +63,22 @@ class LaunchService {
   const std::vector<TimedStep>& timing() const { return timing_; }
 
  private:
-  // In this order; kFarewell and kStopping are left out by a launch that ends because nothing is left.
+  // In this order. A launch that ends because nothing is left skips kFarewell and kStopping.
   enum class Phase {
     kRunning,
-    kFarewell,      // nothing new starts but what on_shutdown handlers ask for
+    kFarewell,      // nothing new starts but the actions of on_shutdown handlers
     kStopping,      // processes have been asked to end
     kEndingScopes,  // no process is left
     kDone
   };
 
-  // What happens in the course of the launch.
+  // The events in the course of the launch.
   void on_signal(int signal);
   void on_process_event(const ProcessEvent& event);
   void on_end_of_required(const ProcessEvent& event);
   void on_coroutine_step();
 
-  // A traversal: visits, then carries out what was asked for. An error of the visit carries out nothing and ends the
-  // launch.
+  // A traversal: visits, then carries out the requests. An error of the visit carries out nothing and ends the launch.
   void visit(Scope scope, const std::vector<ActionPtr>& actions);
   void traverse(const SourceRange& where, const std::function<void()>& traversal);
   void carry_out(Requests requests);
@@ -94,7 +93,7 @@ class LaunchService {
   void stop_processes();
   bool is_idle() const;
   void check_finished();
-  // Later, for what tells of an end may still be at work.
+  // Checks later, because the code that reports an end may still be at work.
   void post_check();
   void end_scopes();
 

@@ -12,7 +12,7 @@ namespace launch {
 
 namespace {
 
-// To a process that is not done.
+// Sends the command to a process that is not done.
 void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& supervisor) {
   switch (command.kind) {
     case ProcessCommand::Kind::kStop:

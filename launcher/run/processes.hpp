@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processes of a launch, by name: each starts once what it waits for holds, and is given the commands that name it.
+// The processes of a launch, by name: each starts when its conditions hold, and gets the commands that name it.
 #pragma once
 
 #include <functional>
@@ -21,42 +21,42 @@ class Processes {
   struct Callbacks {
     // A process with this number is about to start. Its spec may still be changed.
     std::function<void(ProcessSpec& spec, ProcessId id)> starting;
-    // A process won't start, and the launch shall end.
+    // A process won't start, and the launch must end.
     std::function<void(const LaunchError&)> fail;
     // `logger` is the name of a process, or "launch".
     std::function<void(LogLevel level, const std::string& logger, const std::string& text)> tell;
     // A process won't start, and the launch goes on without it.
     std::function<void(const TrackedProcess& process)> skipped;
-    // What the process waits for is there.
+    // The condition that the process waits for holds.
     std::function<void(const std::string& process, const Dependency& dependency)> ready;
   };
 
   // The references must outlive this object.
   Processes(EventLoop& loop, ProcessSupervisor& supervisor, Callbacks callbacks);
 
-  // The processes of a traversal can be spoken of by name from now on. Throws LaunchError when its dependencies or
-  // commands name no process, or none can start first.
+  // Makes the names of the processes of a traversal known. Throws LaunchError when its dependencies or commands name no
+  // process, or when no process can start first.
   Round enter(Requests requests);
   // Throws LaunchError for names that no process has.
   void check(const std::vector<ProcessCommand>& commands) const { check_commands(commands, table_); }
-  // Tells of a command that no process could be given.
+  // Carries out a command. Reports a command that no process could get.
   void execute(const ProcessCommand& command);
 
-  // Those of a round that wait for something begin to wait; they watch the others from their start on, so this comes
-  // before start().
+  // The processes of a round that wait for something begin to wait. They watch the others from their start on, so this
+  // must be called before start().
   void wait(Round& round);
-  // The others start, unless a start that fails brings the shutdown.
+  // Starts the other processes, unless a failing start causes the shutdown.
   void start(Round& round);
-  // What still waits never starts, and start() does nothing any more.
+  // Processes that still wait never start, and start() does nothing after this.
   void shutdown();
   // For on_shutdown handlers: starts a process that runs once, whatever its spec says.
   void start_last(ProcessSpec spec);
 
   void on_event(const ProcessEvent& event);
   void on_line(ProcessId id, OutputStream stream, std::string_view line);
-  // Some process waits for a line of another.
+  // Whether some process waits for a line of another one.
   bool watch_output() const { return order_.watch_output(); }
-  // Some process waits for something before it starts.
+  // Whether some process waits for something before it starts.
   bool waiting() const { return !order_.empty(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handlers that wait for something outside of the launch, such as a service that is offered. Each is visited once.
+// The handlers that wait for something outside the launch, such as a service that is offered. Each is visited once.
 #pragma once
 
 #include <functional>
@@ -16,13 +16,13 @@ namespace launch {
 
 class ReadyHandlers {
  public:
-  // `invoke` is given a handler whose condition holds, `fail` what keeps a condition from being known. The loop must
-  // outlive this object.
+  // `invoke` gets a handler whose condition holds; `fail` gets an error that prevents a condition from being known. The
+  // loop must outlive this object.
   ReadyHandlers(EventLoop& loop, std::function<void(std::vector<Invocation>)> invoke,
                 std::function<void(const LaunchError&)> fail)
       : loop_(loop), invoke_(std::move(invoke)), fail_(std::move(fail)) {}
 
-  // Watches the condition of a OnceReady.
+  // Watches the condition of an OnceReady.
   void add(EventHandler handler);
   void clear() { handlers_.clear(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launch tells its recorder, for a trace of the run, and the scopes that want to know.
+// Passes the steps of the launch to its recorder, for a trace of the run, and to the scopes that want records.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ class Recording {
 
   void record(const LaunchRecord& record);
   void record(const ProcessEvent& event);
-  // A traversal that began at that time, and what it noted.
+  // Records a traversal that began at that time, and the records that it noted.
   void record_visit(std::int64_t begin, const SourceRange& where, const Requests& requests);
 
-  // The scopes of a round have begun, and no process of it has started: from the first scope that wants records on the
-  // recorder gives them away.
+  // To be called when the scopes of a round have begun and no process of it has started. When a scope wants records,
+  // the recorder passes them on from then on.
   void begin();
-  // Before the scopes end.
+  // To be called before the scopes end.
   void end();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one traversal asked for, and the processes of it.
+// The requests of one traversal, and its processes.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace launch {
 
 struct Round {
   Requests requests;
-  std::vector<TrackedProcess*> processes;  // of requests.processes; null: waits for something, and its spec is taken
+  std::vector<TrackedProcess*> processes;  // of requests.processes; null: it waits for something, and its spec was taken
 };
 
 }  // namespace launch

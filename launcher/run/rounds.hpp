@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What traversals asked for and what has not started yet, in the order of the traversals: first all scopes of a round
+// The requests of traversals that have not started yet, in the order of the traversals. First all scopes of a round
 // begin, one after the other, then the round starts.
 #pragma once
 
@@ -19,7 +19,7 @@ class Rounds {
   struct Callbacks {
     // All scopes of the round have begun.
     std::function<void(Round round)> start;
-    // A scope can't begin: its round and those behind it are dropped.
+    // A scope can't begin: its round and the rounds behind it are dropped.
     std::function<void(const LaunchError&)> fail;
     // No round is left.
     std::function<void()> empty;
@@ -39,8 +39,8 @@ class Rounds {
 
   ActiveScopes& scopes_;
   Callbacks callbacks_;
-  std::deque<Round> rounds_;    // a scope of the first one may be beginning
-  std::size_t next_scope_ = 0;  // of the first one
+  std::deque<Round> rounds_;    // a scope of the first round may be beginning
+  std::size_t next_scope_ = 0;  // of the first round
   bool beginning_ = false;
   bool closed_ = false;
 };

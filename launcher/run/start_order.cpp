@@ -16,7 +16,7 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-// Whether the condition holds, as far as the process alone tells; nothing when that is still open.
+// Whether the condition holds, as far as the process alone shows it; nothing when that is still open.
 struct Verdict {
   bool holds = false;
   std::optional<std::string> failure;
@@ -162,7 +162,7 @@ void StartOrder::deal_with_failures(const WaitingPtr& waiting) {
         callbacks_.tell(LogLevel::kError, name, fmt::format("is not started: {} ({})", *watch.failure, place));
         waiting->process->is_over = true;
         end(*waiting);
-        on_process_event(*waiting->process);  // others may wait for it
+        on_process_event(*waiting->process);  // other processes may wait for this one
         callbacks_.skipped(*waiting->process);
         return;
       case OnFailure::kShutdown: {

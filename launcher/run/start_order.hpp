@@ -20,35 +20,35 @@ namespace launch {
 
 class StartOrder {
  public:
-  // Called from a turn of the loop of their own.
+  // Each is called from a turn of the loop of its own.
   struct Callbacks {
     std::function<void(ProcessSpec spec, TrackedProcess& process)> start;
-    // A process won't start, and the launch shall end.
+    // A process won't start, and the launch must end.
     std::function<void(const LaunchError&)> fail;
     std::function<void(LogLevel level, const std::string& process, const std::string& text)> tell;
     // A process won't start, and the launch goes on without it.
     std::function<void(const TrackedProcess& process)> skipped;
-    // What the process waits for is there. Called at once, before `start`.
+    // The condition that the process waits for holds. Called at once, before `start`.
     std::function<void(const std::string& process, const Dependency& dependency)> holds;
   };
 
   // The loop must outlive this object.
   StartOrder(EventLoop& loop, Callbacks callbacks) : loop_(loop), callbacks_(std::move(callbacks)) {}
 
-  // The process starts once all its dependencies, which are resolved and at least one, hold.
+  // The process starts when all its dependencies hold. There must be at least one, and all must be resolved.
   void add(ProcessSpec spec, TrackedProcess& process, std::vector<Dependency> dependencies);
 
-  // The table has noted an event of the process.
+  // To be called when the table has noted an event of the process.
   void on_process_event(TrackedProcess& process);
   void on_line(TrackedProcess& process, OutputStream stream, std::string_view line);
 
-  // A process that waits shall never start. Returns whether it waited.
+  // The process must never start. Returns whether it waited.
   bool drop(const TrackedProcess& process);
-  // None shall start any more.
+  // No process must start any more.
   void clear();
 
   bool empty() const { return waiting_.empty(); }
-  // Some process waits for a line.
+  // Whether some process waits for a line.
   bool watch_output() const { return lines_watched_ > 0; }
 
  private:
@@ -57,7 +57,7 @@ class StartOrder {
     Dependency dependency;
     Waiting* owner;
     EventLoop::SourcePtr timer{};
-    bool settled = false;  // holds, or its failure has been dealt with
+    bool settled = false;  // the condition holds, or its failure has been handled
     std::optional<std::string> failure{};
   };
   struct Waiting : std::enable_shared_from_this<Waiting> {
@@ -66,14 +66,14 @@ class StartOrder {
     ProcessSpec spec;
     TrackedProcess* process;
     std::list<std::shared_ptr<Waiting>>::iterator place{};  // in waiting_
-    std::list<Watch> watches{};                             // stay where they are
+    std::list<Watch> watches{};                             // their addresses don't change
     std::size_t open = 0;                                   // watches that are not settled
     bool ended = false;
   };
   using WaitingPtr = std::shared_ptr<Waiting>;
 
   void begin(Watch& watch);
-  // Compares a watch with what is known of its process.
+  // Compares a watch with the facts known about its process.
   void evaluate(Watch& watch);
   void settle(Watch& watch);
   void fail(Watch& watch, std::string why);
@@ -85,7 +85,7 @@ class StartOrder {
   EventLoop& loop_;
   Callbacks callbacks_;
   std::list<WaitingPtr> waiting_;
-  std::vector<WaitingPtr> changed_;  // of which a watch was settled or failed since proceed()
+  std::vector<WaitingPtr> changed_;  // those with a watch that was settled or failed since proceed()
   std::unordered_map<const TrackedProcess*, std::vector<Watch*>> by_target_;
   std::size_t lines_watched_ = 0;
 };

@@ -37,7 +37,7 @@ void StateHandlers::add(EventHandler handler, RosClient* client) {
 
 void StateHandlers::on_answer(Place watch, const RosAnswer& answer) {
   if (!answer.ok) {
-    const Watch failed = std::move(*watch);  // its source outlives the callback
+    const Watch failed = std::move(*watch);  // its source must outlive the callback
     watches_.erase(watch);
     fail_(LaunchError(answer.error, failed.handlers.front()->where));
     return;

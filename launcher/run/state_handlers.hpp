@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handlers of nodes with a managed life cycle. Each node is watched once, so that its handlers hear of a change
+// The handlers of nodes with a managed life cycle. Each node is watched once, so that its handlers get a change
 // together, in the order of their registration.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace launch {
 
 class StateHandlers {
  public:
-  // `invoke` is given what is to be visited, `fail` what keeps a node from being watched.
+  // `invoke` gets the handlers to visit, `fail` an error that prevents the watch of a node.
   StateHandlers(std::function<void(std::vector<Invocation>)> invoke, std::function<void(const LaunchError&)> fail)
       : invoke_(std::move(invoke)), fail_(std::move(fail)) {}
 
@@ -28,7 +28,7 @@ class StateHandlers {
   void clear() { watches_.clear(); }
 
  private:
-  // Of one node in one graph, by at least one handler.
+  // The watch of one node in one graph, for at least one handler.
   struct Watch {
     std::string node;
     Environment environment;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timers of a launch: each hands its request back when its period is over.
+// The timers of a launch: each returns its request when its period is over.
 #pragma once
 
 #include <functional>
