@@ -11,7 +11,7 @@ namespace launch {
 
 struct Round {
   Requests requests;
-  std::vector<TrackedProcess*> processes;  // of requests.processes; null: it waits for something, and its spec was taken
+  std::vector<TrackedProcess*> processes;  // of requests.processes; null: it waits, and its spec was taken
 };
 
 }  // namespace launch
