@@ -152,8 +152,8 @@ function(_stack_place target place rpath)
     INSTALL_RPATH_USE_LINK_PATH ON)
 endfunction()
 
-# Writes share/<pkg>/cmake/<pkg>Config.cmake, which first finds those of DEPENDENCIES that are packages, then defines the
-# target and the variables <pkg>_TARGETS, _LIBRARIES and _INCLUDE_DIRS, and last runs EXTRAS.
+# Writes share/<pkg>/cmake/<pkg>Config.cmake. It finds the packages among DEPENDENCIES, then defines the target and the
+# variables <pkg>_TARGETS, _LIBRARIES and _INCLUDE_DIRS, and runs EXTRAS last.
 function(_stack_export pkg)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "DEPENDENCIES;EXTRAS")
   set_target_properties(${pkg} PROPERTIES STACK_PACKAGE ${pkg})
@@ -182,7 +182,7 @@ function(_stack_export pkg)
   _stack_config(${pkg} "${config}")
 endfunction()
 
-# Writes the package's configuration, which also reads what ament_package() has exported, and its version.
+# Writes the package's configuration and its version. The configuration also reads the exports of ament_package().
 function(_stack_config pkg config)
   set_property(GLOBAL PROPERTY STACK_CONFIG_${pkg} TRUE)
   string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Exports.cmake OPTIONAL)\n")

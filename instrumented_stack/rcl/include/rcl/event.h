@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events of publishers and subscriptions beside messages.
+// Events of publishers and subscriptions besides messages.
 #pragma once
 
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rmw waits for when somebody waits for an entity of rcl: the `data` that rmw_wait() gets.
+// The entity of rmw that stands for an entity of rcl in a wait: the `data` for rmw_wait().
 #pragma once
 
 #include "rcl/client.h"
@@ -18,7 +18,7 @@ inline void* rmw_entity_of(const rcl_subscription_t* subscription) {
 inline void* rmw_entity_of(const rcl_guard_condition_t* guard_condition) {
   return rcl_guard_condition_get_rmw_handle(guard_condition)->data;
 }
-// A timer that is reset by another thread, or whose clock jumps, ends the wait.
+// The wait ends if another thread resets the timer, or if its clock jumps.
 inline void* rmw_entity_of(const rcl_timer_t* timer) {
   return rmw_entity_of(rcl_timer_get_guard_condition(timer));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waiting for subscriptions, guard conditions, timers, clients, services and events.
+// Waits for subscriptions, guard conditions, timers, clients, services and events.
 //
-// Each round: rcl_wait_set_clear(), add everything, rcl_wait(); afterwards the entries that are not ready are null.
-// A wait set serves one thread at a time.
+// In each round call rcl_wait_set_clear(), add the entities, and call rcl_wait(). Then entries that are not ready are
+// null. A wait set serves one thread at a time.
 #pragma once
 
 #include <stdbool.h>
@@ -40,7 +40,7 @@ typedef struct rcl_wait_set_s {
 
 rcl_wait_set_t rcl_get_zero_initialized_wait_set(void);
 
-// Makes room for that many of each kind.
+// Makes room for these numbers of entities.
 rcl_ret_t rcl_wait_set_init(rcl_wait_set_t* wait_set, size_t number_of_subscriptions, size_t number_of_guard_conditions,
                             size_t number_of_timers, size_t number_of_clients, size_t number_of_services,
                             size_t number_of_events, rcl_context_t* context, rcl_allocator_t allocator);
@@ -50,11 +50,11 @@ bool rcl_wait_set_is_valid(const rcl_wait_set_t* wait_set);
 // Sets every entry to null.
 rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t* wait_set);
 
-// Changes the numbers and clears. Room that is no longer needed is kept.
+// Changes the numbers and clears the wait set. Room that is no longer needed is kept.
 rcl_ret_t rcl_wait_set_resize(rcl_wait_set_t* wait_set, size_t subscriptions_size, size_t guard_conditions_size,
                               size_t timers_size, size_t clients_size, size_t services_size, size_t events_size);
 
-// `index` (may be null) gets the place in the array. RCL_RET_WAIT_SET_FULL.
+// `index` (may be null) gets the position in the array. Returns RCL_RET_WAIT_SET_FULL if there is no room.
 rcl_ret_t rcl_wait_set_add_subscription(rcl_wait_set_t* wait_set, const rcl_subscription_t* subscription,
                                         size_t* index);
 rcl_ret_t rcl_wait_set_add_guard_condition(rcl_wait_set_t* wait_set, const rcl_guard_condition_t* guard_condition,
@@ -64,8 +64,8 @@ rcl_ret_t rcl_wait_set_add_client(rcl_wait_set_t* wait_set, const rcl_client_t* 
 rcl_ret_t rcl_wait_set_add_service(rcl_wait_set_t* wait_set, const rcl_service_t* service, size_t* index);
 rcl_ret_t rcl_wait_set_add_event(rcl_wait_set_t* wait_set, const rcl_event_t* event, size_t* index);
 
-// `timeout` in ns: 0 does not block, negative waits forever. RCL_RET_TIMEOUT when nothing became ready in that time,
-// RCL_RET_WAIT_SET_EMPTY when there is nothing to wait for.
+// `timeout` is in ns: 0 does not block, a negative one waits forever. Returns RCL_RET_TIMEOUT if nothing became ready
+// in time, and RCL_RET_WAIT_SET_EMPTY if the wait set has no entity.
 rcl_ret_t rcl_wait(rcl_wait_set_t* wait_set, int64_t timeout);
 
 #ifdef __cplusplus

@@ -15,7 +15,7 @@ extern const char* const rcl_lifecycle_activate_label;
 extern const char* const rcl_lifecycle_deactivate_label;
 extern const char* const rcl_lifecycle_shutdown_label;
 
-// … and of those that end a transition state, one per result of the callback.
+// … and labels of the transitions that end a transition state, one for each result of the callback.
 extern const char* const rcl_lifecycle_transition_success_label;
 extern const char* const rcl_lifecycle_transition_failure_label;
 extern const char* const rcl_lifecycle_transition_error_label;

@@ -28,9 +28,9 @@ class GuardCondition {
   // Thread safe. Must not be called from a signal handler.
   void trigger();
 
-  // For executors that are notified instead of waiting. From now on trigger() only calls `callback` with 1, in its own
-  // thread. The callback is called at once with the number of earlier triggers that had no effect. An empty callback
-  // ends the calls. Do not call this from the callback of another thread's trigger.
+  // For executors that are notified instead of waiting. From now on trigger() only calls `callback` with 1, in the
+  // caller's thread. The callback is called at once with the number of earlier triggers that had no effect. An empty
+  // callback ends the calls. Do not call this from the callback of another thread's trigger.
   void set_on_trigger_callback(std::function<void(size_t)> callback);
 
   // Throws exceptions::RCLError.

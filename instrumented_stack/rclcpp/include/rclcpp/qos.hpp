@@ -133,7 +133,7 @@ class ClockQoS : public QoS {
   explicit ClockQoS(const QoSInitialization& history = KeepLast(1));
 };
 
-// RELIABILITY_QOS_POLICY and so on; INVALID_QOS_POLICY for what is none.
+// RELIABILITY_QOS_POLICY and so on; INVALID_QOS_POLICY for an invalid kind.
 std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t policy_kind);
 
 class SensorDataQoS : public QoS {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events of publishers and subscriptions beside messages: rmw_wait() waits for them.
+// Events of publishers and subscriptions besides messages. rmw_wait() waits for them.
 #pragma once
 
 #include <stdbool.h>

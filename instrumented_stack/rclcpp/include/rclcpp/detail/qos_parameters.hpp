@@ -20,8 +20,8 @@ enum class QosEntity { Publisher, Subscription };
 QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces::NodeParametersInterface& parameters,
                            const std::string& topic_name, const QoS& qos, QosEntity entity);
 
-// The same for an entity on `topic_name` as its creator gave it. Returns `qos` unchanged if `options` has no policy.
-// Throws std::runtime_error if there are policies to override but no parameters interface.
+// Like declare_qos_parameters(), with `topic_name` as the creator gave it. Returns `qos` unchanged if `options` has no
+// policy. Throws std::runtime_error if there are policies to override but no parameters interface.
 QoS overridden_qos(const QosOverridingOptions& options,
                    const std::shared_ptr<node_interfaces::NodeParametersInterface>& parameters,
                    const node_interfaces::NodeBaseInterface& node_base, const std::string& topic_name, const QoS& qos,
