@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast lines of a child get to the screen (/dev/null) and to launch.log. The floor is the same child read through
-// a bare pipe whose bytes are written to two files as they are. Both in turns in the same run; prints medians.
+// Measures how fast the lines of a child get to the screen (/dev/null) and to launch.log. The floor reads the same
+// child through a bare pipe and writes its bytes to two files as they are. Both take turns in the same run; prints
+// medians.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>

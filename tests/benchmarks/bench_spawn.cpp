@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What supervision costs: starts and stops N sleeping children with the supervisor on the real loop, and with bare
-// posix_spawn(3), kill(2) and waitpid(2), in turns in the same run. Prints medians and their ratios.
+// Measures the cost of supervision: starts and stops N sleeping children with the supervisor on the real loop, and with
+// bare posix_spawn(3), kill(2) and waitpid(2), in turns in the same run. Prints medians and their ratios.
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
@@ -31,7 +31,7 @@ struct Times {
   double stop = 0;
 };
 
-// Returns once the child has started up and sleeps, so that the cost of its start doesn't count as that of its stop.
+// Returns when the child has started up and sleeps, so that the cost of its start doesn't count as part of its stop.
 void wait_until_asleep(pid_t pid) {
   const std::string path = fmt::format("/proc/{}/syscall", pid);
   for (std::string number; number.empty() || number == "running" || number == "-1";) {
@@ -81,7 +81,7 @@ launch::ProcessSpec sleeper() {
   return spec;
 }
 
-// What a launcher has once.
+// The parts of a launcher that exist once.
 struct Launcher {
   std::unique_ptr<launch::EventLoop> loop = launch::make_sd_event_loop();
   std::unique_ptr<launch::ProcessRunner> runner = launch::make_posix_process_runner();
@@ -123,7 +123,7 @@ void measure(Launcher& launcher, std::size_t count, std::size_t rounds) {
   std::array<std::vector<double>, 2> stop;
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t turn = 0; turn < 2; ++turn) {
-      const std::size_t which = (round + turn) % 2;  // neither has the warmer machine
+      const std::size_t which = (round + turn) % 2;  // neither always runs on the warmer machine
       const Times times = which == 0 ? run_bare(count) : run_supervised(launcher, count);
       start[which].push_back(times.start / static_cast<double>(count));
       stop[which].push_back(times.stop / static_cast<double>(count));
@@ -143,7 +143,7 @@ void measure(Launcher& launcher, std::size_t count, std::size_t rounds) {
 int main() {
   try {
     Launcher launcher;
-    run_supervised(launcher, 1);  // sets up what is set up on first need
+    run_supervised(launcher, 1);  // makes everything that is made on first need
     fmt::print("microseconds for each child; ratio = supervised / bare\n");
     fmt::print("{:>9} | {:^29} | {:^29}\n", "", "start", "stop (SIGINT)");
     fmt::print("{:>9} | {:>9} {:>11} {:>7} | {:>9} {:>11} {:>7}\n", "children", "bare", "supervised", "ratio", "bare",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch --dry-run=json` agrees with the recorded behaviour of the reference engine, launch file by launch file.
+// Checks that `launch --dry-run=json` agrees with the recorded behaviour of the reference engine, launch file by launch
+// file.
 //
 // The records and the program that compares (`compare`) come with the files. deliberate_differences.tsv lists the
 // records that differ on purpose, each with its reason; a row that no longer applies fails as well.
@@ -47,7 +48,7 @@ std::set<Difference> deliberate_differences(const std::string& match) {
   return differences;
 }
 
-// The parameter is a regular expression that chooses a part of the files, so that the parts run at the same time.
+// The parameter is a regular expression that chooses a part of the files. The parts run at the same time.
 class Conformance : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An action between two processes, and what its trace tells.
+// An action between two processes, and its trace.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -15,7 +15,7 @@ using namespace test_support;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-// Runs server and client with a trace; `parameter` is one of the client. Gives what they printed.
+// Runs server and client with a trace; `parameter` is a parameter of the client. Returns what they printed.
 std::string run_action(const Sandbox& sandbox, const std::string& parameter) {
   const std::filesystem::path file = sandbox.directory() / "action.launch.xml";
   std::ofstream(file) << R"(<launch>
@@ -63,7 +63,7 @@ TEST(Action, ComputesASequence) {
   EXPECT_THAT(services, expected);
   EXPECT_THAT(clients, expected);
   EXPECT_THAT(topics, UnorderedElementsAre("/fibonacci/_action/feedback", "/fibonacci/_action/status"));
-  // At least: the goal, its response, the request for the result and the result.
+  // At least these: the goal, its response, the request for the result and the result.
   EXPECT_GE(waitables, 4U);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be said of launch files without running them: check, print, graph, schema, dry runs as scripts, completion.
+// Commands that describe launch files without running them: check, print, graph, schema, dry runs as scripts,
+// completion.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -208,7 +209,7 @@ TEST_F(WithoutRunning, DryRunAsAScriptRunsTheProcesses) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("two words it's gone\n"));
   EXPECT_THAT(result.out, HasSubstr("/\n"));
-  EXPECT_THAT(result.out, HasSubstr("2\n"));  // they run at the same time: in any order
+  EXPECT_THAT(result.out, HasSubstr("2\n"));  // they run at the same time, so the order is open
 }
 
 TEST_F(WithoutRunning, DryRunAsAScriptWritesParameterFiles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of the launcher, and what it says to files that it can't read: exit code 1, the place, nothing
+// The command line of the launcher, and its messages for files that it can't read: exit code 1, the place, nothing
 // started.
 #include <gmock/gmock.h>
 
@@ -213,7 +213,7 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
 struct Malformed {
   const char* name;
   const char* file;   // suffix decides the format
-  const char* text;   // the second line starts a process, were the file taken
+  const char* text;   // the second line would start a process if the file were accepted
   const char* error;  // after "FILE:"
 };
 

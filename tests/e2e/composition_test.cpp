@@ -63,7 +63,7 @@ subbuffer-size-ust="1048576"/>)xml" +
   const RecordedTrace trace = read_trace(sandbox_.trace_directory() / "t");
   std::vector<std::string> nodes;
   for (const RecordedEvent& event : trace.events) {
-    // The launcher's own events are there, but no layer of its client's.
+    // The trace has the launcher's own events, but no events of its client for the ROS graph.
     EXPECT_EQ(event.procname, event.name.starts_with("launch:") ? "launch" : "component_conta") << event.name;
     if (event.name == "ros2:rcl_node_init") {
       nodes.push_back(event.text("namespace") + " " + event.text("node_name"));
@@ -146,7 +146,7 @@ TEST_F(Composition, AKilledLauncherLeavesNobodyBehind) {
   ASSERT_TRUE(run.wait_for_output("Loaded node '/talker'")) << run.out() << run.err();
   run.send_signal(SIGKILL);
   EXPECT_EQ(run.wait().signal, SIGKILL);
-  // Container, guardian and ROS client become ours and go by themselves.
+  // Container, guardian and ROS client become our children and end by themselves.
   while (::waitpid(-1, nullptr, 0) > 0) {
   }
   EXPECT_EQ(errno, ECHILD);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trace tells of an executor with several threads.
+// The trace of an executor with several threads.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ class ExecutorThreadsTrace : public testing::Test {
 TEST_F(ExecutorThreadsTrace, EveryThreadTellsWhatItDoesInOrder) {
   std::map<std::int64_t, std::string> last_of_executor;  // by thread
   std::map<std::int64_t, std::vector<std::uint64_t>> running;
-  std::map<std::int64_t, bool> executing;  // told, but the callback has not begun
+  std::map<std::int64_t, bool> executing;  // the event came, but the callback has not begun
   std::int64_t waiter = 0;
   std::set<std::int64_t> threads_that_ran;
   for (const RecordedEvent& event : trace_.events) {

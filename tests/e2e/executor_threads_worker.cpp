@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kTicks = 20;  // of each timer
 
-// Returns when as many threads have arrived.
+// Returns when this number of threads has arrived.
 class Meeting {
  public:
   explicit Meeting(int threads) : missing_(threads) {}
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   publisher->publish(UInt64());
   publisher->publish(UInt64());
 
-  // One thread at a time: they are of one group.
+  // They are in one group, so one thread runs at a time.
   const auto group = node->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   int ticks = 0;
   const auto tick = [&] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What provider ros2_ext adds: the end of every object, what executors do with services and clients, and what clients
-// do with responses.
+// The events that provider ros2_ext adds: the end of every object, the work of executors for services and clients, and
+// the work of clients with responses.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -27,7 +27,7 @@ constexpr const char* kLaunchFile = R"(<launch>
 </launch>
 )";
 
-// Init event, the event of the object's end, and the field that both name the object by.
+// The init event, the event of the object's end, and the field in which both name the object.
 struct Life {
   const char* begin;
   const char* end;
@@ -55,7 +55,7 @@ std::vector<RecordedEvent> with_name(const RecordedTrace& trace, const std::stri
   return found;
 }
 
-// What `launch report` makes of the same trace.
+// Checks the report of `launch report` for the same trace.
 void expect_reported(const std::filesystem::path& directory) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, "report", "--json", directory.string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -129,7 +129,7 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
   for (const RecordedEvent& event : with_name(trace, "ros2_ext:rclcpp_executor_execute_client")) {
     EXPECT_EQ(event.number("client_handle"), client);
   }
-  // Nothing was there before the session: no state dump.
+  // No object existed before the session, so there is no state dump.
   EXPECT_THAT(with_name(trace, "ros2_ext:state_dump_begin"), SizeIs(0));
   expect_reported(sandbox.trace_directory() / "ext");
 }

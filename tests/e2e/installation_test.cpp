@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole product installed and moved: the launcher finds its own packages, guardian and report where they are now.
+// The whole product, installed and then moved: the launcher finds its own packages, guardian and report at their new
+// place.
 #include <gmock/gmock.h>
 
 #include "tests/support/command.hpp"

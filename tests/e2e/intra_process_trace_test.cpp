@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trace tells of messages that stay in their process.
+// The trace of messages that stay in their process.
 #include <gmock/gmock.h>
 
 #include <optional>
@@ -30,8 +30,8 @@ std::vector<std::string> names(const Events& events) {
   return result;
 }
 
-// The events of the worker's main thread in their order, without the executor's and without what the context's own
-// writer publishes about the graph.
+// The events of the worker's main thread in their order, without those of the executor and without those of the graph
+// messages that the context's own writer publishes.
 class IntraProcessTrace : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -64,7 +64,7 @@ class IntraProcessTrace : public testing::Test {
     all_events_.clear();
   }
 
-  // From the nth event of that name on.
+  // The events from the nth event of that name on.
   static Events from(const std::string& name, std::size_t n, std::size_t count) {
     for (std::size_t i = 0; i + count <= events_.size(); ++i) {
       if (events_[i].name == "ros2:" + name && n-- == 0) {
@@ -76,7 +76,7 @@ class IntraProcessTrace : public testing::Test {
     return Events(count);
   }
 
-  // The creation of the first subscription that takes part.
+  // The creation of the first subscription with intra-process communication.
   static Events creation() { return from("rclcpp_construct_ring_buffer", 0, 9); }
 
   static std::uint64_t publisher_of(const std::string& topic) {
@@ -90,7 +90,7 @@ class IntraProcessTrace : public testing::Test {
   }
 
   static Events events_;
-  static Events all_events_;  // also the executor's, and those of provider ros2_ext
+  static Events all_events_;  // also those of the executor and of provider ros2_ext
 };
 
 Events IntraProcessTrace::events_;
@@ -125,7 +125,7 @@ TEST_F(IntraProcessTrace, AMessageForNobodyIsPublishedAllTheSame) {
   const Events events = from("rclcpp_intra_publish", 0, 2);
   EXPECT_EQ(events[0].number("publisher_handle"), publisher_of("/topic"));
   EXPECT_NE(events[0].number("message"), 0U);
-  EXPECT_EQ(events[1].name, "ros2:rmw_subscription_init");  // what the worker does next
+  EXPECT_EQ(events[1].name, "ros2:rmw_subscription_init");  // the next step of the worker
 }
 
 TEST_F(IntraProcessTrace, MessagesGoThroughTheRingBuffer) {
@@ -166,7 +166,7 @@ TEST_F(IntraProcessTrace, TheMiddlewareComesAfterTheBuffers) {
   EXPECT_EQ(events[4].number("message"), events[2].number("message"));
   EXPECT_EQ(events[3].number("publisher_handle"), publisher_of("/topic"));
 
-  // The subscription that takes part gets the message twice and calls back once.
+  // The subscription with intra-process communication gets the message twice and calls back once.
   std::size_t taken = 0;
   std::vector<std::uint64_t> is_intra_process;
   bool after = false;

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   executor.add_node(node);
 
   const auto publisher = node->create_publisher<String>("topic", 10);
-  publisher->publish(std::make_unique<String>());  // to nobody
+  publisher->publish(std::make_unique<String>());  // there is no subscription
 
   int near = 0;
   const auto subscription = node->create_subscription<String>("topic", 2, [&near](String::UniquePtr) { ++near; });

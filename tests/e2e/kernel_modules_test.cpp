@@ -49,7 +49,7 @@ class KernelModules : public testing::Test {
   Sandbox sandbox_;
 };
 
-// The thread that a processor has switched to is the one whose events come next from there.
+// Checks that the events of a processor come from the thread that it has switched to.
 TEST_F(KernelModules, SchedSwitchesAndEventsOfNodesStandInOneOrderWithTheRightThreads) {
   const CommandResult result = launch(R"xml(
     <trace session-name="run" events-kernel="sched_switch sched_process_exec" syscalls="exit_group"
@@ -105,7 +105,7 @@ TEST_F(KernelModules, AttributesOfTheKernelChannelAreAsTheDaemonListsThem) {
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait(std::chrono::seconds(60)).exit_code, 0) << run.out() << run.err();
 
-  // Newest first.
+  // The newest one comes first.
   const std::size_t second = listed.find("- kchan: [enabled]");
   ASSERT_NE(second, std::string::npos) << listed;
   EXPECT_THAT(listed.substr(0, second),

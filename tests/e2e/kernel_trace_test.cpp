@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events of the kernel beside those of userspace, recorded through tracefs where LTTng's modules are not there.
+// Events of the kernel beside those of userspace, recorded through tracefs because LTTng's modules are missing.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using namespace test_support;
 using testing::HasSubstr;
 
-// Lists the instances, for which tracefs must be mounted.
+// Lists the instances. For this, tracefs must be mounted.
 constexpr const char* kSeeTracefs =
     "ls /sys/kernel/tracing/instances 2>/dev/null || "
     "{ mount -t tracefs none /sys/kernel/tracing && ls /sys/kernel/tracing/instances; }";
@@ -45,8 +45,8 @@ class KernelTrace : public testing::Test {
     return lines;
   }
 
-  // The number after `key` in the first of the lines from `begin` on that has all the texts; -1 for none. The index of
-  // the line is left in `found`.
+  // The number after `key` in the first line from `begin` on that has all the texts; -1 if no line has them. `found`
+  // gets the index of the line.
   static long number_in(const std::vector<std::string>& lines, const std::vector<std::string>& texts,
                         const std::string& key, std::size_t& found, std::size_t begin = 0) {
     for (std::size_t i = begin; i < lines.size(); ++i) {
@@ -61,7 +61,7 @@ class KernelTrace : public testing::Test {
     return -1;
   }
 
-  // From the oldest to the newest.
+  // The snapshots of the session, from the oldest to the newest.
   std::vector<fs::path> snapshots_of(const std::string& session) const {
     std::vector<fs::path> snapshots;
     for (const auto& entry : fs::directory_iterator(sandbox_.trace_directory() / session)) {
@@ -71,13 +71,13 @@ class KernelTrace : public testing::Test {
     return snapshots;
   }
 
-  // The kernel has its instances once for all sandboxes.
+  // All sandboxes share the instances of the kernel.
   const std::string session_ = "kernel_test_" + std::to_string(getpid());
   Sandbox sandbox_;
 };
 
 TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) {
-  // In a container the kernel's process ids are not those that the programs see.
+  // In a container the kernel's process ids differ from those that the programs see.
   if (fs::read_symlink("/proc/self/ns/pid") != "pid:[4026531836]") {
     GTEST_SKIP() << "skipped, because this is not the first process id namespace";
   }
@@ -98,7 +98,7 @@ TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) 
   const long application = number_in(lines, {"ros2:rcl_init"}, "vtid", fired);
   ASSERT_GT(application, 0);
   const std::string tid = "vtid = " + std::to_string(application) + " }";
-  // sched_process_exec, then the application's own event, then its exit_group, each with its thread.
+  // First sched_process_exec, then the application's own event, then its exit_group, each with its thread.
   EXPECT_EQ(number_in(lines, {"sched_process_exec: ", tid, "traced_app"}, "vtid", exec), application);
   EXPECT_EQ(
       number_in(lines,
@@ -282,7 +282,7 @@ TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
 }
 
 #ifdef WITH_PYTHON
-// With LTTng's own events and others that this kernel hasn't in its list.
+// The list has LTTng's own events and others that this kernel hasn't.
 TEST_F(KernelTrace, ThePublishedLaunchFileOfTheReferenceSystemRuns) {
   if (fs::read_symlink("/proc/self/ns/pid") != "pid:[4026531836]") {
     GTEST_SKIP() << "skipped, because this is not the first process id namespace";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracing that starts when the system runs already: the trace is as readable as one from the beginning.
+// Tracing that starts when the system already runs: the trace is as readable as one from the beginning.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -21,7 +21,7 @@ json report_on(const Sandbox& sandbox) {
   return json::parse(report.out);
 }
 
-// Whose callback it is and what it is called.
+// The owner and the name of a callback.
 std::string description(const json& callback) {
   std::string owner = callback["owner"];
   if (callback.contains("topic")) owner += " " + callback["topic"].get<std::string>();
@@ -79,7 +79,7 @@ class LateTrace : public testing::Test {
   RunningCommand listener_{{.argv = {std::string(BUILD_DIRECTORY) + "/prefix/lib/demo_nodes/listener"}}};
 
  private:
-  // The number in the last greeting that was heard, and one.
+  // The number in the last greeting that was received, plus one.
   int next_message() const {
     const std::string& out = listener_.err();
     const std::string greeting = "Hello World: ";

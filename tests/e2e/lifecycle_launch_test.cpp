@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Managed nodes in a launch: started automatically, waited for, led through their states; and what the graph must show
-// before a process starts.
+// Managed nodes in a launch: they are started automatically, waited for, and led through their states. Also the
+// conditions of the graph for the start of a process.
 #include <gmock/gmock.h>
 #include <signal.h>
 

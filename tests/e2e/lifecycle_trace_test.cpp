@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trace tells of a managed node: its state machine, and every step that it takes.
+// The trace of a managed node: its state machine, and each of its steps.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr const char* kLaunchFile = R"(<launch>
 </launch>
 )";
 
-// Those of the managed node's process, in the thread that made it.
+// The events of the managed node's process, in the thread that made it.
 Events events_of_talker(const RecordedTrace& trace) {
   Events events;
   std::copy_if(trace.events.begin(), trace.events.end(), std::back_inserter(events), [](const RecordedEvent& event) {
@@ -68,7 +68,7 @@ TEST(LifecycleTrace, TellsOfTheStateMachineAndItsTransitions) {
   const std::uint64_t machine = init->number("state_machine");
   EXPECT_NE(machine, 0U);
 
-  // Its services and its topic are there already.
+  // Its services and its topic exist already.
   std::vector<std::string> services;
   for (const RecordedEvent& event : named(Events(events.begin(), init), "rcl_service_init")) {
     services.push_back(event.text("service_name"));

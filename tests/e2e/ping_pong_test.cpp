@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole line of the product: launch file, session, two nodes over DDS, and a trace that reads as ROS 2's does.
+// The whole way through the product: launch file, session, two nodes over DDS, and a trace with the events of ROS 2.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -32,8 +32,8 @@ std::vector<std::string> names(const Events& events) {
   return result;
 }
 
-// The events of one process's main thread. What the context's own writer publishes about the graph, whenever an entity
-// comes or goes, stands apart: it may come between the layers of another event.
+// The events of one process's main thread. The context's own writer publishes about the graph whenever an entity comes
+// or goes. These events are kept apart, because they may come between the layers of another event.
 class Process {
  public:
   Process(const RecordedTrace& trace, const std::string& procname) {
@@ -56,7 +56,7 @@ class Process {
   const Events& events() const { return events_; }
   const Events& all_events() const { return all_events_; }
 
-  // Index of the first event of that name from `from` on, with `field` equal to `value` when a field is named.
+  // Index of the first event of that name from `from` on. When a field is named, `field` must be equal to `value`.
   std::size_t find(const std::string& name, std::size_t from = 0, const std::string& field = {},
                    std::uint64_t value = 0) const {
     for (std::size_t i = from; i < events_.size(); ++i) {
@@ -80,7 +80,7 @@ class Process {
     return {events_.begin() + static_cast<std::ptrdiff_t>(begin),
             events_.begin() + static_cast<std::ptrdiff_t>(std::min(end, events_.size()))};
   }
-  // The same without what the node publishes on a topic of its own accord, like /rosout.
+  // The same events, without those of the messages that the node publishes on a topic by itself, like /rosout.
   Events without_topic(Events events, const std::string& topic) const {
     const RecordedEvent& publisher = events_.at(find_topic("rcl_publisher_init", topic));
     const std::uint64_t handle = publisher.number("publisher_handle");
@@ -145,7 +145,7 @@ Subscription check_subscription(const Process& process, const std::string& topic
           events[3].number("callback")};
 }
 
-// The source timestamps of the messages that were published on a topic, checking the three layers of each.
+// The source timestamps of the messages that were published on a topic. Checks the three layers of each.
 std::vector<std::uint64_t> published(const Process& process, const std::string& topic) {
   const RecordedEvent& publisher = process.events().at(process.find_topic("rcl_publisher_init", topic));
   std::vector<std::uint64_t> timestamps;
@@ -165,7 +165,7 @@ std::vector<std::uint64_t> published(const Process& process, const std::string& 
   return timestamps;
 }
 
-// The source timestamps of the messages that a subscription took, checking each reception from executor to callback.
+// The source timestamps of the messages that a subscription took. Checks each reception from executor to callback.
 std::vector<std::uint64_t> received(const Process& process, const Subscription& subscription) {
   std::vector<std::uint64_t> timestamps;
   const Events& events = process.events();
@@ -200,7 +200,7 @@ void check_timer(const Process& process, std::uint64_t period) {
   EXPECT_EQ(events[3].number("timer_handle"), events[0].number("timer_handle"));
   EXPECT_EQ(events[3].number("node_handle"), process.events().at(process.find("rcl_node_init")).number("node_handle"));
 
-  // An expiry that publishes: find the first publication on /ping and look around it.
+  // Looks around an expiry that publishes: the first publication on /ping.
   const std::uint64_t publisher =
       process.events().at(process.find_topic("rcl_publisher_init", "/ping")).number("publisher_handle");
   const std::size_t publish = process.find("rcl_publish", 0, "publisher_handle", publisher);
@@ -249,7 +249,7 @@ TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
   EXPECT_EQ(trace.losses, 0U);
   std::set<std::int64_t> processes;
   for (const RecordedEvent& event : trace.events) {
-    if (!event.name.starts_with("launch:")) {  // those of the launcher itself
+    if (!event.name.starts_with("launch:")) {  // not the events of the launcher itself
       processes.insert(event.vpid);
     }
   }
@@ -271,8 +271,8 @@ TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
 
   const std::vector<std::uint64_t> pings = published(ping, "/ping");
   const std::vector<std::uint64_t> pongs = published(pong, "/pong");
-  // The timestamp that was handed to the writer is the one that the reader tells, to the nanosecond. Not every message
-  // is taken: one may be sent before the reader knows of its writer, and ping may have gone before the last answer.
+  // The writer got the same timestamp that the reader reports, to the nanosecond. Not every message is taken: one may
+  // be sent before the reader knows its writer, and ping may have ended before the last answer.
   const std::vector<std::uint64_t> at_pong = received(pong, check_subscription(pong, "/ping"));
   const std::vector<std::uint64_t> at_ping = received(ping, check_subscription(ping, "/pong"));
   for (const auto& [takes, publications] : {std::pair(at_pong, pings), std::pair(at_ping, pongs)}) {
@@ -332,7 +332,7 @@ TEST_P(PingPong, KillOfTheLauncherLeavesNoProcessNoSessionAndAWholeTrace) {
   }
   run.send_signal(SIGKILL);
   EXPECT_EQ(run.wait().signal, SIGKILL);
-  for (const pid_t pid : left) {  // they have become ours, and all go by themselves
+  for (const pid_t pid : left) {  // they have become our children, and all end by themselves
     EXPECT_EQ(::waitpid(pid, nullptr, 0), pid);
   }
   const CommandResult sessions = run_command({"lttng", "list"});

@@ -33,7 +33,8 @@ class PythonLaunch : public testing::Test {
     return path.string();
   }
 
-  // The names of the nodes' events of the one trace whose directory begins so, each once, and their processes.
+  // The names of the nodes' events, each once, and their processes, in the one trace whose directory begins with this
+  // name.
   struct Found {
     std::set<std::string> events;
     std::set<std::string> processes;
@@ -70,7 +71,7 @@ TEST_F(PythonLaunch, TheTraceActionRecordsTheRun) {
   EXPECT_THAT(found.processes, testing::IsSupersetOf({"ping", "pong"}));
 }
 
-// As the documentation of ros2_tracing says it, but for the first word of the command.
+// From the documentation of ros2_tracing, except the first word of the command.
 TEST_F(PythonLaunch, TheExampleOfRos2TracingRunsUnderItsNames) {
   const CommandResult result = launch({"tracetools_launch", "example.launch.py"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -196,7 +197,7 @@ TEST_F(PythonLaunch, TracebacksAreForDebug) {
   EXPECT_THAT(launch({"--debug", path}).err, HasSubstr("Traceback (most recent call last):"));
 }
 
-// What a launch without Python must not pay for.
+// The cost that a launch without Python must not have.
 TEST_F(PythonLaunch, NoPythonIsLoadedForOtherFiles) {
   const std::map<std::string, std::string> show_libraries = {{"LD_DEBUG", "files"}};
   const std::string xml = write("a.launch.xml", "<launch><log message=\"x\"/></launch>");

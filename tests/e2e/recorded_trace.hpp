@@ -21,7 +21,7 @@ struct RecordedEvent {
   std::map<std::string, std::string> texts;
   std::map<std::string, std::vector<std::uint64_t>> arrays;
 
-  // Fails the test and gives 0 or "" when the event has no such field.
+  // Fails the test and returns 0 or "" when the event has no such field.
   std::uint64_t number(const std::string& field) const;
   std::string text(const std::string& field) const;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trace tells of services: those that every node has, and one that a client asks.
+// The trace of services: those that every node has, and one that a client calls.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -29,7 +29,7 @@ bool is_publication(const RecordedEvent& event) {
   return event.name == "ros2:rclcpp_publish" || event.name == "ros2:rcl_publish" || event.name == "ros2:rmw_publish";
 }
 
-// The events of a process's main thread, without what it publishes: log lines, parameter events, the graph.
+// The events of a process's main thread, without those of its publications: log lines, parameter events, the graph.
 Events events_of(const RecordedTrace& trace, const std::string& procname) {
   Events events;
   for (const RecordedEvent& event : trace.events) {
@@ -58,7 +58,7 @@ Events all_of(const Events& events, const std::string& name, const std::string& 
   return found;
 }
 
-// The creation of service, from its first event; fails the test if there is none.
+// The events of the creation of a service, from the first one; fails the test if there are none.
 std::optional<Events> creation_of(const Events& events, const std::string& service) {
   for (std::size_t i = 0; i + 2 < events.size(); ++i) {
     if (events[i].name == "ros2:rcl_service_init" && events[i].text("service_name") == service) {
@@ -69,7 +69,7 @@ std::optional<Events> creation_of(const Events& events, const std::string& servi
   return std::nullopt;
 }
 
-// One line per entity that a node makes of its own accord.
+// One line per entity that a node makes by itself.
 std::vector<std::string> initial_entities(const Events& events) {
   std::vector<std::string> result;
   for (const RecordedEvent& event : events) {
@@ -93,7 +93,7 @@ TEST(ServiceTrace, TellsWhoAskedWhomAndWhen) {
   const Events server = events_of(trace, "add_two_ints_se");
   const Events client = events_of(trace, "add_two_ints_cl");
 
-  // What a node makes of its own accord, in this order.
+  // The entities that a node makes by itself, in this order.
   EXPECT_THAT(
       initial_entities(server),
       ElementsAre("publisher /rosout", "service /server/get_parameters", "service /server/get_parameter_types",
@@ -136,7 +136,7 @@ TEST(ServiceTrace, TellsWhoAskedWhomAndWhen) {
     ASSERT_LT(request, 3U);
     const Events exchange(server.begin() + static_cast<std::ptrdiff_t>(i) - 1,
                           server.begin() + static_cast<std::ptrdiff_t>(i) + 4);
-    // Executing a service has no event of its own.
+    // The execution of a service has no event of its own.
     EXPECT_THAT(names(exchange), ElementsAre("rclcpp_executor_get_next_ready", "rmw_take_request", "callback_start",
                                              "callback_end", "rmw_send_response"));
     EXPECT_EQ(exchange[1].number("rmw_service_handle"), rmw_service);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real processes that misbehave: what ignores signals, crashes, can't start, or leaves children.
+// Real processes that misbehave: they ignore signals, crash, can't start, or leave children.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -23,8 +23,8 @@ class Supervision : public testing::Test {
     return path.string();
   }
 
-  // What the launcher leaves becomes ours: its processes and the guardian that ends them. All of it goes by itself;
-  // what doesn't is waited for until the test's time is over.
+  // The processes that the launcher leaves become our children, and so does the guardian that ends them. All of them
+  // end by themselves; the test waits for them until its time is over.
   static void wait_until_all_have_gone() {
     while (::waitpid(-1, nullptr, 0) > 0) {
     }
@@ -146,7 +146,7 @@ TEST_F(Supervision, TraceOptionLeavesAFileWithATraceAsItIs) {
 }
 
 TEST_F(Supervision, LostEventsFailTheRunWhereTheFileSaysSo) {
-  // The smallest buffers, and more events at once than they hold: every malloc of a shell script that copies text.
+  // The smallest buffers, and more events at once than they can hold: every malloc of a shell script that copies text.
   const std::string traced =
       R"xml(<trace session-name="$(var name)" events-ust="lttng_ust_libc:*" subbuffer-size-ust="4096"
  fail-on-loss="$(var fail)"/>
@@ -166,7 +166,7 @@ TEST_F(Supervision, AnErrorOfTracingStartsNothing) {
   const std::string file = write(R"xml(<trace session-name="taken"/>
 <executable cmd="echo started" output="screen"/>)xml");
   ASSERT_EQ(run_command({LAUNCH_PROGRAM, file}).exit_code, 0);
-  const CommandResult result = run_command({LAUNCH_PROGRAM, file});  // its directory exists now
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});  // its directory exists this time
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr(file + ":2:2: error: tracing setup failed: "));
   EXPECT_THAT(result.err, HasSubstr("append-trace"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each attribute of <trace>, from the launch file to what the session daemon says of the session: a process of the
-// launch asks it. Context fields, which the daemon does not list, are looked up in the trace.
+// Each attribute of <trace>, from the launch file to the session daemon: a process of the launch asks the daemon about
+// the session. Context fields, which the daemon does not list, are looked up in the trace.
 #include <gmock/gmock.h>
 
 #include <ostream>
@@ -30,7 +30,7 @@ void PrintTo(const Row& row, std::ostream* out) {
 
 class TraceAttributes : public testing::TestWithParam<Row> {};
 
-// Without the label of the process at the beginning of each line.
+// The output without the label of the process at the beginning of each line.
 std::string answer_in(const std::string& output) {
   std::string answer;
   std::istringstream lines(output);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What <trace> does in a launch: the launcher's own events, processes that stay out, snapshots when something goes
+// The effects of <trace> in a launch: the launcher's own events, processes that stay out, snapshots when something goes
 // wrong.
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -162,7 +162,7 @@ TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
   EXPECT_EQ(processes.count("traced_app"), 1u);
 }
 
-// A shell's subshells are forked, never executed: each is a process of its own for the tracer, and ends.
+// The subshells of a shell are forked, but execute no program. For the tracer each is a process of its own, and ends.
 TEST_F(TraceControl, ForkedProcessesAreTracedAsTheirOwn) {
   const fs::path script = sandbox_.directory() / "script.sh";
   write_file(script, "for i in 1 2 3 4; do echo $(echo $i); done\n");
@@ -188,7 +188,7 @@ TEST_F(TraceControl, NodesThatNothingIsCalledAreWarnedOf) {
                                     "'nodes' names"));
 }
 
-// Twenty processes die within a second. Each fires its last event just before: it is in a snapshot.
+// Twenty processes die within a second. Each fires its last event just before, and this event is in a snapshot.
 TEST_F(TraceControl, TheLastEventBeforeEachOfTwentyCrashesIsInASnapshot) {
   std::string actions =
       "<trace session-name=\"run\" snapshot-on-crash=\"true\" snapshot-limit=\"40\" events-ust=\"ros2:*\"/>\n";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Usage: trace_cost_node MILLISECONDS
-// One callback that takes no time, then one that takes so long; of three messages that were published an hour ago one
-// is not there, one stays within the middleware, and one gets to rcl. Then it waits for a signal.
+// One callback takes no time, then one takes this long. Of three messages that were published an hour ago, one does not
+// arrive, one stays within the middleware, and one gets to rcl. Then the node waits for a signal.
 #include <time.h>
 #include <unistd.h>
 

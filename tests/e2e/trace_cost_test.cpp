@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a trace costs and what it has lost, as the verdict tells it; the limit of the cost; deadlines.
+// The cost and the losses of a trace in the verdict; the limit of the cost; deadlines.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/sysinfo.h>
@@ -40,7 +40,7 @@ class TraceCost : public testing::Test {
     }
   }
 
-  // traced_load, the load of the benchmark of traces.
+  // traced_load is the load of the benchmark of traces.
   static std::string load(const std::string& name, int events_per_second, int seconds) {
     return "<executable name=\"" + name + "\" output=\"screen\" cmd=\"" TRACED_NODE " " +
            std::to_string(events_per_second) + " " + std::to_string(seconds) + "\"/>\n";
@@ -76,7 +76,7 @@ TEST_F(TraceCost, TheVerdictSaysExactlyHowManyEventsEachProcessLost) {
   EXPECT_EQ(told["lost_by_process"]["method"], "exact");
   ASSERT_THAT(told["processes"], SizeIs(2));
 
-  std::map<std::int64_t, std::uint64_t> recorded;  // as another reader sees it
+  std::map<std::int64_t, std::uint64_t> recorded;  // the events that another reader counts
   for (const RecordedEvent& event : read_trace(sandbox_.trace_directory() / "run").events) {
     if (event.name.starts_with("ros2:")) ++recorded[event.vpid];
   }
@@ -154,7 +154,7 @@ TEST_F(TraceCost, ClassesOfEventsAreDroppedWhileTheBudgetIsExceeded) {
     EXPECT_GT(event.number("rate"), 1000u);
   }
   EXPECT_THAT(dropped, ElementsAre("layers", "callbacks", "executor"));
-  // A process may fire while it is told, which does not take until a later cut.
+  // A process may still fire while the change is sent to it, but not until a later cut.
   EXPECT_LT(last["ros2:rcl_publish"], cut["executor"]);
   EXPECT_GT(last["ros2:callback_end"], cut["layers"]);
   EXPECT_LT(last["ros2:callback_end"], cut["executor"]);

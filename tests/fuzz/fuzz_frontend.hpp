@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every value of an entity tree is taken as what an action could take it for.
+// Reads every value of an entity tree in every way in which an action could read it.
 #pragma once
 
 #include <cstdlib>
@@ -32,7 +32,7 @@ inline void run_frontend(launch::Entity (*parse)(const std::shared_ptr<const lau
     const launch::Entity root = parse(file);
     walk(root);
     if (!launch::equivalent(root, parse(file))) {
-      std::abort();  // the same text means the same
+      std::abort();  // the same text must mean the same
     }
   });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets share.
+// The common part of the fuzz targets.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ inline std::shared_ptr<const launch::SourceFile> as_file(const std::uint8_t* dat
   return std::make_shared<launch::SourceFile>("/fuzz/input", std::string(reinterpret_cast<const char*>(data), size));
 }
 
-// Runs a step that may refuse its input with a LaunchError, whose text must then be possible to show. Anything else
-// that is thrown is a finding.
+// Runs a step that may refuse its input with a LaunchError. It must then be possible to show the error. Any other
+// exception is a finding.
 template <typename Step>
 void try_step(Step step) {
   try {

@@ -11,7 +11,7 @@
 
 namespace {
 
-// Options that name files: the input would choose what is read.
+// Options that name files: with them the input would choose the files that are read.
 bool names_a_file(const std::string& argument) {
   return argument.find("params-file") != std::string::npos || argument.find("log-config-file") != std::string::npos;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a message takes from publish() to the end of its callback in a single-threaded executor, with few idle
+// Measures the time of a message from publish() to the end of its callback in a single-threaded executor: with few idle
 // subscriptions beside the one that gets it, with many, and with as many idle timers. The executors are in one process
-// and take turns, batch by batch, so that whatever the machine does meanwhile meets all.
+// and take turns, batch by batch, so that other work on the machine affects all of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
   {
     Nodes few("few", kFew);
-    // Fast DDS looks for a reader of the process among those that were made before it.
+    // To find a reader in this process, Fast DDS goes through the readers that were made before it.
     Nodes timers("timers", kFew, kMany);
     Nodes many("many", kMany);
     std::vector<double> with_few;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floor: the same exchange on nothing but Fast DDS, with the quality of service that the stack's rmw asks for.
+// The floor: the same exchange on Fast DDS alone, with the quality of service that the stack's rmw asks for.
 //   latency_bare publisher|wait_set|listener
-// The subscriber `wait_set` has the stack's threads: one that waits in a wait set, woken by the one that receives. The
-// subscriber `listener` works in the thread that receives, which is the least that Fast DDS can do.
+// The subscriber `wait_set` has the threads of the stack: one waits in a wait set, and the one that receives wakes it.
+// The subscriber `listener` works in the thread that receives, which is the least that Fast DDS can do.
 #include <fastcdr/Cdr.h>
 
 #include <condition_variable>
@@ -38,7 +38,7 @@ using eprosima::fastcdr::FastBuffer;
 constexpr int kTopics = latency::kSizes.size();
 using Topics = std::vector<fdds::Topic*>;
 
-// Any of the message types; `data` has the length that the size leaves.
+// Any of the message types; the size decides the length of `data`.
 struct Message {
   std::int64_t sent;
   std::int64_t remaining;
@@ -217,6 +217,6 @@ int main(int argc, char** argv) {
   } else {
     subscribe(*participant, topics, role == "listener");
   }
-  // The driver of the benchmark ends both programs; nothing is left to take apart.
+  // The benchmark ends both programs, so there is nothing left to clean up.
   std::_Exit(EXIT_SUCCESS);
 }

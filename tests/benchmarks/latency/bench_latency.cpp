@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a message takes from publish() to the callback of a subscription in another process, through the stack and
-// through bare Fast DDS, and what recording every ros2 event adds to it.
+// Measures the time of a message from publish() to the callback of a subscription in another process, through the stack
+// and through bare Fast DDS, and the time that recording every ros2 event adds to it.
 //
-// Every variant is a pair of processes. They take turns, batch by batch, so that whatever the machine does meanwhile
-// meets them all. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
+// Every variant is a pair of processes. They take turns, batch by batch, so that other work on the machine affects all
+// of them. Latencies are differences of CLOCK_MONOTONIC, taken just before publish() and first in the callback.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,8 +20,8 @@ namespace {
 using latency::kSizes;
 using Nanoseconds = std::vector<std::int64_t>;
 
-// Two runs of the same program differ by more than what is measured, by where their memory happens to lie. Hence every
-// process is started anew for each of these, with its own rounds.
+// Two runs of the same program differ by more than the measured effect, because their memory lies in different places.
+// Hence every process is started anew for each of these generations, each with its own rounds.
 constexpr int kGenerations = 5;
 constexpr int kRounds = 10;                    // of a generation
 constexpr std::uint64_t kMessages = 50;        // of a batch
@@ -40,7 +40,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// What one size did in one variant.
+// The results of one size in one variant.
 struct Samples {
   Nanoseconds latencies;
   std::vector<double> batch_medians;  // microseconds, one per round
@@ -69,8 +69,8 @@ struct Variant {
   Nanoseconds run(std::size_t size, std::uint64_t messages) const { return pair->run({size, messages, kPeriod}); }
 };
 
-// The median over the rounds of how much longer `variant` took than `floor`, in microseconds: neighbours in time are
-// compared, so slow drifts of the machine cancel out.
+// The median over the rounds of the difference between `variant` and `floor`, in microseconds. Neighbours in time are
+// compared, so that slow drifts of the machine cancel out.
 double added(const Samples& variant, const Samples& floor) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < floor.batch_medians.size(); ++i) {
@@ -79,7 +79,7 @@ double added(const Samples& variant, const Samples& floor) {
   return median(differences);
 }
 
-// Asks a process that is traced as the stack is.
+// Asks a process that is traced like the stack.
 latency::PathCosts cost_of_tracepoints_on_the_path(latency::Worker& tracepoints, std::size_t bytes) {
   latency::PathCosts costs{};
   const latency::PathRequest request{kPeriod, bytes};
@@ -124,7 +124,7 @@ int main() try {
   Variant without{"stack, no tracepoints", LATENCY_STACK_WITHOUT_TRACEPOINTS, "subscriber", 64};
   Variant listener{"bare, in listener", LATENCY_BARE, "listener", 63};
   const std::vector<Variant*> variants = {&bare, &idle, &disabled, &without, &listener};
-  // Of the processes of `idle` with the session started, and of those of `disabled` at the same time.
+  // For the processes of `idle` with the session started, and for those of `disabled` at the same time.
   std::vector<Samples> recorded(kSizes.size());
   std::vector<Samples> beside_recorded(kSizes.size());
   std::vector<double> loop_costs;

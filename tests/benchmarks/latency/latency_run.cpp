@@ -77,7 +77,7 @@ Worker::Worker(const std::vector<std::string>& argv, const std::map<std::string,
     std::erase_if(variables, [&](const std::string& entry) { return entry.starts_with(name + "="); });
     variables.push_back(name + "=" + value);
   }
-  const PinnedTo pinned(processor);  // what the child inherits
+  const PinnedTo pinned(processor);  // the child inherits this
   if (posix_spawn(&pid_, argv[0].c_str(), &actions, nullptr, pointers(words).data(), pointers(variables).data()) != 0) {
     fail("cannot start " + name_);
   }

@@ -12,10 +12,10 @@
 
 namespace latency {
 
-// A program on stdin and stdout pipes; killed at the end of scope.
+// A program with pipes as stdin and stdout; it is killed at the end of the scope.
 class Worker {
  public:
-  // Runs on the `processor`-th of those that this process may use.
+  // Runs on the `processor`-th of the processors that this process may use.
   Worker(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment, int processor);
   ~Worker();
   Worker(const Worker&) = delete;
@@ -32,15 +32,16 @@ class Worker {
   int out_ = -1;
 };
 
-// On a processor each: where the scheduler happens to place threads makes more of a difference than what is measured.
+// Each runs on a processor of its own: the placement of threads by the scheduler makes more difference than the
+// measured effect.
 class Pair {
  public:
   Pair(const std::string& program, const std::string& subscriber_role,
        const std::map<std::string, std::string>& environment);
 
   void wait_ready();
-  // Nanoseconds from before the publication to within the callback, of each message that came: a late
-  // reader misses what the writer no longer keeps, except the last one.
+  // The time of each message that came, in nanoseconds, from before the publication to within the callback. A late
+  // reader misses all messages that the writer no longer keeps, except the last one.
   std::vector<std::int64_t> run(const Batch& batch);
 
  private:

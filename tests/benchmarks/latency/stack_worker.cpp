@@ -19,7 +19,7 @@ using Messages = std::tuple<Bytes1k, Bytes32k, Bytes64k, Bytes256k>;
 template <std::size_t I>
 using Message = std::tuple_element_t<I, Messages>;
 
-// How often it is looked whether the other side is there.
+// Time between checks whether the other side is there.
 constexpr std::chrono::milliseconds kLookAgain{20};
 
 // Ends when `matched` is true.

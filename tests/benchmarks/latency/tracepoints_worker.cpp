@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tracepoints between publish() and the callback cost. Answers each PathRequest on stdin with the PathCosts on
-// stdout.
+// Measures the cost of the tracepoints between publish() and the callback. Answers each PathRequest on stdin with the
+// PathCosts on stdout.
 #include <tracetools/tracetools.h>
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ double cost_in_a_loop(void (*event)()) {
   return median(costs);
 }
 
-// A message is copied by whoever sends or takes it, and pushes as much out of the caches as it needs.
+// The sender and the receiver of a message copy it, and the copy pushes as much out of the caches as it needs.
 double cost_at_pace(void (*events)(), const latency::PathRequest& request) {
   const std::vector<char> message(request.bytes, 'm');
   std::vector<char> copy(request.bytes);

@@ -16,7 +16,7 @@ class TracingSession {
   TracingSession(const TracingSession&) = delete;
   TracingSession& operator=(const TracingSession&) = delete;
 
-  // Return when the tracepoints of all processes are switched.
+  // They return when the tracepoints of all processes are switched.
   void start();
   void stop();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the publishing and subscribing programs of the latency benchmark have in common, whatever they are built on: the
-// sizes, the pace, and the conversation with bench_latency over stdin and stdout.
+// The common part of the publishing and subscribing programs of the latency benchmark: the sizes, the pace, and the
+// exchange with bench_latency over stdin and stdout.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@ std::int64_t monotonic_now();  // nanoseconds
 // The topic of messages of one size, as ROS names it.
 std::string topic_of(std::size_t size_index);
 
-// A batch of messages of one size: what bench_latency writes to the stdin of a publisher, as it is in memory.
+// A batch of messages of one size. bench_latency writes it to the stdin of a publisher, as it is in memory.
 struct Batch {
   std::uint64_t size_index;
   std::uint64_t messages;
   std::int64_t period;  // nanoseconds from one message to the next
 };
 
-// What the tracepoints on the way of a message cost, in microseconds: the sum of the costs of each in a loop of its
-// own, where all they touch is in the caches; and when they are called once a period, after a copy of as many bytes as
-// the message has, those of the publisher one after another, and those of the subscriber.
+// The cost of the tracepoints on the way of a message, in microseconds. First the sum of the costs of each in a loop of
+// its own, where everything that they touch is in the caches. Then the costs when they are called once a period, after
+// a copy of as many bytes as the message has: those of the publisher one after another, and those of the subscriber.
 struct PathRequest {
   std::int64_t period;  // nanoseconds
   std::uint64_t bytes;
@@ -42,7 +42,7 @@ struct PathCosts {
 // Tells bench_latency that every topic has found its other side. Call it once.
 void tell_ready();
 
-// Calls `step` once a period (nanoseconds), with how many are left.
+// Calls `step` once a period (nanoseconds), with the number of steps that are left.
 void at_pace(std::uint64_t steps, std::int64_t period, const std::function<void(std::uint64_t remaining)>& step);
 
 // Sends the batches that are asked for until stdin ends.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long it takes to load and visit launch files, up to the list of what would run: many nodes in one file, a chain
+// Measures the time to load and visit launch files, up to the list of what would run: many nodes in one file, a chain
 // of includes, and a tree of real launch files with what conditions leave out. The floor is the bare parser of the
-// format, tinyxml2 or yaml-cpp, over the same text. Processor time of this process, in turns in the same run; prints
-// medians.
+// format, tinyxml2 or yaml-cpp, over the same text. It measures processor time of this process, in turns in the same
+// run, and prints medians.
 #include <fmt/format.h>
 #include <stdlib.h>
 #include <time.h>
@@ -85,7 +85,7 @@ void load_and_visit(const std::string& file, std::size_t processes) {
   expect(launch::plan_launch(context, *description).processes.size() == processes, "not all processes are there");
 }
 
-// Visits, too, what conditions leave out, and goes on after errors, as `launch check` does. Gives the number of
+// Also visits what conditions leave out, and goes on after errors, as `launch check` does. Returns the number of
 // includes.
 int explore(const bench::CorpusTree& tree) {
   launch::LaunchContext context(registry(), tree.environment, "", [](auto...) {});
@@ -107,7 +107,7 @@ void bare_xml(const std::string& file) {
   expect(document.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS, "tinyxml2 fails");
 }
 
-// yaml-cpp without a tree: its events, dropped.
+// yaml-cpp without a tree: its events are dropped.
 class NoTree : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A program that the files call, and that hardly anybody has.
+// A program that the files call, and that few machines have.
 void write_xacro(const fs::path& path) {
   std::ofstream(path) << "#!/bin/sh\necho '<robot/>'\n";
   fs::permissions(path, fs::perms::owner_all);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The largest tree of launch files among the real ones, made ready to be loaded.
+// Prepares the largest tree among the real launch files for loading.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 namespace bench {
 
 struct CorpusTree {
-  std::string file;  // of its root; empty: the real launch files are not here
+  std::string file;  // of the root of the tree; empty: the real launch files are not here
   std::map<std::string, std::string> arguments;
   std::map<std::string, std::string> environment;
 };

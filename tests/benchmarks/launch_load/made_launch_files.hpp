@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Launch files of any size, made for measuring.
+// Makes launch files of any size, for measurements.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace bench {
 std::string nodes_as_xml(int count);
 std::string nodes_as_yaml(int count);
 
-// Writes launch files that include one another, `depth` of them, into `directory`; the path of the outermost.
+// Writes `depth` launch files that include one another into `directory`. Returns the path of the outermost.
 std::string write_include_chain(const std::string& directory, int depth);
 
 }  // namespace bench

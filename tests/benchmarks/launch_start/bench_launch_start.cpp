@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long it takes from starting `launch FILE` until both of its processes run, and how much memory the launcher then
-// holds, beside a bare loop that starts the same two programs.
+// Measures the time from the start of `launch FILE` until both of its processes run, and the memory that the launcher
+// then holds. The floor is a bare loop that starts the same two programs.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -71,7 +71,7 @@ void end(pid_t pid) {
   waitpid(pid, nullptr, 0);
 }
 
-// Kilobytes, by the name of a line of /proc/PID/status.
+// The value in kilobytes of the line of this name in /proc/PID/status.
 long memory_of(pid_t pid, const std::string& line_name) {
   std::ifstream status(fmt::format("/proc/{}/status", pid));
   for (std::string line; std::getline(status, line);) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the time at which its main began to the pipe that the environment names, then waits for a signal.
+// Writes the time at which its main began to the pipe that the environment names, and then waits for a signal.
 #include <fcntl.h>
 #include <time.h>
 #include <unistd.h>

@@ -2,7 +2,7 @@
 // Reads one generated trace of a million events with babeltrace2, with our reader, and with launch-report, and prints
 // their speeds as ratios to `babeltrace2 -o dummy`, which decodes the same events and throws them away.
 //
-// Each reader is a process of its own; its CPU time counts, so that other work on the machine disturbs little. Usage:
+// Each reader is a process of its own. Its CPU time counts, so that other work on the machine has little effect. Usage:
 //   bench_reader [EVENTS]
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -124,7 +124,7 @@ void compare(const std::string& self, std::size_t events) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "--read") {  // what compare() runs to measure the reader alone
+  if (argc == 3 && std::string(argv[1]) == "--read") {  // compare() runs this to measure the reader alone
     DecodingSink sink;
     TraceReader(argv[2]).read(sink);
     return sink.ros2_events > 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER]]]]
 //
-// Whether the default buffers hold: the events of NODES processes, first those of their creation all at once, then
-// EVENTS_PER_SECOND of all together, are recorded with the three context fields.
+// Checks whether the default buffers are large enough. NODES processes fire first the events of their creation all at
+// once, then EVENTS_PER_SECOND together. All are recorded with the three context fields.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
@@ -50,7 +50,7 @@ double milliseconds_of(Work work) {
   return Milliseconds(std::chrono::steady_clock::now() - begin).count();
 }
 
-// A session daemon of our own: root has one in /run, everybody else one in LTTNG_HOME.
+// Makes a session daemon of our own: root has one in /run, other users have one in LTTNG_HOME.
 void isolate(const fs::path& directory) {
   setenv("LTTNG_HOME", directory.c_str(), 1);
   if (geteuid() == 0 && (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
@@ -59,7 +59,7 @@ void isolate(const fs::path& directory) {
   }
 }
 
-// The process that the command name is the beginning of; zero when there is none. Names end after 15 characters.
+// The process with this name; zero when there is none. Names end after 15 characters.
 pid_t process_named(const std::string& name) {
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
     std::string found;
@@ -84,7 +84,7 @@ double cpu_seconds(pid_t pid) {
   return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-// Starts all nodes at once and returns, when the last has ended, how many events they fired.
+// Starts all nodes at once. When the last one has ended, returns how many events they fired.
 long run_nodes(const Load& load, int seconds) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {

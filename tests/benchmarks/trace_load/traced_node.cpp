@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Usage: bench_traced_node EVENTS_PER_SECOND SECONDS
-// Fires the tracepoints of a node: those of its creation at once, then those of messages in cycles of ten milliseconds.
-// At the end it prints how many it fired.
+// Fires the tracepoints of a node: first those of its creation at once, then those of messages in cycles of ten
+// milliseconds. At the end it prints how many it fired.
 #include <time.h>
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Usage: bench_trace_session [RUNS]
 //
-// What a <trace> adds to a launch of two nodes that takes a second, by `launch --timing`: to its start with a session
-// daemon that runs and without one, and to its end, after the last exit. RUNS (default: 11) launches for each.
+// Measures the time that a <trace> adds to a launch of two nodes that takes a second, by `launch --timing`: to its
+// start with a running session daemon and without one, and to its end, after the last exit. RUNS (default: 11) launches
+// for each.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sched.h>
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
   std::exit(1);
 }
 
-// A session daemon of our own: root has one in /run, everybody else one in LTTNG_HOME.
+// Makes a session daemon of our own: root has one in /run, other users have one in LTTNG_HOME.
 void isolate(const fs::path& directory) {
   setenv("LTTNG_HOME", directory.c_str(), 1);
   setenv("XDG_CACHE_HOME", directory.c_str(), 1);
@@ -53,7 +54,7 @@ void end_session_daemon(const fs::path& directory) {
   close(death.fd);
 }
 
-// The steps that `launch --timing` tells of, in milliseconds.
+// The steps that `launch --timing` prints, in milliseconds.
 std::map<std::string, double> launch(const fs::path& file) {
   const std::string command = fmt::format("{} --timing {} 2>&1", LAUNCH_PROGRAM, file.string());
   FILE* const output = popen(command.c_str(), "r");
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
                       << "  <executable cmd=\"" TRACED_NODE_PROGRAM " 1000 1\"/>\n"
                       << "  <executable cmd=\"" TRACED_NODE_PROGRAM " 1000 1\"/>\n</launch>\n";
   std::vector<double> cold, warm, ended, left;
-  launch(file);  // measures, once on a machine, what an event costs
+  launch(file);  // measures the cost of an event, once on a machine
   for (int run = 0; run < runs; ++run) {
     end_session_daemon(directory);
     cold.push_back(sum_of(launch(file), "trace: "));

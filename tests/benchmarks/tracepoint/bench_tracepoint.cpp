@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an instrumented line of a program pays for one tracepoint with two pointers (rcl_publish).
+// Measures the cost of one tracepoint with two pointers (rcl_publish) for an instrumented line of a program.
 //
-// Without a session all cases are idle: `LibraryTracepoint` is what the stack does, `EmptyCall` a function of another
+// Without a session all cases are idle: `LibraryTracepoint` is the way of the stack, `EmptyCall` a function of another
 // library that does nothing, `InlineTracepoint` LTTng's bare macro without a function around it. To see the cost of
-// recording, start a session with the event ros2:rcl_publish first; the label tells which it was:
+// recording, first start a session with the event ros2:rcl_publish; the label tells whether it was recorded:
 //
 //   lttng create bench --snapshot && lttng enable-event -u 'ros2:*' && lttng start && bench_tracepoint
 #include <benchmark/benchmark.h>
@@ -12,7 +12,7 @@
 
 #include "tracetools/tracetools.h"
 
-// Definitions of its own, served by the probes that tracetools has loaded.
+// These are definitions of its own, which the probes of tracetools serve once they are loaded.
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
 #include "provider.h"

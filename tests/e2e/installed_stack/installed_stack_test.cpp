@@ -45,7 +45,7 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessagesAndComponents) {
             "weather/srv/Forecast_Event\n"
             "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: \"\"}, temperature: 20.5, sky: \"clear\"}\ntracing on\n");
 
-  // What the project installs is a package of the same shape.
+  // The package that the project installs has the same shape.
   const fs::path other = sandbox_.directory() / "other";
   run({CMAKE, "--install", build.string(), "--prefix", other.string()});
   for (const char* file :
@@ -54,7 +54,7 @@ TEST_F(InstalledStack, ServesAProjectWithItsOwnMessagesAndComponents) {
     EXPECT_TRUE(fs::exists(other / file)) << file;
   }
 
-  // So are its components: a program, and libraries that a container of the stack finds by the index.
+  // Its components have the same shape, too: a program, and libraries that a container of the stack finds by the index.
   EXPECT_EQ(test_support::read_file(other / "share/ament_index/resource_index/rclcpp_components/weather"),
             "instruments::Barometer;lib/libinstruments.so\ninstruments::Thermometer;lib/libinstruments.so\n");
   EXPECT_EQ(run({(other / "lib/weather/barometer").string(), "--ros-args", "-r", "__ns:=/roof"}).out,

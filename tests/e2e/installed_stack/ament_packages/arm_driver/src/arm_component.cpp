@@ -11,7 +11,7 @@ class ArmComponent : public rclcpp::Node {
   explicit ArmComponent(const rclcpp::NodeOptions& options) : Node("arm_component", options) {}
 };
 
-// Does all of its work when it is created.
+// It does all of its work when it is created.
 class SelfTest : public rclcpp::Node {
  public:
   explicit SelfTest(const rclcpp::NodeOptions& options) : Node("self_test", options) {
