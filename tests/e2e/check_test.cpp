@@ -322,7 +322,7 @@ TEST_F(WithoutRunning, CompletionKnowsCommandsPackagesFilesAndArguments) {
   EXPECT_THAT(launch({"complete", "launch_examples", "01"}).out, "01_ping_pong.launch.xml\n01_ping_pong.launch.yaml\n");
   EXPECT_EQ(launch({"complete", "launch_examples", "01_ping_pong.launch.xml", ""}).out, "count:=\nperiod_ms:=\n");
   EXPECT_EQ(launch({"complete", "check", "launch_examples", "01_ping_pong.launch.xml", "c"}).out, "count:=\n");
-  EXPECT_EQ(launch({"complete", "trace", "re"}).out, "record_snapshot\nresume\n");
+  EXPECT_EQ(launch({"complete", "trace", "re"}).out, "read\nrecord_snapshot\nresume\n");
   EXPECT_EQ(launch({"complete", "trace", "start", "x", "--subbuffer-size"}).out,
             "--subbuffer-size-kernel\n--subbuffer-size-ust\n");
   EXPECT_EQ(launch({"complete", "trace", "stop", "--f"}).out, "--fail-on-loss\n");
