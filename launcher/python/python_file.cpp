@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -177,6 +178,9 @@ SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRang
   }
   for (const SubstitutionType& type : substitution_types()) {
     if (type.name == part.text) {
+      if (std::optional<std::string> wrong = wrong_number_of_arguments(type, arguments.size())) {
+        throw LaunchError(std::move(*wrong), std::move(where));
+      }
       return type.make(std::move(arguments), std::move(where));
     }
   }

@@ -55,7 +55,15 @@ SourceRange PythonPlaces::range(const python::Place& place) {
 
 void PythonPlaces::fail(const python::Error& error) {
   if (error.cause != nullptr) {
-    std::rethrow_exception(error.cause);
+    try {
+      std::rethrow_exception(error.cause);
+    } catch (const LaunchError&) {
+      throw;
+    } catch (const python::Error& inner) {
+      fail(inner);
+    } catch (const std::exception&) {
+      // Only LaunchError has a place: told as Python's error, at the place of the call.
+    }
   }
   std::string help = error.help;
   if (tracebacks() && !error.traceback.empty()) {

@@ -25,8 +25,13 @@ class SubstitutionCall {
   std::size_t count() const { return arguments_.size(); }
   bool has(std::size_t index) const { return index < arguments_.size(); }
 
-  // The text of an argument; performed anew by each call.
-  std::string text(std::size_t index) const { return arguments_[index].perform(scope_); }
+  // The text of an argument; performed anew by each call. Throws LaunchError when there is none.
+  std::string text(std::size_t index) const {
+    if (!has(index)) {
+      fail(fmt::format("argument {} of the substitution is missing", index + 1), {});
+    }
+    return arguments_[index].perform(scope_);
+  }
 
   bool boolean(std::size_t index) const {
     const std::string value = text(index);
@@ -54,7 +59,8 @@ class SubstitutionCall {
 
   Scope& scope() const { return scope_; }
   const SourceRange& where() const { return where_; }
-  const SourceRange& where(std::size_t index) const { return arguments_[index].where(); }
+  // Of an argument; of the substitution when there is none.
+  const SourceRange& where(std::size_t index) const { return has(index) ? arguments_[index].where() : where_; }
 
  private:
   const std::vector<Template>& arguments_;

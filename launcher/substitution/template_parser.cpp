@@ -241,11 +241,10 @@ class TemplateParser {
     if (type == types.end()) {
       throw unknown(name, name_where);
     }
-    const auto count = static_cast<int>(arguments.size());
-    const bool too_many = type->maximum_arguments != SubstitutionType::kAnyNumber && count > type->maximum_arguments;
-    if (count < type->minimum_arguments || too_many) {
+    if (std::optional<std::string> wrong = wrong_number_of_arguments(*type, arguments.size())) {
+      const bool too_many = static_cast<int>(arguments.size()) > type->minimum_arguments;
       throw LaunchError(
-          fmt::format("substitution '{}' takes {}, got {}", name, argument_count(*type), count), std::move(where),
+          std::move(*wrong), std::move(where),
           fmt::format("usage: {}{}", type->usage,
                       too_many && type->maximum_arguments > 0 ? "; quote an argument that has spaces" : ""));
     }
@@ -276,6 +275,15 @@ class TemplateParser {
 };
 
 }  // namespace
+
+std::optional<std::string> wrong_number_of_arguments(const SubstitutionType& type, std::size_t count) {
+  const int given = static_cast<int>(count);
+  const bool too_many = type.maximum_arguments != SubstitutionType::kAnyNumber && given > type.maximum_arguments;
+  if (given >= type.minimum_arguments && !too_many) {
+    return std::nullopt;
+  }
+  return fmt::format("substitution '{}' takes {}, got {}", type.name, argument_count(type), given);
+}
 
 Template parse_template(const LocatedText& text) {
   return TemplateParser(text).parse();

@@ -2,7 +2,9 @@
 // The template grammar: text with $(name arg …) inside, escapes and quoting.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +24,9 @@ struct SubstitutionType {
   std::string help;           // one line for the reference page
   std::function<SubstitutionPtr(std::vector<Template> arguments, SourceRange where)> make;
 };
+
+// What is wrong with that number of arguments; nullopt when the substitution takes it.
+std::optional<std::string> wrong_number_of_arguments(const SubstitutionType& type, std::size_t count);
 
 // Every substitution there is, by name. The built-in ones are listed in builtin_substitutions.cpp.
 const std::vector<SubstitutionType>& substitution_types();

@@ -17,7 +17,7 @@ namespace launch::python {
 namespace {
 
 std::string perform(const py::object& value, const std::optional<py::dict>& configurations) {
-  const Text text = read_text(value);
+  const Text text = guarded([&] { return read_text(value); });
   if (!configurations) {
     return guarded([&] { return host().perform(text); });
   }
@@ -29,8 +29,7 @@ std::string perform(const py::object& value, const std::optional<py::dict>& conf
 }
 
 void visit(const py::object& entities) {
-  const std::vector<Entity> read = read_entities(entities);
-  guarded([&] { host().visit(read); });
+  guarded([&] { host().visit(read_entities(entities)); });
 }
 
 Host::Variables& variables(bool environment) {

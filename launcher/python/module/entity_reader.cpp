@@ -10,6 +10,8 @@ namespace launch::python {
 
 namespace {
 
+std::string read_str(const py::handle& value);
+
 class PythonObject : public Object {
  public:
   explicit PythonObject(py::object object) : object_(std::move(object)) {}
@@ -21,7 +23,7 @@ class PythonObject : public Object {
   }
 
   std::string perform(Host& host) override {
-    return run_python(host, [&] { return object_.attr("_perform")().cast<std::string>(); });
+    return run_python(host, [&] { return read_str(object_.attr("_perform")()); });
   }
   std::string describe() override {
     const py::gil_scoped_acquire lock;
@@ -42,10 +44,49 @@ class PythonObject : public Object {
   py::object object_;
 };
 
+// Objects that hold each other more deeply than this would exhaust the stack, here or when they are visited.
+constexpr int kDeepest = 200;
+
+// Counts how deeply the objects that are being read hold each other.
+class Level {
+ public:
+  Level() {
+    if (++depth() > kDeepest) {
+      --depth();
+      throw Error("objects of the launch file hold each other more than " + std::to_string(kDeepest) + " deep", {}, {},
+                  {}, nullptr);
+    }
+  }
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+  ~Level() { --depth(); }
+
+ private:
+  static int& depth() {
+    static int value = 0;
+    return value;
+  }
+};
+
+// A str for the launcher. Throws Error for one that no program could be given.
+std::string read_str(const py::handle& value) {
+  std::string text;
+  try {
+    text = value.cast<std::string>();
+  } catch (const py::cast_error&) {
+    throw Error("a text holds characters that are no Unicode: " + py::repr(value).cast<std::string>(), {}, {}, {},
+                nullptr);
+  }
+  if (text.find('\0') != std::string::npos) {
+    throw Error("a text holds the character NUL: " + py::repr(value).cast<std::string>(), {}, {}, {}, nullptr);
+  }
+  return text;
+}
+
 Part read_part(const py::handle& value) {
   Part part;
   if (py::isinstance<py::str>(value)) {
-    part.text = value.cast<std::string>();
+    part.text = read_str(value);
     return part;
   }
   part.where = read_place(value.attr("_place")());
@@ -54,7 +95,7 @@ Part read_part(const py::handle& value) {
     part.kind = Part::Kind::kObject;
     part.object = std::make_shared<PythonObject>(py::reinterpret_borrow<py::object>(value));
   } else if (py::isinstance<py::str>(call)) {
-    part.text = call.cast<std::string>();
+    part.text = read_str(call);
   } else {
     const auto parts = call.cast<py::tuple>();
     part.kind = Part::Kind::kCall;
@@ -67,11 +108,16 @@ Part read_part(const py::handle& value) {
 }
 
 Value read_value(const py::handle& value) {
+  const Level level;
   if (py::isinstance<py::bool_>(value)) {
     return {value.cast<bool>(), {}};
   }
   if (py::isinstance<py::int_>(value)) {
-    return {value.cast<std::int64_t>(), {}};
+    try {
+      return {value.cast<std::int64_t>(), {}};
+    } catch (const py::cast_error&) {
+      throw Error("a number has more than 64 bits: " + py::str(value).cast<std::string>(), {}, {}, {}, nullptr);
+    }
   }
   if (py::isinstance<py::float_>(value)) {
     return {value.cast<double>(), {}};
@@ -88,10 +134,8 @@ Value read_value(const py::handle& value) {
   return {std::move(text), std::move(where)};
 }
 
-Entity read_entity(const py::tuple& tuple) {
-  Entity entity;
-  entity.tag = tuple[0].cast<std::string>();
-  entity.where = read_place(tuple[1]);
+// Throws Error without a place for what can't be read.
+void read_content(const py::tuple& tuple, Entity& entity) {
   for (const py::handle item : tuple[2]) {
     const auto attribute = item.cast<py::tuple>();
     Value value = read_value(attribute[1]);
@@ -105,6 +149,25 @@ Entity read_entity(const py::tuple& tuple) {
     entity.object = std::make_shared<PythonObject>(tuple[4].cast<py::object>());
   }
   entity.process_name = tuple[5].cast<std::string>();
+}
+
+Entity read_entity(const py::tuple& tuple) {
+  const Level level;
+  Entity entity;
+  entity.tag = tuple[0].cast<std::string>();
+  entity.where = read_place(tuple[1]);
+  try {
+    read_content(tuple, entity);
+  } catch (Error& error) {
+    if (error.where.line == 0) {
+      error.where = entity.where;
+    }
+    throw;
+  } catch (const py::error_already_set& error) {
+    throw Error(py::str(error.value()).cast<std::string>(), entity.where, {}, {}, nullptr);
+  } catch (const py::cast_error& error) {
+    throw Error(error.what(), entity.where, {}, {}, nullptr);
+  }
   return entity;
 }
 
@@ -123,6 +186,7 @@ std::vector<Entity> read_entities(const py::handle& entities) {
 }
 
 Text read_text(const py::handle& value) {
+  const Level level;
   Text text;
   if (!py::isinstance<py::tuple>(value)) {
     text.parts.push_back(read_part(value));

@@ -4,6 +4,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
+
 #include "launcher/python/interpreter/python_runtime.hpp"
 #include "launcher/python/module/current_host.hpp"
 
@@ -22,7 +24,9 @@ auto run_python(Host& host, Call call) {
     return call();
   } catch (pybind11::error_already_set& error) {
     throw_failure(error);
-  } catch (const pybind11::cast_error& error) {
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
     throw Error(error.what(), {}, {}, {}, nullptr);
   }
 }

@@ -3,7 +3,25 @@
 
 from collections.abc import Iterable
 
-from launch._values import LaunchFileError, name_of
+from launch._values import LaunchFileError, WrongKind, name_of
+
+
+class told_at:  # noqa: N801  as contextlib has it
+    """Errors of the block that have no place of their own are told where the object was made."""
+
+    def __init__(self, made):
+        self._made = made
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, _kind, error, _trace):
+        if error is not None and getattr(error, 'place', None) is None:
+            try:
+                error.place = self._made._place()
+            except AttributeError:
+                pass  # a class of the user's that was not initialised, or an exception that holds nothing more
+        return False
 
 
 def entity(tag, place, attributes, children=(), obj=None, process_name=''):
@@ -18,16 +36,23 @@ def entities(objects, place=None):
     return result
 
 
+# More than any launch file has: an endless iterator must not fill the memory.
+_MOST_ENTITIES = 1_000_000
+
+
 def _collect(objects, result, place):
     from launch.launch_description_entity import LaunchDescriptionEntity
     if objects is None:
         return
     if isinstance(objects, LaunchDescriptionEntity):
-        result.extend(objects._entities())
+        with told_at(objects):
+            result.extend(objects._entities())
     elif isinstance(objects, Iterable) and not isinstance(objects, (str, bytes)):
         for item in objects:
             if item is None:
-                raise LaunchFileError('expected an action, got None', '', place)
+                raise WrongKind('expected an action, got None', '', place)
+            if len(result) > _MOST_ENTITIES:
+                raise LaunchFileError(f'a launch description holds more than {_MOST_ENTITIES} actions', '', place)
             _collect(item, result, place)
     else:
-        raise LaunchFileError(f'expected an action, got {name_of(objects)}', '', place)
+        raise WrongKind(f'expected an action, got {name_of(objects)}', '', place)

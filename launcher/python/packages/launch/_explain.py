@@ -74,24 +74,25 @@ def explain(error, trace):
     """(message, place, help, traceback, number of the launcher's exception)."""
     text = ''.join(traceback.format_exception(type(error), error, trace))
     number = getattr(error, '_number', None)
+    place = _place(trace) or getattr(error, 'place', None)
     if isinstance(error, LaunchFileError):
-        return str(error), _place(trace) or error.place, error.help, text, number
+        return str(error), place, error.help, text, number
     if unknown := _unknown_name(error):
         module, name = unknown
         near = difflib.get_close_matches(name, dir(sys.modules.get(module)), 1)
-        return (f"this launcher's {module} has no '{name}'", _place(trace), f"did you mean '{near[0]}'?" if near else '',
+        return (f"this launcher's {module} has no '{name}'", place, f"did you mean '{near[0]}'?" if near else '',
                 text, number)
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
         begin = max((error.offset or 1) - 1, 0)
         end = (error.end_offset or 0) - 1 if error.end_lineno == error.lineno else 0
-        place = (error.filename, error.lineno, begin, end if end > begin else begin + 1)
-        return f'{type(error).__name__}: {error.msg}', place, '', text, number
+        wrong = (error.filename, error.lineno, begin, end if end > begin else begin + 1)
+        return f'{type(error).__name__}: {error.msg}', wrong, '', text, number
     if isinstance(error, SystemExit):
-        return f'the launch file called sys.exit({error.code!r})', _place(trace), '', text, number
+        return f'the launch file called sys.exit({error.code!r})', place, '', text, number
     message = str(error) or 'no message'
     if isinstance(error, KeyError) and len(error.args) == 1:
         message = repr(error.args[0])
     message = re.sub(r'\s*\n\s*', ' ', message)
-    return f'{type(error).__name__}: {message}', _place(trace), _help(error, trace), text, number
+    return f'{type(error).__name__}: {message}', place, _help(error, trace), text, number
 
 

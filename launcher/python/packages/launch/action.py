@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Action: one thing that a launch file asks for."""
 
-from launch._entities import entities, entity
-from launch._values import LaunchFileError, reject
+from launch._entities import entities, entity, told_at
+from launch._values import LaunchFileError, WrongKind, reject
 from launch._places import of_function
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -25,8 +25,8 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition=None, **unknown):
         reject(type(self), unknown, ['condition'])
         if condition is not None and not isinstance(condition, Condition):
-            raise LaunchFileError(f'condition of {type(self).__name__} must be a Condition, '
-                                  f'got {type(condition).__name__}', 'write IfCondition(…)')
+            raise WrongKind(f'condition of {type(self).__name__} must be a Condition, '
+                            f'got {type(condition).__name__}', 'write IfCondition(…)')
         self._condition = condition
 
     @property
@@ -61,7 +61,8 @@ class Action(LaunchDescriptionEntity):
 
     def _execute(self):
         from launch.launch_context import LaunchContext
-        return entities(self.execute(LaunchContext._of_launch()), self._place_of_execute())
+        with told_at(self):
+            return entities(self.execute(LaunchContext._of_launch()), self._place_of_execute())
 
     def _place_of_execute(self):
         return of_function(type(self).execute)

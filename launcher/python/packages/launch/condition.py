@@ -2,13 +2,14 @@
 """Condition: whether an action is executed."""
 
 from launch._places import Located
+from launch._values import function
 
 
 class Condition(Located):
     """A predicate of the context. The classes for most uses are in launch.conditions."""
 
     def __init__(self, *, predicate=None):
-        self._predicate = predicate
+        self._predicate = None if predicate is None else function(predicate, 'predicate')
 
     def evaluate(self, context):
         if self._predicate is None:
@@ -27,5 +28,7 @@ class Condition(Located):
         return None
 
     def _perform(self):
+        from launch._entities import told_at
         from launch.launch_context import LaunchContext
-        return 'true' if self.evaluate(LaunchContext._of_launch()) else 'false'
+        with told_at(self):
+            return 'true' if self.evaluate(LaunchContext._of_launch()) else 'false'

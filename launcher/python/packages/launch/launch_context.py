@@ -6,7 +6,7 @@ import types
 import _launch_engine
 from launch import _environment
 from launch._places import caller, resolve
-from launch._values import LaunchFileError
+from launch._values import LaunchFileError, items
 
 
 class LaunchContext:
@@ -19,7 +19,7 @@ class LaunchContext:
     _launch = None
 
     def __init__(self, *, argv=None, noninteractive=False):
-        self.argv = list(argv or [])
+        self.argv = items(argv or [], 'argv')
         self.noninteractive = noninteractive
         self.launch_configurations = {}
         self._locals = {}

@@ -2,13 +2,15 @@
 """LaunchDescription: what a launch file asks for."""
 
 from launch._entities import entities
+from launch._values import items
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class LaunchDescription(LaunchDescriptionEntity):
 
     def __init__(self, initial_entities=None, *, deprecated_reason=None):
-        self._contents = list(initial_entities) if initial_entities is not None else []
+        self._contents = [] if initial_entities is None else items(
+            initial_entities, 'initial_entities', 1_000_000)
         self.deprecated_reason = deprecated_reason
 
     @property

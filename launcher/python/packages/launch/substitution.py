@@ -19,9 +19,11 @@ class Substitution(Located):
 
     def _perform(self):
         from launch.launch_context import LaunchContext
-        from launch._values import LaunchFileError
-        result = self.perform(LaunchContext._of_launch())
-        if not isinstance(result, str):
-            raise LaunchFileError(f'{type(self).__name__}.perform() must return a str, got {type(result).__name__}',
-                                  '', of_function(type(self).perform))
+        from launch._entities import told_at
+        from launch._values import WrongKind
+        with told_at(self):
+            result = self.perform(LaunchContext._of_launch())
+            if not isinstance(result, str):
+                raise WrongKind(f'{type(self).__name__}.perform() must return a str, got {type(result).__name__}',
+                                '', of_function(type(self).perform))
         return result

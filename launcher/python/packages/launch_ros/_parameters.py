@@ -2,10 +2,10 @@
 """Reads the `parameters` of nodes: files, mappings, and the two kinds of descriptions."""
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 
 from launch._entities import entity
-from launch._values import LaunchFileError, boolean, name_of, text
+from launch._values import LaunchFileError, WrongKind, boolean, name_of, text
 from launch.substitution import Substitution
 from launch.substitutions import _Builtin
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
@@ -26,8 +26,8 @@ def parameter_items(parameters, place):
     """The <param> items of a node."""
     if parameters is None:
         return []
-    if isinstance(parameters, (str, Mapping, Substitution)) or not isinstance(parameters, Iterable):
-        raise LaunchFileError(f'parameters must be a list, got {name_of(parameters)}', 'put it in [ ]')
+    if isinstance(parameters, (str, bytes)) or not isinstance(parameters, Sequence):
+        raise WrongKind(f'parameters must be a list, got {name_of(parameters)}', 'put it in [ ]')
     items = []
     for given in parameters:
         if isinstance(given, Mapping):
@@ -39,10 +39,10 @@ def parameter_items(parameters, place):
             allowed = [('allow_substs', boolean(given._allow_substs, 'allow_substs'))] if given._allow_substs else []
             items.append(entity('param', given._place(), [('from', given._path), *allowed]))
         elif isinstance(given, (str, Substitution, os.PathLike)) or (
-                isinstance(given, Iterable) and not isinstance(given, bytes)):
+                isinstance(given, Sequence) and not isinstance(given, bytes)):
             items.append(entity('param', place, [('from', text(given, 'a parameter file'))]))
         else:
-            raise LaunchFileError(f'parameters can hold files and mappings, got {name_of(given)}')
+            raise WrongKind(f'parameters can hold files and mappings, got {name_of(given)}')
     return [item for item in items if item is not None]
 
 
@@ -59,13 +59,19 @@ def _item(name, value, place):
 def parameter_value(value):
     """A scalar, a list of scalars, or a text. A str stays a text; the type of substitutions is found when performed."""
     if isinstance(value, (str, *_SCALARS)):
-        return value
+        return _scalar(value)
     if isinstance(value, (Substitution, os.PathLike)):
         return text(value, 'a parameter')
-    if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)):
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray, memoryview)):
         return _list(list(value))
-    raise LaunchFileError(f'a parameter can\'t be a {name_of(value)}',
-                          'use a bool, an int, a float, a str, a substitution or a list of them')
+    raise WrongKind(f'a parameter can\'t be a {name_of(value)}',
+                    'use a bool, an int, a float, a str, a substitution or a list of them')
+
+
+def _scalar(value):
+    if isinstance(value, int) and not -1 << 63 <= value < 1 << 63:
+        raise LaunchFileError(f'a parameter has at most 64 bits, got {value}')
+    return text(value, 'a parameter')[0] if isinstance(value, str) else value
 
 
 def _list(values):
@@ -74,7 +80,7 @@ def _list(values):
         return text(values, 'a parameter')
     if any(isinstance(value, float) for value in values) and all(type(value) in (int, float) for value in values):
         return [float(value) for value in values]
-    return [value if isinstance(value, (str, *_SCALARS)) else (_TypedText(value),) for value in values]
+    return [_scalar(value) if isinstance(value, (str, *_SCALARS)) else (_TypedText(value),) for value in values]
 
 
 def as_yaml(value):

@@ -4,7 +4,7 @@
 from collections.abc import Mapping
 
 from launch._entities import entity
-from launch._values import LaunchFileError, boolean, number, text, words
+from launch._values import LaunchFileError, boolean, items, mapping, number, text, words
 from launch.action import Action
 from tracetools_trace.tools import names
 
@@ -12,7 +12,7 @@ from tracetools_trace.tools import names
 def _attributes(given):
     """The attributes of XML for these arguments; their names have hyphens there."""
     attributes = []
-    for name, value in given.items():
+    for name, value in mapping(given, 'a channel'):
         if isinstance(value, bool):
             value = boolean(value, name)
         elif isinstance(value, (int, float)):
@@ -64,7 +64,8 @@ class Trace(Action):
             ('snapshot-mode', asked(snapshot_mode, 'snapshot_mode')),
             ('dual-session', asked(dual_session, 'dual_session'))]
         self._attributes += _attributes(kwargs)
-        self._channels = [_attributes(channel) for channel in channels]
+        self._channels = [_attributes(channel)
+                          for channel in items(channels, 'channels')]
 
     def _tags(self):
         place = self._place_of('channels') or self._place()

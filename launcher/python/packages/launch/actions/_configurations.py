@@ -3,7 +3,7 @@
 
 import _launch_engine
 from launch._entities import entity
-from launch._values import LaunchFileError, boolean, literal, number, pairs, text
+from launch._values import WrongKind, boolean, items, literal, mapping, number, pairs, text
 from launch.action import Action
 
 
@@ -13,11 +13,11 @@ class DeclareLaunchArgument(Action):
     def __init__(self, name, *, default_value=None, description=None, choices=None, **kwargs):
         super().__init__(**kwargs)
         self.name = name
-        self.choices = None if choices is None else list(choices)
+        self.choices = None if choices is None else items(choices, 'choices')
         self._name = literal(name, 'name')
         if isinstance(default_value, (bool, int, float)):
-            raise LaunchFileError(f"default_value of '{name}' must be text, got {type(default_value).__name__}",
-                                  f"write '{str(default_value)}'")
+            raise WrongKind(f"default_value of '{name}' must be text, got {type(default_value).__name__}",
+                            f"write '{str(default_value)}'")
         self._default = None if default_value is None else text(default_value, f"default_value of '{name}'")
         self._description = None if description is None else text(description, 'description')
 
@@ -81,7 +81,7 @@ class UnsetLaunchConfiguration(_Simple):
 class ResetLaunchConfigurations(_Simple):
 
     def __init__(self, launch_configurations=None, **kwargs):
-        super().__init__('reset', [], _named('keep', dict(launch_configurations or {}).items(),
+        super().__init__('reset', [], _named('keep', mapping(launch_configurations, 'launch_configurations'),
                                              'launch_configurations'), **kwargs)
 
 
@@ -114,7 +114,7 @@ class ResetEnvironment(_Simple):
 class ReplaceEnvironmentVariables(_Simple):
 
     def __init__(self, environment=None, **kwargs):
-        super().__init__('rep_env', [], _named('env', dict(environment or {}).items(), 'environment'), **kwargs)
+        super().__init__('rep_env', [], _named('env', mapping(environment, 'environment'), 'environment'), **kwargs)
 
 
 class TimerAction(Action):

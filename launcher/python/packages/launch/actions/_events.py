@@ -2,8 +2,9 @@
 """Actions that deal with events."""
 
 from launch._entities import entity
-from launch._values import LaunchFileError
+from launch._values import LaunchFileError, WrongKind
 from launch.action import Action
+from launch.event import Event
 from launch.event_handler import BaseEventHandler
 
 
@@ -12,7 +13,7 @@ class RegisterEventHandler(Action):
     def __init__(self, event_handler, **kwargs):
         super().__init__(**kwargs)
         if not isinstance(event_handler, BaseEventHandler):
-            raise LaunchFileError(f'event_handler must be an event handler, got {type(event_handler).__name__}')
+            raise WrongKind(f'event_handler must be an event handler, got {type(event_handler).__name__}')
         self._handler = event_handler
 
     @property
@@ -28,7 +29,7 @@ class UnregisterEventHandler(Action):
     def __init__(self, event_handler, **kwargs):
         super().__init__(**kwargs)
         if not isinstance(event_handler, BaseEventHandler):
-            raise LaunchFileError(f'event_handler must be an event handler, got {type(event_handler).__name__}')
+            raise WrongKind(f'event_handler must be an event handler, got {type(event_handler).__name__}')
         self._handler = event_handler
 
     @property
@@ -43,7 +44,7 @@ class EmitEvent(Action):
 
     def __init__(self, *, event, **kwargs):
         super().__init__(**kwargs)
-        if not hasattr(event, '_tags'):
+        if not isinstance(event, Event) or not hasattr(event, '_tags'):
             raise LaunchFileError(f'this launcher can\'t emit {type(event).__name__}',
                                   'it can emit Shutdown, ShutdownProcess, SignalProcess and ChangeState')
         self._event = event

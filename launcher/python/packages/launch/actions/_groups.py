@@ -4,7 +4,7 @@
 import _launch_engine
 from launch._entities import entities, entity
 from launch._places import of_function
-from launch._values import LaunchFileError, boolean, pairs, text
+from launch._values import LaunchFileError, WrongKind, boolean, function as callable_of, items, mapping, pairs, text
 from launch.action import Action
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -18,7 +18,7 @@ class GroupAction(Action):
         self._actions = actions
         self._scoped = boolean(scoped, 'scoped')
         self._forwarding = boolean(forwarding, 'forwarding')
-        self._keep = pairs(dict(launch_configurations or {}).items(), 'launch_configurations')
+        self._keep = pairs(mapping(launch_configurations, 'launch_configurations'), 'launch_configurations')
 
     def get_sub_entities(self):
         return self._actions
@@ -63,10 +63,8 @@ class OpaqueFunction(Action):
 
     def __init__(self, *, function, args=None, kwargs=None, **left_over_kwargs):
         super().__init__(**left_over_kwargs)
-        if not callable(function):
-            raise LaunchFileError(f'function must be callable, got {type(function).__name__}')
-        self._function = function
-        self._args = list(args or [])
+        self._function = callable_of(function, 'function')
+        self._args = items(args or [], 'args')
         self._kwargs = dict(kwargs or {})
 
     def execute(self, context):
@@ -87,10 +85,10 @@ class OpaqueCoroutine(Action):
         super().__init__(**left_over_kwargs)
         from asyncio import iscoroutinefunction  # here, because most launch files need nothing of asyncio
         if not iscoroutinefunction(coroutine):
-            raise LaunchFileError(f'coroutine must be an async function, got {type(coroutine).__name__}',
-                                  'write it with async def')
+            raise WrongKind(f'coroutine must be an async function, got {type(coroutine).__name__}',
+                            'write it with async def')
         self._coroutine = coroutine
-        self._args = list(args or [])
+        self._args = items(args or [], 'args')
         self._kwargs = dict(kwargs or {})
         self._ignore_context = ignore_context
 
@@ -114,7 +112,7 @@ class ForLoop(Action):
     def __init__(self, length, *, function=None, name=None, **kwargs):
         super().__init__(**kwargs)
         self._length = text(str(length) if isinstance(length, int) else length, 'length')
-        self._function = function
+        self._function = callable_of(function, 'function')
 
     def execute(self, context):
         return [self._function(index) for index in range(int(context._perform(self._length)))]
@@ -126,7 +124,7 @@ class ForEach(Action):
     def __init__(self, input_values, *, function=None, **kwargs):
         super().__init__(**kwargs)
         self._values = text(input_values, 'input_values')
-        self._function = function
+        self._function = callable_of(function, 'function')
 
     def execute(self, context):
         import yaml
@@ -140,7 +138,7 @@ class _Log(Action):
     def __init__(self, *, msg, level=None, **kwargs):
         super().__init__(**kwargs)
         self._msg = text(msg, 'msg')
-        self._given_level = level
+        self._given_level = text('info' if level is None else level, 'level')
 
     @property
     def msg(self):
@@ -150,8 +148,7 @@ class _Log(Action):
         attributes = self._with_places([('message', self._msg), *self._when()])
         if self._level is not None:
             return [entity(f'log_{self._level}', self._place(), attributes)]
-        level = self._given_level if self._given_level is not None else 'info'
-        return [entity('log', self._place(), [*attributes, ('level', text(level, 'level'))])]
+        return [entity('log', self._place(), [*attributes, ('level', self._given_level)])]
 
 
 class Log(_Log):

@@ -4,7 +4,7 @@
 import os
 
 from launch._entities import entity
-from launch._values import LaunchFileError, boolean, number, pairs, reject, text
+from launch._values import LaunchFileError, WrongKind, boolean, literal, mapping, number, pairs, reject, text
 from launch.action import Action
 from launch.descriptions import Executable
 
@@ -109,6 +109,8 @@ class _Process(Action):
             found = []
             for given in (output.get('both', ()), output.get(stream, ())):
                 found += [given] if isinstance(given, str) else given
+            for target in found:
+                literal(target, f"a target of {stream!r} in output")
             return ','.join(dict.fromkeys(found)) or 'none'
 
         return [(stream, targets(stream)) for stream in ('stdout', 'stderr')]
@@ -141,12 +143,14 @@ class _Process(Action):
         place = self._place()
         return [entity('env', place, [('name', name), ('value', value)])
                 for given in ('env', 'additional_env')
-                for name, value in pairs((self._options.get(given) or {}).items(), given)]
+                for name, value in pairs(mapping(self._options.get(given), given), given)]
 
 
 class ExecuteLocal(_Process):
 
     def __init__(self, *, process_description, **kwargs):
+        if not isinstance(process_description, Executable):
+            raise WrongKind(f'process_description must be an Executable, got {type(process_description).__name__}')
         self._take({**process_description._options, **kwargs}, ['process_description'])
         self._command = process_description._command
         self.process_description = process_description

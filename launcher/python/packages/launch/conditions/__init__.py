@@ -2,7 +2,7 @@
 """Conditions of actions."""
 
 from launch import _names
-from launch._values import text
+from launch._values import literal, text
 from launch.condition import Condition
 from launch.substitutions import SubstitutionFailure
 
@@ -47,7 +47,7 @@ class LaunchConfigurationEquals(Condition):
 
     def __init__(self, launch_configuration_name, expected_value):
         super().__init__()
-        self._name = launch_configuration_name
+        self._name, = literal(launch_configuration_name, 'launch_configuration_name')
         self._expected = None if expected_value is None else text(expected_value, 'expected_value')
 
     def evaluate(self, context):

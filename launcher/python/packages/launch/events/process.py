@@ -4,7 +4,7 @@
 from launch import _names
 from launch._entities import entity
 from launch._places import Located
-from launch._values import LaunchFileError, text
+from launch._values import LaunchFileError, WrongKind, text
 from launch.event import Event
 
 
@@ -88,6 +88,8 @@ class SignalProcess(_ProcessTargetedEvent):
 
     def __init__(self, *, signal_number, process_matcher):
         super().__init__(process_matcher=process_matcher)
+        if isinstance(signal_number, bool) or not isinstance(signal_number, (int, str)):
+            raise WrongKind(f'signal_number must be an int or a str, got {type(signal_number).__name__}')
         self.signal = signal_number
 
     def _tags(self, place, when):

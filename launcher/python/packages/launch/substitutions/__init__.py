@@ -5,7 +5,7 @@ import os
 
 import _launch_engine
 from launch import _names
-from launch._values import LaunchFileError, text
+from launch._values import LaunchFileError, WrongKind, items, literal, text
 from launch.substitution import Substitution
 
 
@@ -17,9 +17,8 @@ class TextSubstitution(Substitution):
 
     def __init__(self, *, text):
         if not isinstance(text, str):
-            raise LaunchFileError(f'text of TextSubstitution must be a str, got {type(text).__name__}',
-                                  f"write '{text}'")
-        self.text = text
+            raise WrongKind(f'text of TextSubstitution must be a str, got {type(text).__name__}', f"write '{text}'")
+        self.text, = literal(text, 'text of TextSubstitution')
 
     def perform(self, context):
         return self.text
@@ -36,13 +35,11 @@ class _Builtin(Substitution):
 
     _call = ''
 
-    def _take(self, *arguments):
-        """Keeps the arguments before the first that is None."""
-        self._arguments = []
-        for argument in arguments:
-            if argument is None:
-                break
-            self._arguments.append(text(argument, f'an argument of {type(self).__name__}'))
+    def _take(self, *arguments, optional=None):
+        """Keeps the arguments, and after them the optional one, unless that is None."""
+        if optional is not None:
+            arguments = (*arguments, optional)
+        self._arguments = [text(argument, f'an argument of {type(self).__name__}') for argument in arguments]
 
     def _part(self):
         return (self._call, self._arguments)
@@ -55,7 +52,7 @@ class LaunchConfiguration(_Builtin):
     _call = 'var'
 
     def __init__(self, variable_name, *, default=None):
-        self._take(variable_name, str(default) if isinstance(default, (bool, int, float)) else default)
+        self._take(variable_name, optional=str(default) if isinstance(default, (bool, int, float)) else default)
 
     @property
     def variable_name(self):
@@ -66,7 +63,7 @@ class EnvironmentVariable(_Builtin):
     _call = 'env'
 
     def __init__(self, name, *, default_value=None):
-        self._take(name, default_value)
+        self._take(name, optional=default_value)
 
 
 class ThisLaunchFile(_Builtin):
@@ -101,7 +98,8 @@ class PythonExpression(_Builtin):
     _call = 'eval'
 
     def __init__(self, expression, python_modules=('math',)):
-        modules = [python_modules] if isinstance(python_modules, (str, Substitution)) else list(python_modules)
+        modules = [python_modules] if isinstance(python_modules, (str, Substitution)) else (
+            items(python_modules, 'python_modules'))
         joined = []
         for module in modules:
             joined += [', ', module] if joined else [module]
@@ -195,7 +193,7 @@ class ForEachVar(_Builtin):
     _call = 'for-var'
 
     def __init__(self, name, *, default_value=None):
-        self._take(name, default_value)
+        self._take(name, optional=default_value)
 
 
 class ForLoopIndex(_Builtin):
@@ -220,7 +218,8 @@ class _Joined(Substitution):
     def __init__(self, substitutions):
         if isinstance(substitutions, (str, Substitution)):
             substitutions = [substitutions]
-        self._texts = [text(part, f'a part of {type(self).__name__}') for part in substitutions]
+        self._texts = [text(part, f'a part of {type(self).__name__}')
+                       for part in items(substitutions, f'the parts of {type(self).__name__}')]
 
     @property
     def substitutions(self):
@@ -264,6 +263,7 @@ class LocalSubstitution(Substitution):
     """A value of the event that is being handled: LocalSubstitution('event.returncode')."""
 
     def __init__(self, expression, description=None):
+        literal(expression, 'expression')
         self._expression = expression
         self._description = description
 

@@ -3,7 +3,7 @@
 
 from collections.abc import Iterable
 
-from launch._values import text
+from launch._values import items, text
 from launch.substitution import Substitution
 
 
@@ -18,7 +18,7 @@ def perform_substitutions(context, subs):
 
 
 def normalize_to_list_of_entities(entities):
-    return list(entities) if isinstance(entities, Iterable) else [entities]
+    return items(entities, 'entities') if isinstance(entities, Iterable) else [entities]
 
 
 def is_a(obj, entity_type):

@@ -2,7 +2,7 @@
 """Actions that run ROS nodes."""
 
 from launch._entities import entity
-from launch._values import LaunchFileError, boolean, pairs, text, words
+from launch._values import LaunchFileError, boolean, items, pairs, text, words
 from launch.action import Action
 from launch.actions._processes import _Process
 from launch.substitution import Substitution
@@ -58,7 +58,8 @@ class LifecycleNode(Node):
 
 
 def _descriptions(descriptions):
-    descriptions = [descriptions] if isinstance(descriptions, ComposableNode) else list(descriptions or [])
+    descriptions = [descriptions] if isinstance(descriptions, ComposableNode) else (
+        items(descriptions or [], 'composable_node_descriptions'))
     for description in descriptions:
         if not isinstance(description, ComposableNode):
             raise LaunchFileError('composable_node_descriptions holds ComposableNode, '
@@ -119,7 +120,7 @@ class LifecycleTransition(Action):
     def __init__(self, *, lifecycle_node_names, transition_ids, **kwargs):
         super().__init__(**kwargs)
         self._nodes = words(lifecycle_node_names, 'lifecycle_node_names')
-        self._transitions = [(name_of_transition(number),) for number in transition_ids]
+        self._transitions = [(name_of_transition(number),) for number in items(transition_ids, 'transition_ids')]
 
     def _tags(self):
         return [entity('lifecycle_transition', self._place(),

@@ -4,7 +4,7 @@
 from launch import _names
 from launch._entities import entity
 from launch._places import Located
-from launch._values import LaunchFileError, boolean, pairs, text
+from launch._values import WrongKind, boolean, items, mapping, pairs, text
 from launch.condition import Condition
 from launch_ros._parameters import as_yaml, parameter_items
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
@@ -16,7 +16,7 @@ class ComposableNode(Located):
     def __init__(self, *, package, plugin, name=None, namespace=None, parameters=None, remappings=None,
                  extra_arguments=None, condition=None):
         if condition is not None and not isinstance(condition, Condition):
-            raise LaunchFileError(f'condition must be a Condition, got {type(condition).__name__}')
+            raise WrongKind(f'condition must be a Condition, got {type(condition).__name__}')
         self._attributes = [('pkg', text(package, 'package')), ('plugin', text(plugin, 'plugin')),
                             ('name', '' if name is None else text(name, 'name')),
                             ('namespace', None if namespace is None else text(namespace, 'namespace')),
@@ -33,9 +33,9 @@ class ComposableNode(Located):
         place = self._place()
         children = parameter_items(self._parameters, place)
         children += [entity('remap', place, [('from', from_), ('to', to)]) for from_, to in self._remappings]
-        for mapping in self._extra or []:
+        for given in items(self._extra or [], 'extra_arguments'):
             children += [entity('extra_arg', place, [('name', text(name, 'a name')), ('value', as_yaml(value))])
-                         for name, value in mapping.items()]
+                         for name, value in mapping(given, 'an item of extra_arguments')]
         return entity(self._tag, place, [pair for pair in self._attributes if pair is not None], children)
 
 

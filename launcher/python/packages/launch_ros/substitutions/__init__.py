@@ -36,7 +36,7 @@ class Parameter(_Builtin):
     _call = 'param'
 
     def __init__(self, name, *, default=None):
-        self._take(name, default)
+        self._take(name, optional=default)
 
 
 _names.one_class_modules(__name__)
