@@ -63,7 +63,7 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return result;
 }
 
-// Appends what `fd` holds. Closes it at its end.
+// Appends what can be read from `fd`. Closes `fd` at its end.
 void read_available(int& fd, std::string& text) {
   std::array<char, 16384> buffer{};
   while (fd >= 0) {
@@ -141,7 +141,7 @@ bool RunningCommand::wait_for_output(const std::string& text, milliseconds timeo
 }
 
 void RunningCommand::write(const std::string& text) {
-  // A program that has ended reads no more: no reason to end as well.
+  // A program that has ended reads no more. That is no reason for the test to end.
   sigset_t pipe;
   sigset_t before;
   sigemptyset(&pipe);
@@ -190,7 +190,7 @@ CommandResult RunningCommand::wait(milliseconds timeout) {
 }
 
 bool RunningCommand::read_some(milliseconds timeout) {
-  // A closed pipe has descriptor -1, which poll() passes over.
+  // A closed pipe has descriptor -1, which poll() skips.
   std::array<pollfd, 3> fds = {pollfd{out_, POLLIN, 0}, pollfd{err_, POLLIN, 0}, pollfd{pidfd_, POLLIN, 0}};
   if (poll(fds.data(), fds.size(), static_cast<int>(timeout.count())) < 0) return errno == EINTR;
   drain();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs programs for end-to-end tests and waits for what they print.
+// Runs programs for end-to-end tests and waits for their output.
 #pragma once
 
 #include <sys/types.h>
@@ -21,9 +21,9 @@ struct Command {
 
 struct CommandResult {
   int exit_code = -1;  // -1 when it did not exit by itself
-  int signal = 0;      // that ended it, or 0
+  int signal = 0;      // the signal that ended it, or 0
   bool timed_out = false;
-  bool output_closed = false;  // false: some process it left behind still holds its stdout or stderr
+  bool output_closed = false;  // false: a process that it left behind still holds its stdout or stderr
   std::string out;
   std::string err;
 };
@@ -34,8 +34,8 @@ inline constexpr std::chrono::seconds kCommandTimeout{120};  // programs take te
 inline constexpr std::chrono::seconds kCommandTimeout{30};
 #endif
 
-// A started program, in a process group of its own. It is killed, group and all, if it still runs at the end of scope.
-// Use it from one thread.
+// A started program, in a process group of its own. If it still runs at the end of the scope, it is killed together
+// with its group. Use it from one thread.
 class RunningCommand {
  public:
   explicit RunningCommand(const Command& command);
@@ -45,25 +45,25 @@ class RunningCommand {
 
   pid_t pid() const { return pid_; }
 
-  // Reads until stdout or stderr contains `text`. False when the time is over or the program ended without it.
+  // Reads until stdout or stderr contains `text`. False when the time is over, or when the program ended without it.
   bool wait_for_output(const std::string& text, std::chrono::milliseconds timeout = kCommandTimeout);
 
-  // To its stdin, which is a pipe.
+  // Writes to its stdin, which is a pipe.
   void write(const std::string& text);
   void close_input();
 
-  // To the program alone, not to its group.
+  // Sends a signal to the program alone, not to its group.
   void send_signal(int number);
 
-  // Until the program ends; kills it (timed_out) when the time is over. May be called again: gives the same.
+  // Waits until the program ends. Kills it (timed_out) when the time is over. A further call returns the same result.
   CommandResult wait(std::chrono::milliseconds timeout = kCommandTimeout);
 
-  // What was read so far, for messages.
+  // The output that was read so far, for messages.
   const std::string& out() const { return result_.out; }
   const std::string& err() const { return result_.err; }
 
  private:
-  // Reads what there is, waiting for at most `timeout`. False when nothing more can come.
+  // Reads what is there, and waits at most `timeout` for it. False when nothing more can come.
   bool read_some(std::chrono::milliseconds timeout);
   void drain();
   void reap();
@@ -82,7 +82,7 @@ CommandResult run_command(const Command& command, std::chrono::milliseconds time
                           const std::string& input = {});
 CommandResult run_command(const std::vector<std::string>& argv);
 
-// The whole file. Throws std::runtime_error naming it when it can't be read.
+// Returns the whole file. Throws std::runtime_error with its name when it can't be read.
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& text);
 

@@ -34,10 +34,11 @@ void check(int result, const std::string& what) {
   if (result < 0) throw std::system_error(errno, std::generic_category(), what);
 }
 
-// DDS participants of domains up to 101 use ports below the ephemeral ones.
+// DDS participants of domains up to 101 use ports below the ephemeral ports.
 constexpr int kUsableDomains = 101;
 
-// lo up, able to multicast, and the way of all multicast: discovery then works without any other network.
+// Makes lo ready: it is up, allows multicast, and all multicast goes through it. Discovery then works without any other
+// network.
 void bring_up_loopback() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   check(fd, "socket");
@@ -83,7 +84,7 @@ std::optional<ProcessInfo> read_process(pid_t pid) {
                      static_cast<pid_t>(std::atoi(line.c_str() + close + 4))};
 }
 
-// All descendants of this process, zombies included.
+// All descendants of this process, including zombies.
 std::map<pid_t, ProcessInfo> descendants() {
   std::map<pid_t, ProcessInfo> all;
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
@@ -102,7 +103,8 @@ std::map<pid_t, ProcessInfo> descendants() {
   return below;
 }
 
-// lttng-sessiond, its lttng-runas helpers, lttng-consumerd, lttng-relayd: meant to survive who started them.
+// lttng-sessiond, its lttng-runas helpers, lttng-consumerd and lttng-relayd. They are meant to outlive the process that
+// started them.
 bool is_lttng_daemon(const ProcessInfo& process) {
   return process.name.starts_with("lttng-");
 }
@@ -131,7 +133,7 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
     const std::string name(*entry, std::strcspn(*entry, "="));
     if (name.starts_with("ROS_") || name == "AMENT_PREFIX_PATH") {
       set_environment(name, std::nullopt);
-      entry = environ;  // it has moved
+      entry = environ;  // the array has moved
     } else {
       ++entry;
     }
@@ -171,7 +173,7 @@ std::vector<std::string> Sandbox::end_processes() {
       }
       kill(pid, SIGKILL);
     }
-    // One at a time: the children of whom we reap become ours and are seen in the next round.
+    // One at a time: the children of a reaped process become ours, and the next round finds them.
     if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return unexpected;
   }
 }
@@ -195,8 +197,8 @@ void Sandbox::enter_namespaces() {
 }
 
 void Sandbox::leave_namespaces() {
-  // Libraries keep threads that they started during the test. They share our root and working directory, and a thread
-  // that shares these may not change its mount namespace (setns(2)).
+  // Libraries keep threads that they started during the test. These threads share our root and working directory, and a
+  // thread that shares these may not change its mount namespace (setns(2)).
   if (mount_namespace_ >= 0) check(unshare(CLONE_FS), "unshare the working directory");
   for (int* fd : {&mount_namespace_, &network_namespace_}) {
     if (*fd < 0) continue;

@@ -10,19 +10,21 @@
 
 namespace test_support {
 
-// Make one at the beginning of a test, before it starts a thread or a process, and let it outlive everything it starts:
+// Make a sandbox at the beginning of a test, before it starts a thread or a process. It must outlive everything that
+// the test starts:
 //
 //   test_support::Sandbox sandbox;
 //   auto result = test_support::run_command({LAUNCH_BINARY, "system.launch.xml"});
 //
-// As root the test gets mount and network namespaces of its own: /run and /dev/shm are empty (hence a session daemon
-// and DDS shared memory of its own) and lo is the only network, up, with multicast (hence Fast DDS discovery among the
-// test's own nodes only). Otherwise LTTNG_HOME and ROS_DOMAIN_ID keep tests apart; not_isolated() says what they share.
+// As root the test gets mount and network namespaces of its own. /run and /dev/shm are empty, so there is a session
+// daemon and DDS shared memory for this test alone. lo is the only network; it is up and allows multicast, so Fast DDS
+// discovers only the test's own nodes. Otherwise LTTNG_HOME and ROS_DOMAIN_ID keep tests apart; not_isolated() says
+// what they share.
 //
 // HOME, LTTNG_HOME, ROS_HOME, ROS_LOG_DIR, ROS_TRACE_DIR and TMPDIR point into directory(). All other ROS_* variables
-// and AMENT_PREFIX_PATH are unset; ROS_DOMAIN_ID is set. Whatever the test's processes leave behind becomes a child of
-// the test and is killed and reaped at the end; leaving anything but LTTng's daemons fails the test. The
-// directory is removed unless KEEP_TEST_DIRS is set. Environment, namespaces and working directory are then as before.
+// and AMENT_PREFIX_PATH are unset; ROS_DOMAIN_ID is set. Processes that the test leaves behind become children of the
+// test; they are killed and reaped at the end. A test fails if it leaves anything but LTTng's daemons. The directory is
+// removed unless KEEP_TEST_DIRS is set. Environment, namespaces and working directory are then as before.
 class Sandbox {
  public:
   Sandbox();
@@ -33,15 +35,15 @@ class Sandbox {
   const std::filesystem::path& directory() const { return directory_; }
   std::filesystem::path trace_directory() const { return directory_ / "traces"; }
 
-  // What other processes of the machine share with this test, as a sentence; empty as root.
+  // A sentence about what other processes of the machine share with this test; empty as root.
   const std::string& not_isolated() const { return not_isolated_; }
 
-  // Kills and reaps all descendants of this process. Returns the names ("sleep 1234") of those that are no LTTng
-  // daemons. The destructor does it, too.
+  // Kills and reaps all descendants of this process. Returns the names ("sleep 1234") of those that are not LTTng
+  // daemons. The destructor does the same.
   std::vector<std::string> end_processes();
 
-  // Until nothing but LTTng's daemons descends from this process. For what a killed launcher leaves: it becomes ours,
-  // and goes by itself.
+  // Waits until only LTTng's daemons descend from this process. The processes that a killed launcher leaves become our
+  // children, and end by themselves.
   static void wait_until_daemons_are_left();
 
  private:
@@ -52,8 +54,8 @@ class Sandbox {
   std::filesystem::path directory_;
   std::filesystem::path previous_directory_;
   std::string not_isolated_;
-  int mount_namespace_ = -1;    // to return to
-  int network_namespace_ = -1;  // to return to
+  int mount_namespace_ = -1;    // the namespace to return to
+  int network_namespace_ = -1;  // the namespace to return to
   std::map<std::string, std::optional<std::string>> previous_environment_;
 };
 

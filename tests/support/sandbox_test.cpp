@@ -61,7 +61,7 @@ TEST(Sandbox, HidesTheMachinesRunDirectoryAndNetwork) {
 
 TEST(Sandbox, KillsWhatIsLeftAndNamesIt) {
   Sandbox sandbox;
-  // The shell ends at once; a child and a grandchild of it, named like it until they exec, are orphans.
+  // The shell ends at once. It leaves a child and a grandchild as orphans, which have its name until they exec.
   const CommandResult shell = run_command({"sh", "-c", "setsid sleep 1000 & (sleep 1001 & ) ; echo left"});
   EXPECT_EQ(shell.out, "left\n");
   EXPECT_FALSE(shell.output_closed);

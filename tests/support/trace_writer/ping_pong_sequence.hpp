@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The events of two processes that exchange one message each way, as an instrumented stack records them.
 //
-// `ping` (71) has a 500 ms timer that publishes /ping, and a subscription to /pong; `pong` (72) answers /ping from
-// within its callback. Handles: upper case in the names of rcl, lower case of rmw.
+// `ping` (71) has a 500 ms timer that publishes /ping, and a subscription to /pong. `pong` (72) answers /ping from
+// within its callback. Names of rcl handles are in upper case, those of rmw handles in lower case.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@
 namespace tracing::testing {
 namespace {
 
-// Bits in the order of CTF: from the lowest bit of each byte on with little-endian numbers, from the highest with
-// big-endian ones.
+// Bits in the order of CTF: little-endian numbers begin at the lowest bit of each byte, big-endian numbers at the
+// highest.
 class BitWriter {
  public:
   explicit BitWriter(bool big_endian) : big_endian_(big_endian) {}
@@ -54,7 +54,7 @@ class BitWriter {
   std::uint64_t size_ = 0;
 };
 
-// A field: how the metadata declare it, with @ for its name, and how a value of it is written.
+// A field: its declaration in the metadata, with @ for its name, and a function that writes a value.
 struct RandomField {
   std::string declaration;
   std::uint32_t alignment = 1;
@@ -157,13 +157,13 @@ class RandomTraceWriter {
     const std::uint64_t length = below(5);
     name_it(element.declaration, fmt::format("@[{}]", length));
     element.write = [length, alignment = element.alignment, each = element.write](BitWriter& out) {
-      out.align(alignment);  // also when it has no elements
+      out.align(alignment);  // also when there are no elements
       for (std::uint64_t i = 0; i < length; ++i) each(out);
     };
     return element;
   }
 
-  // Its length stands in a field before it.
+  // A field before it holds its length.
   RandomField random_sequence(int depth) {
     RandomField element = random_field(depth - 1, false);
     const std::uint32_t alignment = number_alignment(32);
@@ -212,7 +212,7 @@ class RandomTraceWriter {
     declaration.replace(declaration.rfind('@'), 1, name);
   }
 
-  // What needs a field before it can't be an element or an option.
+  // A type that needs a field before it can't be an element or an option.
   RandomField random_field(int depth, bool as_member) {
     const std::uint64_t kinds = depth > 0 ? 10 : 6;
     for (;;) {
@@ -289,7 +289,7 @@ class RandomTraceWriter {
   }
 
   void write_event(BitWriter& out, std::uint64_t& clock) {
-    // Longer than the clock's lower bits hold: only the long header can tell it.
+    // The step is longer than the clock's lower bits hold, so only the long header can express it.
     const bool is_long = below(8) == 0;
     clock += is_long ? std::uint64_t{1} << clock_bits_ : below(1U << 26);
     const std::uint64_t event = below(events_.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a valid CTF 1.8 trace of a shape that a seed decides: both event headers, clocks that wrap, byte orders,
-// alignments, every kind of field, nested ones included, losses, several streams.
+// Writes a valid CTF 1.8 trace whose shape depends on a seed: both event headers, clocks that wrap, byte orders,
+// alignments, every kind of field including nested ones, losses, several streams.
 #pragma once
 
 #include <cstdint>

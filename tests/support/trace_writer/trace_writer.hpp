@@ -26,8 +26,8 @@ class TraceWriter {
   struct Options {
     bool contexts = true;                            // vpid, vtid, procname of every event
     std::optional<std::int64_t> per_process_vpid{};  // as with buffers per process
-    std::uint8_t identity = 1;                       // traces with the same identity are parts of one
-    std::size_t packet_size = 1 << 16;               // bytes; a packet ends when it holds more
+    std::uint8_t identity = 1;                       // traces with the same identity are parts of one trace
+    std::size_t packet_size = 1 << 16;               // bytes; a packet with more than this ends
   };
 
   // Creates the directory.
@@ -39,7 +39,8 @@ class TraceWriter {
   void write(unsigned cpu, std::int64_t time_ns, const Thread& thread, const Struct& event);
   void write(unsigned cpu, std::int64_t time_ns, const Thread& thread, const ros2::AnyEvent& event);
 
-  // An event class of the caller's own: `fields` in CTF's language, the payload of `write_raw` to match.
+  // Declares an event class of the caller's own: `fields` is in CTF's language, and the payload of `write_raw` must
+  // match it.
   std::uint16_t declare(std::string_view name, const std::string& fields);
   void write_raw(unsigned cpu, std::int64_t time_ns, const Thread& thread, std::uint16_t id, std::string_view payload);
 
@@ -47,7 +48,7 @@ class TraceWriter {
   void discard_events(unsigned cpu, std::uint32_t count);  // counted in the packet that is being filled
   void lose_packets(unsigned cpu, std::uint64_t count);    // between the packet that is being filled and the one before
 
-  // Writes what is left. Nothing may be written after it.
+  // Writes the packets that are left. Nothing may be written after this.
   void finish();
 
  private:
@@ -99,7 +100,7 @@ struct AppendField {
   }
 };
 
-// One field in CTF's language, as lttng-ust writes it.
+// One field in CTF's language, in the form of lttng-ust.
 std::string describe_field(ros2::FieldType type, std::string_view name);
 
 }  // namespace detail

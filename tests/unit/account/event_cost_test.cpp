@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the measured cost of events is kept, and that nobody else decides what is written to.
+// The file of the measured cost of events. Nobody else may decide which file is written.
 #include "tracing/account/event_cost.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST_F(EventCostFile, IsInTheCacheOfTheUser) {
   EXPECT_EQ(tracing::event_cost_file(), sandbox.directory() / ".cache/launch/event_cost.json");
   setenv("XDG_CACHE_HOME", "/elsewhere", 1);
   EXPECT_EQ(tracing::event_cost_file(), "/elsewhere/launch/event_cost.json");
-  setenv("XDG_CACHE_HOME", "relative", 1);  // which the specification tells to ignore
+  setenv("XDG_CACHE_HOME", "relative", 1);  // the specification says that this must be ignored
   EXPECT_EQ(tracing::event_cost_file(), sandbox.directory() / ".cache/launch/event_cost.json");
 }
 

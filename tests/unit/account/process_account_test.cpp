@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which process the lost events are of, from what processes fired and what a trace holds.
+// Attributes lost events to processes, by the events that were fired and the events in the trace.
 #include "tracing/account/process_account.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of a trace whose streams end before its session.
+// The message for a trace whose streams end before its session.
 #include "tracing/account/unwritten_data.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ LossAccount account() {
   return losses;
 }
 
-// From the first second of the clock on; processor 1 is not written any more after half a second, 2 was never.
+// From the first second of the clock on. Processor 1 writes nothing after half a second, processor 2 never writes.
 std::vector<Stream> streams() {
   return {{.domain = "ust", .channel = "ros2", .cpu = "0", .packets = {{.begin = kSecond, .end = 4 * kSecond}}},
           {.domain = "ust", .channel = "ros2", .cpu = "1", .packets = {{.begin = kSecond, .end = kSecond * 3 / 2}}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said about a trace that lost events, from index files written here.
+// The verdict on a trace that lost events, from index files that the tests write.
 #include "tracing/account/verdict.hpp"
 
 #include <endian.h>
@@ -32,7 +32,7 @@ struct Verdict : testing::Test {
   void write_index(const std::string& stream, const std::vector<IndexEntry>& entries) const {
     const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index" / (stream + ".idx");
     std::filesystem::create_directories(path.parent_path());
-    const std::filesystem::path packets = path.parent_path().parent_path() / stream;  // which are not looked into
+    const std::filesystem::path packets = path.parent_path().parent_path() / stream;  // which are not read
     std::ofstream{packets};
     std::filesystem::resize_file(packets, 32768);
     std::ofstream file(path, std::ios::binary);

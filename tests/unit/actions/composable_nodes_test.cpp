@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_container and load_composable_node: what is asked to be loaded and started.
+// node_container and load_composable_node: the requests to load and to start.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -51,7 +51,7 @@ TEST(ComposableNodes, ContainerLoadsThoseWhoseConditionHolds) {
   const ComposableNode& talker = planned.plan.loads[0].nodes[0];
   EXPECT_EQ(talker.package, "demo");
   EXPECT_EQ(talker.plugin, "demo::Talker");
-  EXPECT_EQ(talker.name_space, "/left");  // not the container's
+  EXPECT_EQ(talker.name_space, "/left");  // not the namespace of the container
   EXPECT_THAT(texts_of(talker.parameters), ElementsAre("use_sim_time=True", "rate=10", "g.h=x"));
   EXPECT_THAT(talker.remaps, ElementsAre(Pair("g", "h"), Pair("chatter", "/out")));
   EXPECT_THAT(texts_of(talker.extra_arguments), ElementsAre("use_intra_process_comms=True"));
@@ -101,7 +101,7 @@ TEST(ComposableNodes, AutostartIsNotedForComponentsAndAskedForNodes) {
   ASSERT_EQ(planned.plan.loads.size(), 2U);
   EXPECT_TRUE(planned.plan.loads[0].nodes[0].autostart);
   EXPECT_FALSE(planned.plan.loads[0].nodes[1].autostart);
-  EXPECT_EQ(planned.plan.loads[0].environment.at("ROS_DOMAIN_ID"), "8");  // where the container is
+  EXPECT_EQ(planned.plan.loads[0].environment.at("ROS_DOMAIN_ID"), "8");  // the environment of the container
   EXPECT_EQ(planned.plan.loads[1].environment.at("ROS_DOMAIN_ID"), "7");
   ASSERT_EQ(planned.plan.transitions.size(), 1U);
   EXPECT_EQ(planned.plan.transitions[0].node, "/left/x");

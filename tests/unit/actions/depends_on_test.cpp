@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// depends_on: what it may name, and what is wrong with the rest.
+// depends_on: the processes that it may name, and the errors for others.
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"

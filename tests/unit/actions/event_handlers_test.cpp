@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How event handlers, commands and dependencies are written: both formats, and what is refused at load.
+// The syntax of event handlers, commands and dependencies: both formats, and the errors at load.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@ using test_support::plan_actions;
 using test_support::plan_text;
 using testing::ElementsAre;
 
-// What a plan says of handlers, commands and dependencies, a line each.
+// The handlers, commands and dependencies of a plan, a line each.
 std::vector<std::string> lines_of(const launch::LaunchPlan& plan) {
   std::vector<std::string> lines;
   for (const launch::Dependency& dependency : plan.dependencies) {

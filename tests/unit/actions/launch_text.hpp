@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans launch files that stand in the test as text.
+// Plans launch files that a test holds as text.
 #pragma once
 
 #include <map>
@@ -26,7 +26,7 @@ Planned plan_text(const std::string& text, const PlanOptions& options = {});
 // The same for the children of <launch>.
 Planned plan_actions(const std::string& xml, const PlanOptions& options = {});
 
-// The error of visiting the children of <launch> for a run; nothing is started. "" for none.
+// The error of visiting the children of <launch> as for a run, but without starting anything. "" for none.
 std::string run_error(const std::string& xml);
 
 }  // namespace test_support

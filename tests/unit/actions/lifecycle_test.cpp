@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lifecycle_transition: which node, which transitions, and what is wrong with others.
+// lifecycle_transition: the node, the transitions, and the errors for wrong ones.
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"

@@ -32,7 +32,7 @@ std::string outcome(const std::string& text) {
 class XmlParameter : public testing::TestWithParam<Row> {};
 
 TEST_P(XmlParameter, IsTypedAsRos2Does) {
-  // The message tells errors of the visit from those of loading, which print nothing.
+  // The message shows whether the error is of the visit or of loading, which prints nothing.
   EXPECT_EQ(outcome("<launch><log message=\"visited\"/><node exec=\"n\"><param name=\"p\" " + GetParam().attributes +
                     "/></node></launch>"),
             GetParam().expected)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <executable>: command lines, environment, and what it shares with <node>.
+// <executable>: command lines, environment, and the attributes that it shares with <node>.
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"

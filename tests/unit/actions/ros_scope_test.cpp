@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// push_ros_namespace, set_parameter, set_parameters_from_file, set_remap: what a scope gives to its nodes, and when it
-// ends.
+// push_ros_namespace, set_parameter, set_parameters_from_file, set_remap: what a scope gives to its nodes, and when
+// this ends.
 #include <gmock/gmock.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <trace>: what its attributes evaluate to, and that it takes effect for every process of the file.
+// <trace>: the values of its attributes. It takes effect for every process of the file.
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages: from the publisher to the callback.
+// The way of messages from the publisher to the callback.
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/ros2_feed.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which object an event belongs to when addresses are used again.
+// The object of an event when addresses are used again.
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/ros2_feed.hpp"
@@ -58,7 +58,7 @@ TEST(ObjectIdentity, GivesTheHandleOfAnEndedObjectToNobody) {
   Feed feed;
   feed(ros2::RclTimerInit{1, 100})(ros2::RclcppTimerCallbackAdded{1, 0xcb});
   feed(ros2::RmwPublisherInit{5, {}})(ros2::RclPublisherInit{6, 0, 5, "/topic", 1})(ros2::RmwPublish{5, 9, 1});
-  feed.in(72, 72).end(Kind::kRclcppCallback, 0xcb);  // of another process
+  feed.in(72, 72).end(Kind::kRclcppCallback, 0xcb);  // an event of another process
   feed.in(71, 71)(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
   feed.end(Kind::kRclcppCallback, 0xcb).end(Kind::kRclTimer, 1).end(Kind::kRclPublisher, 6).end(Kind::kRmwPublisher, 5);
   feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb})(ros2::RmwPublish{5, 9, 2});

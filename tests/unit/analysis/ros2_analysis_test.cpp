@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks: whose they are and how long they take.
+// The owner and the duration of callbacks.
 #include <gtest/gtest.h>
 
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
@@ -88,9 +88,9 @@ TEST(Ros2Analysis, KeepsAReentrantCallbackInTwoThreadsApart) {
 TEST(Ros2Analysis, CountsACallbackThatNeverEnds) {
   Feed feed;
   feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
-  feed(ros2::CallbackStart{0xcb, false});  // left by an exception
+  feed(ros2::CallbackStart{0xcb, false});  // an exception leaves it without an end
   feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
-  feed(ros2::CallbackStart{0xcb, false});  // runs when the trace ends
+  feed(ros2::CallbackStart{0xcb, false});  // it still runs when the trace ends
   const Ros2Results results = feed.results();
   ASSERT_EQ(results.callbacks.size(), 1u);
   EXPECT_EQ(results.callbacks[0].durations.count, 2u);
@@ -117,7 +117,7 @@ TEST(Ros2Analysis, AttributesTheCallbackThatIsAnnouncedBeforeItsSubscriptionObje
   Feed feed;
   feed(ros2::RclNodeInit{1, 2, "node", "/ns"});
   feed(ros2::RmwSubscriptionInit{3, {}})(ros2::RclSubscriptionInit{4, 1, 3, "/topic", 1});
-  // With intra-process communication: two objects, the first one's callback comes first.
+  // With intra-process communication there are two objects; the callback of the first one comes first.
   feed(ros2::RclcppSubscriptionCallbackAdded{5, 0xa})(ros2::RclcppCallbackRegister{0xa, "f"});
   feed(ros2::RclcppSubscriptionInit{4, 5})(ros2::RclcppSubscriptionInit{4, 6});
   feed(ros2::RclcppSubscriptionCallbackAdded{6, 0xb})(ros2::RclcppCallbackRegister{0xb, "f"});

@@ -9,7 +9,7 @@
 
 namespace tracing::testing {
 
-// Feeds events of one thread at a time; each is 10 ns after the one before.
+// Feeds events of one thread at a time; each is 10 ns after the previous one.
 class Feed {
  public:
   Feed& in(Vpid vpid, std::int64_t vtid) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who called whom: requests, responses and what executors and clients did with them.
+// Calls of services: requests, responses, and the work of executors and clients with them.
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/ros2_feed.hpp"
@@ -15,7 +15,8 @@ constexpr Vpid kClient = 71;
 constexpr Vpid kServer = 72;
 const ros2::Gid kGid{{1, 2, 3}, 16};
 
-// In the client's process node /asker with client 3 (rmw 4), in the server's /adder with service 5 (rmw 6), callback 7.
+// The client's process has node /asker with client 3 (rmw 4). The server's has /adder with service 5 (rmw 6), callback
+// 7.
 Feed with_client_and_service() {
   Feed feed;
   feed.in(kClient, kClient)(ros2::RclNodeInit{1, 2, "asker", "/"});
@@ -25,7 +26,7 @@ Feed with_client_and_service() {
   return feed;
 }
 
-// 10 ns each: send, take, callback, its end, send, take.
+// Each step takes 10 ns: send, take, callback, its end, send, take.
 void call(Feed& feed, std::int64_t number) {
   feed.in(kClient, kClient)(ros2::RmwSendRequest{4, 9, number});
   feed.in(kServer, kServer)(ros2::RmwTakeRequest{6, 9, kGid, number, true});
@@ -55,7 +56,7 @@ TEST(ServiceCalls, TellWhoAskedWhomAndHowLongEachPartTook) {
   EXPECT_TRUE(results.executions.empty());
 }
 
-// The client tells of a request when it is on its way.
+// The client records a request after it has sent it.
 TEST(ServiceCalls, FollowsARequestThatIsTakenOrAnsweredBeforeTheClientTellsOfIt) {
   Feed feed = with_client_and_service();
   feed.in(kServer, kServer)(ros2::RmwTakeRequest{6, 9, kGid, 1, true});
@@ -184,7 +185,7 @@ TEST(Executions, OfServicesAndClientsEndWithTheResponse) {
   Feed feed = with_client_and_service();
   feed.in(kServer, kServer)(ros2::RclcppExecutorGetNextReady{}).executes(Kind::kService, 5);
   feed(ros2::RmwTakeRequest{6, 9, kGid, 1, true})(ros2::RmwSendResponse{6, 9, kGid, 1, 1});
-  feed(ros2::RmwSendResponse{6, 9, kGid, 2, 1});  // of an earlier request, by nobody's execution
+  feed(ros2::RmwSendResponse{6, 9, kGid, 2, 1});  // response to an earlier request, without an execution
   feed.in(kClient, kClient).executes(Kind::kClient, 3)(ros2::RmwTakeResponse{4, 9, 1, 1, true});
   feed.executes(Kind::kClientCallbackStart, 3).executes(Kind::kClientCallbackEnd, 3);
   const Ros2Results results = feed.results();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When processes that the launcher has started had a node and were ready.
+// The times at which processes of the launcher had a node and were ready.
 #include "tracing/analysis/start_tracker.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using testing::TemporaryDirectory;
 using testing::Thread;
 using testing::TraceWriter;
 
-constexpr std::int64_t kEpoch = 1'767'225'600'000'000'000;  // what CLOCK_MONOTONIC's zero is
+constexpr std::int64_t kEpoch = 1'767'225'600'000'000'000;  // time of CLOCK_MONOTONIC's zero
 constexpr Thread kLauncher{70, 70, "launch"};
 constexpr Thread kTalker{71, 71, "talker"};
 
@@ -28,7 +28,7 @@ class Sink : public TraceSink {
 
 class StartOfProcesses : public ::testing::Test {
  protected:
-  // As liblaunch_trace records it, at `recorded` of what happened at `time`.
+  // liblaunch_trace records the event at time `recorded`; it happened at `time`.
   void exec(std::int64_t recorded, std::int64_t time, const std::string& process, std::int32_t pid) {
     if (!exec_) {
       exec_ = writer_.declare("launch:exec",
@@ -63,7 +63,7 @@ class StartOfProcesses : public ::testing::Test {
 
 TEST_F(StartOfProcesses, IsMeasuredFromExecToTheFirstNodeAndTheFirstLookForWork) {
   exec(1'050, 1'000, "talker-1", 71);  // recorded 50 ns after it happened
-  exec(2'000, 2'000, "other-2", 72);   // at once: tells how the clocks stand to each other
+  exec(2'000, 2'000, "other-2", 72);   // at once: shows the distance between the clocks
   write(5'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
   write(6'000, kTalker, ros2::RclNodeInit{3, 4, "second", "/"});
   write(9'000, kTalker, ros2::RclcppExecutorGetNextReady{});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that a state dump tells again.
+// Objects that a state dump reports again.
 #include <gtest/gtest.h>
 
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
@@ -23,7 +23,7 @@ bool is_init_event(const ros2::AnyEvent& event) {
       event);
 }
 
-// Gives the endpoints of the middleware the identities that real ones have.
+// Gives the endpoints of the middleware identities like those of real ones.
 ros2::AnyEvent with_gid(ros2::AnyEvent event) {
   std::visit(
       []<class Event>(Event& each) {
@@ -40,7 +40,7 @@ ros2::AnyEvent with_gid(ros2::AnyEvent event) {
   return event;
 }
 
-// Ping and pong with a dump of both processes' objects before the event `position`.
+// Ping and pong, with a dump of the objects of both processes before the event `position`.
 Ros2Results ping_pong_with_state_dump(std::size_t position) {
   const std::vector<testing::SequenceEvent> sequence = testing::ping_pong_sequence();
   Ros2Analysis analysis;

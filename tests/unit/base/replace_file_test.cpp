@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands at a place that others can guess is replaced, never written through.
+// A file at a place that others can guess is replaced; nothing is written through a link there.
 #include "launcher/base/replace_file.hpp"
 
 #include <gmock/gmock.h>

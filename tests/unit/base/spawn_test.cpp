@@ -19,7 +19,7 @@ struct Ended {
   int status = 0;
 };
 
-// With its standard output in a pipe of ours.
+// Starts a program with its standard output in a pipe of ours.
 Ended run(ChildProgram child) {
   Pipe pipe = make_pipe();
   child.descriptors.push_back({STDOUT_FILENO, pipe.write.get()});
@@ -90,7 +90,7 @@ TEST(Spawn, ClosesAllOthersOnRequest) {
   child.descriptors = {{STDIN_FILENO, kDevNull}};
   const int with_others = std::stoi(run(child).output);
   child.only_standard_descriptors = true;
-  // ls opens one for the listing itself.
+  // ls opens one itself for the listing.
   EXPECT_EQ(run(child).output, "4\n");
   EXPECT_GT(with_others, 4);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LTTng's kernel tracer would get wrong without a word, found before a session exists.
+// Finds settings that LTTng's kernel tracer would silently handle wrongly, before a session exists.
 #include "tracing/checks/kernel_checks.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fails before LTTng is asked: names, directories, context fields, sizes.
+// Checks that fail before LTTng is asked: names, directories, context fields, sizes.
 #include "tracing/checks/setup_checks.hpp"
 
 #include <gmock/gmock.h>

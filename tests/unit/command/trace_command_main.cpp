@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch trace` as a program of its own, so that its tests need nothing else of launch.
+// `launch trace` as a program of its own, so that its tests need nothing else from launch.
 #include "tracing/command/trace_command.hpp"
 
 int main(int argc, char** argv) {

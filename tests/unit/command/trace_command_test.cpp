@@ -17,14 +17,14 @@ using tracing::FakeTracer;
 using tracing::run_trace_command;
 using tracing::TraceError;
 
-// What a run of the command gave.
+// The results of a run of the command.
 struct Outcome {
   int exit_code;
   std::string out;
   std::string err;
 };
 
-// Runs the command with `input` on stdin, and end of file after it.
+// Runs the command with `input` on stdin, followed by the end of file.
 Outcome run(const std::vector<std::string>& arguments, FakeTracer& tracer, const std::string& input = {}) {
   int ends[2];
   EXPECT_EQ(pipe(ends), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Malformed launch files, each with all that is said about it: tests/golden/diagnostics/FILE and FILE.expected.
+// Malformed launch files, each with its complete error text: tests/golden/diagnostics/FILE and FILE.expected.
 // LAUNCH_UPDATE_GOLDEN=1 writes the expected texts anew; read them before committing.
 #include <gtest/gtest.h>
 

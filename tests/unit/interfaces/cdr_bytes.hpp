@@ -20,7 +20,7 @@ const message_type_support_callbacks_t& callbacks() {
   return *static_cast<const message_type_support_callbacks_t*>(handle->data);
 }
 
-// "01 00 61": how bytes are compared, so that a failure is readable.
+// The form in which bytes are compared, so that a failure is readable: "01 00 61".
 inline std::string text_of(const char* bytes, std::size_t count) {
   constexpr char hex[] = "0123456789abcdef";
   std::string text;
@@ -32,7 +32,7 @@ inline std::string text_of(const char* bytes, std::size_t count) {
   return text;
 }
 
-// "01 00  61" to three bytes; the number of spaces is for the reader's eye.
+// Reads "01 00  61" as three bytes; further spaces only help the reader.
 inline std::vector<char> bytes_of(std::string_view text) {
   std::vector<char> bytes;
   for (std::size_t i = 0; i < text.size();) {
@@ -46,7 +46,7 @@ inline std::vector<char> bytes_of(std::string_view text) {
   return bytes;
 }
 
-// What cdr_serialize writes into a buffer of `capacity` bytes, as text; nothing if it refuses.
+// The bytes that cdr_serialize writes into a buffer of `capacity` bytes, as text; nothing if it refuses.
 template <typename Message>
 std::optional<std::string> serialized(const Message& message, std::size_t capacity) {
   std::vector<char> bytes(capacity + 1);
@@ -56,7 +56,7 @@ std::optional<std::string> serialized(const Message& message, std::size_t capaci
   return text_of(bytes.data(), cdr.getSerializedDataLength());
 }
 
-// In a buffer of exactly the size that get_serialized_size announces.
+// The same in a buffer of exactly the size that get_serialized_size returns.
 template <typename Message>
 std::string serialized(const Message& message) {
   return serialized(message, callbacks<Message>().get_serialized_size(&message)).value_or("does not fit");

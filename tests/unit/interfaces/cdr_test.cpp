@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wire format of ROS 2, byte by byte: expected bytes were written by hand from the CDR rules.
+// The wire format of ROS 2, byte by byte. The expected bytes were written by hand from the CDR rules.
 #include <gtest/gtest.h>
 
 #include <limits>

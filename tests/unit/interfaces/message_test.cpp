@@ -39,7 +39,7 @@ TEST(Message, StartsWithDefaultsAndZero) {
   EXPECT_EQ(message.plain, 0);
 }
 
-// A message made in memory full of 0x55 shows which members the constructor sets.
+// A message in memory full of 0x55 shows which members the constructor sets.
 template <typename Message>
 struct Constructed {
   explicit Constructed(MessageInitialization initialization) {

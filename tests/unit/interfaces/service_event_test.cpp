@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages that tell of the calls of a service.
+// The messages that describe the calls of a service.
 #include <gtest/gtest.h>
 
 #include <rosidl_typesupport_cpp/service_type_support.hpp>
@@ -27,7 +27,7 @@ rosidl_service_introspection_info_t some_info(uint8_t event_type) {
   return info;
 }
 
-// As one makes it who knows the type by its handle only.
+// Made as by code that knows the type only by its handle.
 AddTwoInts::Event make_event(uint8_t event_type, const AddTwoInts::Request* request,
                              const AddTwoInts::Response* response) {
   const auto* handle = rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>();

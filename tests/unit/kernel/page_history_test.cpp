@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pages a snapshot is written from.
+// The pages from which a snapshot is written.
 #include "tracing/kernel/page_history.hpp"
 
 #include <gmock/gmock.h>

@@ -22,7 +22,7 @@ constexpr const char* kRename =
     "\tfield:char oldcomm[16];\toffset:12;\tsize:16;\tsigned:0;\n"
     "\tfield:char newcomm[16];\toffset:28;\tsize:16;\tsigned:0;\n";
 
-// No kernel gives so high a number: nothing of it is in /proc.
+// No kernel gives such a high number, so /proc has nothing about it.
 constexpr std::int32_t kShell = 0x7f000001;
 constexpr std::int32_t kThread = 0x7f000002;
 

@@ -36,7 +36,7 @@ class LaunchFiles : public testing::Test {
     return show_arguments(find_arguments(*load_launch_description(path, registry_, scope_), registry_, scope_));
   }
 
-  // What the visit of a file ends with: "" or the error.
+  // The result of the visit of a file: "" or the error.
   std::string visit(const std::string& path) {
     LaunchContext context(registry_, {}, "", [](LogLevel, std::string_view, std::string_view) {});
     try {

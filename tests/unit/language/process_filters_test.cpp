@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exit codes and lines as launch files name them.
+// Exit codes and lines, in the form of launch files.
 #include <gmock/gmock.h>
 #include <signal.h>
 

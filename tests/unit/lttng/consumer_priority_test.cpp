@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The priority of LTTng's consumers, on a process that only has their name.
+// The priority of LTTng's consumers, tested on a process that only has their name.
 #include "tracing/lttng/consumer_priority.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ class Consumer {
   pid_t pid_ = -1;
 };
 
-// Of this thread: whether it may raise priorities.
+// Whether this thread may raise priorities.
 void set_may_raise_priorities(bool may) {
   __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3, .pid = 0};
   __user_cap_data_struct data[2] = {};

@@ -28,7 +28,7 @@ struct SessionDaemon : testing::Test {
 TEST_F(SessionDaemon, TakesARunningSessionDaemonOnly) {
   const std::string pid_file = directory / "lttng-sessiond.pid";
   const auto error = [&] { return error_of([&] { tracing::check_daemon_is_here(pid_file); }); };
-  EXPECT_EQ(error(), "no error");  // no file, no objection
+  EXPECT_EQ(error(), "no error");  // without the file there is no objection
   test_support::write_file(pid_file, std::to_string(getpid()) + "\n");
   EXPECT_EQ(error(),
             "the LTTng session daemon exists but is unreachable: " + pid_file + " names process " +

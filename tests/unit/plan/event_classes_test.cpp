@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What max-overhead may drop of a trace.
+// The events that max-overhead may drop from a trace.
 #include "tracing/plan/event_classes.hpp"
 
 #include <gmock/gmock.h>

@@ -28,7 +28,7 @@ std::string missing(const std::string&) {
   return "";
 }
 
-constexpr const char* kFork = "/lib/liblttng-ust-fork.so";  // beside every other one
+constexpr const char* kFork = "/lib/liblttng-ust-fork.so";  // preloaded together with every other one
 
 TEST(Preload, RosEventsNeedNothing) {
   EXPECT_THAT(plan_preload({"ros2:rcl_init", "ros2:*", "lttng_ust_statedump:*"}, installed).libraries, IsEmpty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a function says when it refuses something.
+// The error text of a function that refuses something.
 #pragma once
 
 #include <string>

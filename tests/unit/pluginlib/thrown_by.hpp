@@ -5,7 +5,7 @@
 
 namespace test_support {
 
-// What the ExceptionT says that `function` throws; "nothing" if it throws none.
+// The text of the ExceptionT that `function` throws; "nothing" if it throws none.
 template <typename ExceptionT, typename FunctionT>
 std::string thrown_by(FunctionT function) {
   try {

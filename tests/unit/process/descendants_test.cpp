@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens to the group of a process when the process itself exits first. That its number is never used after the
-// process was reaped is checked by FakeProcessRunner, which throws then.
+// The group of a process when the process itself exits first. FakeProcessRunner checks that the number of the process
+// is never used after the process was reaped: it throws then.
 #include "supervisor_fixture.hpp"
 
 namespace launch {

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     spec.argv = {"/bin/sh", "-c", argv[i]};
     spec.environment = {{"PATH", "/usr/bin:/bin"}};
     processes.push_back(runner.spawn(spec));
-    // The script tells when it is ready.
+    // The script prints a line when it is ready.
     char byte = 0;
     while (::read(processes.back().out.get(), &byte, 1) != 1) {
     }

@@ -51,7 +51,7 @@ ProcessSpec command(std::vector<std::string> argv) {
 
 class GuardianTest : public testing::Test {
  protected:
-  // Starts a launcher that guards one shell for each script. Leaves the pids of guardian and shells in `pids`.
+  // Starts a launcher that guards one shell for each script. Stores the pids of guardian and shells in `pids`.
   Process start_launcher(std::chrono::milliseconds grace, const std::vector<std::string>& scripts) {
     std::vector<std::string> argv{DOOMED_LAUNCHER, LAUNCH_GUARDIAN, std::to_string(grace.count())};
     argv.insert(argv.end(), scripts.begin(), scripts.end());
@@ -96,7 +96,7 @@ TEST_F(GuardianTest, KillsWhatDoesNotEndInTheGracePeriod) {
 }
 
 TEST_F(GuardianTest, EndsDescendants) {
-  // Held open by the whole group, so it hangs up when the last member has gone.
+  // The whole group holds it open, so it hangs up when the last member has gone.
   const TemporaryDirectory directory;
   const std::string fifo = directory.path() + "/group";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
@@ -151,7 +151,7 @@ TEST_F(GuardianTest, CleansUpAfterTheGroupsHaveEndedTheLastCommandFirst) {
     Guardian guardian(LAUNCH_GUARDIAN);
     guardian.attach(sleeper.pid);
     guardian.add_clean_up({"/bin/sh", "-c", "echo 'first one' >> " + done});
-    // Not reaped yet, the sleeper is a zombie then.
+    // The sleeper is not reaped yet: it is a zombie.
     guardian.add_clean_up(
         {"/bin/sh", "-c",
          "grep -q State:.Z /proc/" + std::to_string(sleeper.pid) + "/status && echo ended >> " + done});

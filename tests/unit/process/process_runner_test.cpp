@@ -161,7 +161,7 @@ TEST_F(Runner, KeepsStreamsApart) {
 }
 
 TEST_F(Runner, GivesAStandardInputThatStaysOpenAndEmpty) {
-  // cat would end at the end of its input; it only ends when it is signalled.
+  // cat would end at the end of its input, but it only ends when it gets a signal.
   const Process process = runner->spawn(script("echo ready; exec cat"));
   EXPECT_EQ(read_line(process.out.get()), "ready");
   pollfd exited{process.pidfd.get(), POLLIN, 0};
@@ -189,7 +189,7 @@ TEST_F(Runner, WithoutEmulatedTerminalNothingIsATerminal) {
 
 TEST_F(Runner, LeaksNoDescriptorIntoChildren) {
   const Process neighbour = runner->spawn(command({"sleep", "1000"}));
-  const int inherited = ::open("/dev/null", O_RDONLY);  // as a library without O_CLOEXEC would do
+  const int inherited = ::open("/dev/null", O_RDONLY);  // a library without O_CLOEXEC leaves such a descriptor
   ASSERT_GT(inherited, 2);
   const std::string list = output_of(script("ls /proc/$$/fd"));
   std::istringstream words(list);
@@ -254,7 +254,7 @@ TEST_F(Runner, RaisesItsOwnLimitOfDescriptorsButNotThatOfChildren) {
   ::getrlimit(RLIMIT_NOFILE, &raised);
   EXPECT_EQ(raised.rlim_cur, original.rlim_max);
 
-  // The limit is set right after the start: read it when the process has certainly been started.
+  // The limit is set right after the start, so the test reads it when the process has certainly been started.
   const Process process = runner->spawn(command({"sleep", "1000"}));
   rlimit of_child{};
   ASSERT_EQ(::prlimit(process.pid, RLIMIT_NOFILE, nullptr, &of_child), 0);

@@ -30,7 +30,7 @@ class RealSupervisor : public testing::Test {
     return spec;
   }
 
-  // Runs until nothing is active.
+  // Runs until no process is active.
   void run() {
     supervisor->observe([this](const ProcessEvent& event) {
       if (const auto* exited = std::get_if<ProcessExited>(&event.what)) {
@@ -109,7 +109,7 @@ TEST_F(RealSupervisor, HandlesAPseudoTerminal) {
 TEST_F(RealSupervisor, EndsDescendantsThatOutliveAnInterruptedProcess) {
   // A background job of a shell ignores SIGINT.
   ProcessSpec spec = script("sleep 1000 & trap 'exit 5' INT; " + signal_ready() + "; wait");
-  spec.sigterm_timeout = 1000s;  // is not needed
+  spec.sigterm_timeout = 1000s;  // the process ends without it
   supervisor->start(spec);
   when_ready([this] { supervisor->shutdown(); });
   run();

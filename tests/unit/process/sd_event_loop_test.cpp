@@ -106,7 +106,7 @@ TEST_F(SdEventLoop, ASourceMayBeDestroyedInItsOwnCallback) {
   int calls = 0;
   EventLoop::SourcePtr timer;
   EventLoop::SourcePtr readable;
-  // The captured string would be used after its end if the callback went with the source.
+  // If the callback were destroyed with the source, the captured string would be used after its end.
   const std::string text = "a text that is too long for the small string optimisation";
   timer = loop->after(0s, [&, text] {
     timer.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the user reads when a process cannot be started.
+// The message for the user when a process cannot be started.
 #include "launcher/process/spawn_failure.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 class SpawnFailure : public testing::Test {
  protected:
-  // The message of the failure to start argv[0], which must fail with `error`.
+  // The message of the failed start of argv[0], which must fail with `error`.
   std::string failure(const std::string& program, int error) const {
     ProcessSpec spec;
     spec.name = "test";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A supervisor on fakes that writes down what its observers are told.
+// A supervisor on fakes that notes the events that its observers get.
 #pragma once
 
 #include <fmt/format.h>

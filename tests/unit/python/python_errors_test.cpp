@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Python launch files that are wrong, each with all that is said about it: tests/golden/python/FILE and FILE.expected.
+// Python launch files with errors, each with its complete error text: tests/golden/python/FILE and FILE.expected.
 // LAUNCH_UPDATE_GOLDEN=1 writes the expected texts anew; read them before committing.
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ TEST(PythonErrors, AreExplainedAtTheirPlace) {
   for (const fs::path& path : files) {
     const fs::path expected = path.string() + ".expected";
     std::string found = test_support::plan_python(read(path), {.path = path.filename().string()}).error + "\n";
-    // Where the packages are is not the file's business.
+    // The place of the packages must not be in the expected text.
     const std::string& own_prefix = test_support::stand_in_prefix();
     if (const std::size_t prefix = found.find(own_prefix); prefix != std::string::npos) {
       found.replace(prefix, own_prefix.size(), "PREFIX");

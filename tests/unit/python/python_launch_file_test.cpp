@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only Python launch files can do.
+// Features that only Python launch files have.
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 

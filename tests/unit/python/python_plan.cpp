@@ -28,7 +28,7 @@ const std::string& stand_in_prefix() {
     }
     return prefix.string();
   }();
-  // For as long as the program.
+  // Removes the prefix when the program ends.
   static const struct Remove {
     ~Remove() { fs::remove_all(made); }
   } at_end;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans Python launch files that stand in the test as text.
+// Plans Python launch files that a test holds as text.
 #pragma once
 
 #include <map>
@@ -30,8 +30,8 @@ struct PythonOptions {
 // `text` is the content of a file of that path.
 PythonPlan plan_python(const std::string& text, const PythonOptions& options = {});
 
-// The same for the items of the list that generate_launch_description() returns; every name of launch and launch_ros
-// is imported.
+// The same for the items of the list that generate_launch_description() returns. Every name of launch and launch_ros is
+// imported.
 PythonPlan plan_items(const std::string& items, const PythonOptions& options = {});
 
 }  // namespace test_support

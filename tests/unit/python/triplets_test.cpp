@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same launch file in XML, YAML and Python asks for the same: tests/golden/triplets/NAME.launch.{xml,yaml,py}.
+// The same launch file in XML, YAML and Python gives the same requests:
+// tests/golden/triplets/NAME.launch.{xml,yaml,py}.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +30,8 @@ std::vector<std::string> names() {
   return found;
 }
 
-// Places are the only difference, and the names of processes that handlers and commands speak of: Python means the
-// action.
+// Removes the only differences: places, and the names by which handlers and commands refer to processes. Python refers
+// to the action.
 json comparable(json value) {
   if (value.is_object()) {
     value.erase("source");
@@ -64,7 +65,7 @@ TEST_P(Triplets, AskForTheSame) {
   const json xml = plan(GetParam(), ".launch.xml");
   EXPECT_TRUE(!xml["processes"].empty() || !xml["logs"].empty()) << "the file asks for nothing";
   EXPECT_EQ(plan(GetParam(), ".launch.yaml"), xml);
-  // What Python says with a function of its own has no third form.
+  // There is no Python file where Python uses a function of its own.
   if (fs::exists(GOLDEN_FILES "/triplets/" + GetParam() + ".launch.py")) {
     EXPECT_EQ(plan(GetParam(), ".launch.py"), xml);
   }
