@@ -19,7 +19,7 @@ namespace {
 constexpr rcutils_log_location_t kLocation{"function", "dir/file.cpp", 42};
 constexpr rcutils_time_point_value_t kTime = 1700000000123456789;
 
-// Logging that starts anew with the environment of the test.
+// Logging that is initialised again with the environment of the test.
 class Logging : public testing::Test {
  protected:
   Logging() {
@@ -40,7 +40,7 @@ class Logging : public testing::Test {
     EXPECT_EQ(rcutils_logging_shutdown(), RCUTILS_RET_OK);
   }
 
-  // What the console handler writes to stderr for a message at kTime.
+  // The text that the console handler writes to stderr for a message at kTime.
   static std::string line(int severity, const char* name, const char* format, ...) {
     testing::internal::CaptureStderr();
     va_list args;
@@ -50,7 +50,7 @@ class Logging : public testing::Test {
     return testing::internal::GetCapturedStderr();
   }
 
-  // Logs a warning with these ROS arguments. Returns what the console shows.
+  // Logs a warning with these ROS arguments. Returns the text on the console.
   static std::string log_with(std::vector<std::string> flags) {
     flags.insert(flags.begin(), {"program", "--ros-args"});
     const rcl_test::Arguments arguments(flags);
@@ -63,7 +63,7 @@ class Logging : public testing::Test {
     return testing::internal::GetCapturedStderr();
   }
 
-  // Those of the log directory, without what differs from run to run.
+  // The names of the files in the log directory, without the parts that differ from run to run.
   static std::vector<std::string> files_of(const std::filesystem::path& directory) {
     std::vector<std::string> names;
     std::error_code absent;

@@ -184,7 +184,7 @@ TEST_F(RclNode, PublishesWhatItLogsOnRosout) {
   {
     Node node(context, "talker", "/ns");
     ASSERT_EQ(node.result, RCL_RET_OK) << node.error;
-    // Late joiners get what was logged before.
+    // Subscriptions that join late get the messages that were logged before.
     const rcutils_log_location_t location{"function", "file.cpp", 42};
     testing::internal::CaptureStderr();
     rcutils_log(&location, RCUTILS_LOG_SEVERITY_WARN, "ns.talker.child", "%d messages", 3);

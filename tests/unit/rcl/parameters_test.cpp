@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Vectors, NodePattern,
                                          Pattern{"/ns/*/x", "/ns/a/x", true}, Pattern{"/ns/*/x", "/ns/a/b/x", false},
                                          Pattern{"/**/a/*", "/x/a/b", true}, Pattern{"/talk", "/talker", false}));
 
-// A file that is gone at the end of the test.
+// A file that is removed at the end of the test.
 class ParameterFile : public testing::Test {
  protected:
   ParameterFile() {
@@ -112,7 +112,7 @@ class ParameterFile : public testing::Test {
 
   void write(const std::string& text) { std::ofstream(path_) << text; }
 
-  // Without the name of the file.
+  // The error without the name of the file.
   std::string load_error() {
     ParameterOverrides overrides;
     try {
@@ -164,7 +164,7 @@ TEST_F(ParameterFile, LaterValuesWinButPatternsKeepTheirFirstPlace) {
   write("/**: {ros__parameters: {x: file, y: file}}");
   const Arguments arguments({"program", "--ros-args", "-p", "talker:x:=node", "-p", "x:=all", "--params-file", path_});
   ASSERT_EQ(arguments.result, RCL_RET_OK) << arguments.error;
-  // "/talker" was seen first, hence every value of "/**" is applied on top of it.
+  // "/talker" came first, so every value of "/**" is applied on top of it.
   EXPECT_THAT(rcl::parameter_overrides(arguments.handle).for_node("/talker"),
               ElementsAre(Pair("x", ParameterValue("file")), Pair("y", ParameterValue("file"))));
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of rcl share: owners for its C handles.
+// The common part of the tests of rcl: owners for its C handles.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 
 namespace rcl_test {
 
-// Waiting for messages that must come ends a broken test.
+// A longer wait than this for messages that must come ends a broken test.
 constexpr int64_t kPatience = 10'000'000'000;
 
-// Takes the error of this thread, without the place in the source that follows it.
+// Takes the error of this thread, without the source place at its end.
 inline std::string take_error() {
   const rcl_error_state_t* state = rcl_get_error_state();
   const std::string message = state == nullptr ? "" : state->message;
@@ -24,7 +24,7 @@ inline std::string take_error() {
   return message;
 }
 
-// A string that was handed out by rcl, empty for null.
+// A string from rcl, empty for null.
 inline std::string take_string(char* text) {
   const std::string result = text == nullptr ? "" : text;
   const rcl_allocator_t allocator = rcl_get_default_allocator();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Introspection of services and clients in rcl: the topic, and what is refused.
+// Introspection of services and clients in rcl: the topic, and the errors.
 #include <string>
 
 #include "rcl_test.hpp"
@@ -17,7 +17,7 @@ const rosidl_service_type_support_t* type_support() {
   return rosidl_typesupport_cpp::get_service_type_support_handle<std_srvs::srv::SetBool>();
 }
 
-// A service and a client of /lights, which is called switch by the program.
+// A service and a client of /lights; the program calls it switch.
 class RclServiceIntrospection : public ::testing::Test {
  protected:
   RclServiceIntrospection() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timers on simulated time: every moment is set by the test.
+// Timers on simulated time: the test sets every moment.
 #include "rcl_test.hpp"
 
 namespace {
@@ -110,7 +110,7 @@ TEST_F(Timer, KeepsItsDistanceWhenSimulationEnds) {
   set_time(1600 * 1000 * kMillisecond);
   const int64_t left = until_next_call();
   ASSERT_EQ(rcl_disable_ros_time_override(&clock_), RCL_RET_OK);
-  // The system clock goes on.
+  // The system clock goes on meanwhile.
   EXPECT_LE(until_next_call(), left);
   EXPECT_GT(until_next_call(), left - 60 * 1000 * kMillisecond);
 }

@@ -95,7 +95,7 @@ TEST_F(WaitSetSubscriptions, WhatIsReadyIsLeft) {
     wait({}, RCL_RET_OK, -1);
     EXPECT_THAT(entries(), ElementsAre(kNull, &b_.subscription, kNull, kNull));
 
-    // What is not taken stays ready.
+    // A message that is not taken stays ready.
     c_.publish();
     a_.publish();
     do {
@@ -108,7 +108,7 @@ TEST_F(WaitSetSubscriptions, WhatIsReadyIsLeft) {
     EXPECT_EQ(b_.take(info), RCL_RET_OK);
     EXPECT_EQ(c_.take(info), RCL_RET_OK);
     EXPECT_GT(info.source_timestamp, 0);
-    // There is no message, so nothing is told of one.
+    // There is no message, so the wait reports none.
     EXPECT_EQ(c_.take(info), RCL_RET_SUBSCRIPTION_TAKE_FAILED);
     EXPECT_EQ(info.source_timestamp, 0);
   }

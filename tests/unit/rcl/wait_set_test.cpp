@@ -34,7 +34,7 @@ class WaitSetConditions : public testing::Test {
   void add(Condition& condition) {
     EXPECT_EQ(rcl_wait_set_add_guard_condition(&set_, &condition.handle, nullptr), RCL_RET_OK);
   }
-  // Adds a, b and `further`, and gives the entries after the wait.
+  // Adds a, b and `further`, and returns the entries after the wait.
   std::vector<const rcl_guard_condition_t*> left(std::vector<Condition*> further, rcl_ret_t expected) {
     EXPECT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
     add(a_);
@@ -126,7 +126,7 @@ class WaitSetTimers : public testing::Test {
               RCL_RET_OK);
   }
   void set_time(int64_t time) { EXPECT_EQ(rcl_set_ros_time_override(&simulated_, time), RCL_RET_OK); }
-  // The numbers of those that a wait leaves; they are called.
+  // The numbers of the timers that a wait leaves; these timers are called.
   std::vector<std::ptrdiff_t> call_ready() {
     EXPECT_EQ(rcl_wait_set_clear(&set_), RCL_RET_OK);
     EXPECT_EQ(rcl_wait_set_add_guard_condition(&set_, &end_, nullptr), RCL_RET_OK);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states of goals and the names of what carries an action.
+// The states of goals, and the names of the services and topics of an action.
 #include <gmock/gmock.h>
 #include <rcl/error_handling.h>
 #include <rcl_action/rcl_action.h>

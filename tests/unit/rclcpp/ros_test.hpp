@@ -12,13 +12,13 @@
 
 #include "tests/support/sandbox.hpp"
 
-// The sandbox comes first and goes last: participants and their threads live within it.
+// The sandbox is made first and destroyed last: participants and their threads live within it.
 class RosTest : public ::testing::Test {
  protected:
   RosTest() { rclcpp::init(0, nullptr); }
   ~RosTest() override { rclcpp::shutdown(); }
 
-  // Starts over with a command line: {"--ros-args", "-p", "speed:=1"}.
+  // Starts again with a command line: {"--ros-args", "-p", "speed:=1"}.
   static void init(std::initializer_list<const char*> arguments) {
     rclcpp::shutdown();
     std::vector<const char*> argv = {"test"};
@@ -29,11 +29,11 @@ class RosTest : public ::testing::Test {
   test_support::Sandbox sandbox_;
 };
 
-// How long something in these tests may take on a busy machine.
+// The longest time that a step of these tests may take on a busy machine.
 inline constexpr std::chrono::seconds kPatience{20};
 
-// Executes callbacks until `condition` holds. It is looked at after each callback and, since not everything that may
-// change it wakes the executor (discovery does not), at least every few milliseconds.
+// Executes callbacks until `condition` holds. The condition is checked after each callback. It is also checked every
+// few milliseconds, because not everything that may change it wakes the executor (discovery does not).
 template <typename ConditionT>
 bool spin_until(rclcpp::Executor& executor, ConditionT condition, std::chrono::nanoseconds patience = kPatience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;

@@ -39,7 +39,7 @@ class ActionTest : public RosTest {
     executor_.add_node(client_node_);
   }
 
-  // A server whose answers are the members below; it keeps the goals in `goals_`.
+  // A server whose answers are the members below. It keeps the goals in `goals_`.
   void start_server(const rcl_action_server_options_t& options = rcl_action_server_get_default_options()) {
     server_ = rclcpp_action::create_server<Fibonacci>(
         server_node_, "fibonacci",
@@ -168,7 +168,7 @@ TEST_F(ActionTest, CancelsAllGoalsOrThoseUntilATime) {
   const auto before = value_of(client_->async_cancel_goals_before(first->get_goal_stamp()));
   ASSERT_THAT(before->goals_canceling, SizeIs(1));
   EXPECT_EQ(before->goals_canceling[0].goal_id.uuid, first->get_goal_id());
-  // The first is on its way already.
+  // The first goal is on its way already.
   const auto all = value_of(client_->async_cancel_all_goals());
   ASSERT_THAT(all->goals_canceling, SizeIs(1));
   EXPECT_EQ(all->goals_canceling[0].goal_id.uuid, second->get_goal_id());
@@ -292,7 +292,7 @@ TEST_F(ActionTest, ResultExpiresInTheEventsExecutor) {
   EXPECT_TRUE(timers[0]->is_canceled());
   goals_[0]->succeed(result_of({}));
   EXPECT_FALSE(timers[0]->is_canceled());
-  // Nobody asks: the timer alone ends what is kept, and then itself.
+  // Nobody asks for the result: the timer alone removes what is kept, and then stops.
   EXPECT_TRUE(spin_until(executor, [&] { return timers[0]->is_canceled(); }));
   const auto result = client_->async_get_result(accepted.get());
   ASSERT_TRUE(
@@ -323,7 +323,7 @@ TEST_F(ActionTest, IsFoundInTheGraph) {
 
 // Goals end in threads of their own while others are sent, canceled and answered by several threads of the executor.
 TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
-  constexpr int32_t kGoals = 9;  // services keep ten requests that nobody has taken
+  constexpr int32_t kGoals = 9;  // services keep ten requests that were not taken
   executor_.remove_node(server_node_);
   executor_.remove_node(client_node_);
   std::vector<std::thread> workers;

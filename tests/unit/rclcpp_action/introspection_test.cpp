@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What servers and clients of actions publish of the calls of their services.
+// The messages that servers and clients of actions publish about the calls of their services.
 #include <gmock/gmock.h>
 
 #include <example_interfaces/action/fibonacci.hpp>
@@ -131,7 +131,7 @@ std::string refusal(EndT& end) {
   try {
     end.configure_introspection(nullptr, event_qos(), RCL_SERVICE_INTROSPECTION_METADATA);
   } catch (const rclcpp::exceptions::RCLInvalidArgument& error) {
-    // What follows is the place in the source.
+    // The rest is the place in the source.
     return std::string(error.what()).substr(0, std::string(error.what()).find(", at "));
   }
   return "accepted";

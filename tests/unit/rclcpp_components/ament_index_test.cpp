@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where packages and resources are found.
+// The places where packages and resources are found.
 #include <gmock/gmock.h>
 
 #include <ament_index_cpp/get_package_share_directory.hpp>

@@ -86,7 +86,7 @@ TEST_P(ComponentContainer, GivesComponentsThreadsOfTheirOwnOnlyIfIsolated) {
   if (GetParam().isolated) {
     expected = {"one", "two_is_a_longer"};
   }
-  // Asked again until both answers were heard: the way back may be matched later than the way there.
+  // Asks again until both answers have arrived: the way back may be matched later than the way there.
   EXPECT_TRUE(spin_until(executor_, [&] {
     publisher->publish(std_msgs::msg::String());
     return threads == expected;

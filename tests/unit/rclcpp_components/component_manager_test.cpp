@@ -38,7 +38,7 @@ class ComponentManagerTest : public RosTest {
     return response.error_message;
   }
 
-  // The value that the container's component `node` has, by its parameter service.
+  // The value of a parameter of the component `node`, from its parameter service.
   rclcpp::Parameter parameter_of(const std::string& node, const std::string& name) {
     rclcpp::SyncParametersClient client(executor_, std::make_shared<rclcpp::Node>("reader"), node);
     EXPECT_TRUE(client.wait_for_service(kPatience));
@@ -186,7 +186,7 @@ TEST_F(ComponentManagerTest, IsolatedComponentsEndBeforeTheirExecutorHasBegun) {
     EXPECT_EQ(client.load("tested", "test_components::Plain").unique_id, id);
     EXPECT_TRUE(client.unload(id).success);
   }
-  EXPECT_TRUE(client.load("tested", "test_components::Plain").success);  // the destructor ends this one
+  EXPECT_TRUE(client.load("tested", "test_components::Plain").success);  // the destructor unloads this component
 }
 
 TEST_F(ComponentManagerTest, ProgramOfAnUnknownComponentFails) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks a container, as launch does.
+// Sends requests to a container, as launch does.
 #pragma once
 
 #include <composition_interfaces/srv/list_nodes.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components that misbehave, or tell what they were made with.
+// Components that misbehave, or show the options with which they were made.
 #include <pthread.h>
 
 #include <rclcpp/rclcpp.hpp>
@@ -22,7 +22,7 @@ class ThrowingNoException : public rclcpp::Node {
   explicit ThrowingNoException(const rclcpp::NodeOptions& options) : Node("throwing", options) { throw 1; }
 };
 
-// Answers every message on topic `ask` with the name of the thread that its callback is in.
+// Answers every message on topic `ask` with the name of the thread of its callback.
 class ThreadTeller : public rclcpp::Node {
  public:
   explicit ThreadTeller(const rclcpp::NodeOptions& options) : Node("thread_teller", options) {
@@ -41,7 +41,7 @@ class ThreadTeller : public rclcpp::Node {
   rclcpp::Subscription<std_msgs::msg::String>::SharedPtr subscription_;
 };
 
-// Its parameters, as others see them.
+// Its parameters, as other nodes see them.
 class Plain : public rclcpp::Node {
  public:
   explicit Plain(const rclcpp::NodeOptions& options) : Node("plain", options) {

@@ -21,7 +21,7 @@ using StateId = lifecycle_msgs::msg::State;
 using std_msgs::msg::String;
 using testing::ElementsAre;
 
-// Writes down its callbacks; each gives what the test says.
+// Notes its callbacks. The test sets the result of each.
 class Recorder : public LifecycleNode {
  public:
   explicit Recorder(const std::string& name, bool enable_communication_interface = true)
@@ -74,13 +74,13 @@ TEST_F(LifecycleNodeTest, FailureLeadsBackAndErrorToErrorProcessing) {
   EXPECT_EQ(node_->configure(result).label(), "unconfigured");
   EXPECT_EQ(result, CallbackReturn::FAILURE);
 
-  // Error processing that succeeds makes a node as new.
+  // Error processing that succeeds makes the node as good as new.
   node_->results = {{"configure", CallbackReturn::ERROR}};
   EXPECT_EQ(node_->configure(result).label(), "unconfigured");
   EXPECT_EQ(result, CallbackReturn::ERROR);
   EXPECT_EQ(node_->calls.back(), "error from unconfigured in errorprocessing");
 
-  // One that does not ends it.
+  // Error processing that fails ends the node.
   node_->results = {{"activate", CallbackReturn::ERROR}, {"error", CallbackReturn::FAILURE}};
   EXPECT_EQ(node_->configure().label(), "inactive");
   EXPECT_EQ(node_->activate(result).label(), "finalized");
@@ -127,7 +127,7 @@ TEST_F(LifecycleNodeTest, TransitionThatTheStateDoesNotHaveIsRefused) {
 TEST_F(LifecycleNodeTest, TransitionUnderWayRefusesOthers) {
   CallbackReturn inner = CallbackReturn::SUCCESS;
   node_->register_on_configure([&](const State&) {
-    // What ends this very transition is not for others either.
+    // The transitions that end this one are refused, too, when somebody else triggers them.
     node_->trigger_transition(Transition::TRANSITION_ON_CONFIGURE_FAILURE, inner);
     EXPECT_EQ(inner, CallbackReturn::ERROR);
     std::thread([&] { node_->shutdown(inner); }).join();

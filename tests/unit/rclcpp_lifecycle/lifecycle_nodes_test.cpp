@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The managed demo node, as a program and as a component, led and heard by the other demo programs.
+// The managed demo node, as a program and as a component. The other demo programs change its state and receive its
+// messages.
 #include <gmock/gmock.h>
 #include <signal.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A managed node that others ask and lead.
+// A managed node that other nodes ask for its state and lead through its states.
 #include <gmock/gmock.h>
 
 #include <lifecycle_msgs/msg/transition.hpp>
@@ -59,7 +59,7 @@ TEST_F(LifecycleServicesTest, LeadTheNode) {
   EXPECT_EQ(ask<GetState>("get_state").current_state.id, 2);
   EXPECT_TRUE(change_state(0, "activate"));
   EXPECT_EQ(state(), "active");
-  // The label wins.
+  // The label has precedence.
   EXPECT_TRUE(change_state(Transition::TRANSITION_ACTIVE_SHUTDOWN, "deactivate"));
   EXPECT_EQ(state(), "inactive");
   EXPECT_TRUE(change_state(0, "shutdown"));

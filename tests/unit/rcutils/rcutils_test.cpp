@@ -24,7 +24,7 @@ void keep_line(const rcutils_log_location_t*, int severity, const char* name, rc
   lines.push_back(std::string(rcutils_logging_severity_name(severity)) + " " + name + ": " + text);
 }
 
-// A clock that the test sets, milliseconds.
+// A clock that the test sets, in milliseconds.
 rcutils_time_point_value_t now_ms = 0;
 rcutils_ret_t test_time(rcutils_time_point_value_t* now) {
   *now = now_ms * 1'000'000;

@@ -35,7 +35,7 @@ TEST(TimeBound, IsSecondsADateOrATimeAfterTheFirstEvent) {
 
 class FilterTest : public ::testing::Test {
  protected:
-  // The times of the accepted events among four of two processes.
+  // The times of the accepted events, among four events of two processes.
   static std::vector<std::int64_t> accepted(EventFilter filter) {
     const testing::TemporaryDirectory directory;
     testing::TraceWriter writer(directory.path());

@@ -11,7 +11,7 @@
 namespace tracing {
 namespace {
 
-// What a printer writes of a small trace with a loss.
+// The output of a printer for a small trace with a loss.
 std::string printed(std::unique_ptr<EventPrinter> (*make)(std::FILE*)) {
   const testing::TemporaryDirectory directory;
   testing::TraceWriter writer(directory.path());

@@ -12,7 +12,7 @@ namespace {
 
 class FieldExpressionTest : public ::testing::Test {
  protected:
-  // Of one event, an rcl_publisher_init of process 71.
+  // Evaluates the expression for one event, an rcl_publisher_init of process 71.
   bool holds(const std::string& text) {
     const testing::TemporaryDirectory directory;
     testing::TraceWriter writer(directory.path());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that a full disk or a dying machine has changed end a packet, never the program.
+// Bytes that a full disk or a dying machine has changed end a packet, but never the program.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -22,7 +22,7 @@ std::string content(const fs::path& file) {
   return text.str();
 }
 
-// Reads as much as there is; what is wrong must be said by TraceReadError.
+// Reads as much as possible. A TraceReadError must report what is wrong.
 void read_damaged(const fs::path& directory) {
   try {
     testing::trace_text(directory, TraceReader::Decoder::kDirect);
@@ -64,7 +64,7 @@ TEST(DamagedTrace, RandomBytesInTheMetadataAreRefusedOrRead) {
   }
 }
 
-// The other streams and the packets before lose nothing.
+// The other streams and the earlier packets lose nothing.
 TEST(DamagedTrace, GivesWhatStandsBesideTheDamage) {
   const testing::TemporaryDirectory directory;
   testing::write_random_trace(directory.path(), 5);

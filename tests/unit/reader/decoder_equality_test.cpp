@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our own decoder and libbabeltrace2 must read the same from a trace: each event, each field, each loss.
+// Our own decoder and libbabeltrace2 must read the same data from a trace: each event, each field, each loss.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what LTTng records of programs that fire ros2 events.
+// Reads the traces that LTTng records of programs that fire ros2 events.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using testing::RecordingSink;
 
 class RecordedTrace : public ::testing::Test {
  protected:
-  // Records `traced` in a session with a channel of these options and, in this order, contexts vpid, vtid, procname.
+  // Records `traced` in a session whose channel has these options and the contexts vpid, vtid, procname, in this order.
   void record(const std::vector<std::string>& channel_options, const std::vector<std::string>& traced) {
     std::vector<std::string> channel{"lttng", "enable-channel", "--userspace", "ros2"};
     channel.insert(channel.end(), channel_options.begin(), channel_options.end());
@@ -50,7 +50,7 @@ std::vector<std::string> expected_fields(const ros2::AnyEvent& any) {
       [&]<class Struct>(const Struct& event) {
         if constexpr (!std::is_same_v<Struct, std::monostate>) {
           Struct::for_each_field(event, [&]<ros2::FieldType type>(std::string_view name, const auto&) {
-            // CTF keeps the length of a sequence in a field of its own before it.
+            // In CTF a field of its own holds the length of a sequence, before the sequence.
             if (type == ros2::FieldType::kPointers) names.push_back("_" + std::string(name) + "_length");
             names.emplace_back(name);
           });

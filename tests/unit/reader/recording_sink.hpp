@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps what a reader gives, for assertions.
+// Keeps the events and losses of a reader, for assertions.
 #pragma once
 
 #include <filesystem>

@@ -25,7 +25,7 @@ using testing::TraceWriter;
 
 constexpr Thread kThread{71, 71, "ping"};
 
-// Decodes every event and hands it over while it is valid.
+// Decodes every event and passes it on while it is valid.
 class DecodingSink : public TraceSink {
  public:
   std::function<void(const ros2::AnyEvent*)> check;
@@ -42,7 +42,7 @@ class DecodingSink : public TraceSink {
   ros2::Decoder decoder_{[this](const std::string& problem) { problems.push_back(problem); }};
 };
 
-// A struct with another value in every field.
+// A struct with a different value in every field.
 template <class Struct>
 Struct filled() {
   Struct event;

@@ -125,7 +125,7 @@ TEST(TraceReader, ReportsDiscardedEventsWithStreamTimeAndCount) {
   EXPECT_EQ(sink.losses[0].end_ns, 300);
 }
 
-// The count in a packet is a running total: how much of the first one's belongs to this trace is not known.
+// The count in a packet is a running total: it is not known how much of the first packet's count belongs to this trace.
 TEST(TraceReader, ReportsALossWithoutCountInAStreamsFirstPacket) {
   const TemporaryDirectory directory;
   TraceWriter writer(directory.path());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that a reader gives of a trace, as lines to compare.
+// Everything that a reader gives for a trace, as lines to compare.
 #pragma once
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ inline std::string text_of(const FieldValue& value) {
   return text;
 }
 
-// One line an event or loss, in the order of time; what happened at one time in the order of the text.
+// One line for each event or loss, in the order of time. Lines of the same time are in alphabetical order.
 inline std::vector<std::string> trace_text(const std::filesystem::path& directory, TraceReader::Decoder decoder) {
   class Sink : public TraceSink {
    public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rmw adds to Fast DDS's discovery.
+// The additions of rmw to Fast DDS's discovery.
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -109,7 +109,7 @@ TEST_F(SharedMemoryPorts, LeaveTheWellKnownOnesOfUdpAndMulticast) {
   fdds::DomainParticipantQos qos;
   choose_shared_memory_ports(3, prefix_, qos);
   const auto& wire = qos.wire_protocol();
-  // Port 0 stands for the one that Fast DDS finds.
+  // Port 0 stands for a port that Fast DDS chooses.
   EXPECT_EQ(*wire.builtin.metatrafficUnicastLocatorList.begin(), rtps::Locator_t());
   EXPECT_EQ(*wire.default_unicast_locator_list.begin(), rtps::Locator_t());
   constexpr std::uint32_t kMulticastOfDomain3 = 7400 + 3 * 250;

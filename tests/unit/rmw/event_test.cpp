@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events of publishers and subscriptions, and being told instead of waiting.
+// Events of publishers and subscriptions, and callbacks instead of waiting.
 #include <atomic>
 #include <vector>
 
@@ -127,7 +127,7 @@ TEST_F(EventTest, BothSidesTellOfLostLiveliness) {
   ASSERT_EQ(rmw_publisher_assert_liveliness(publisher.handle), RMW_RET_OK);
   ASSERT_EQ(wait(lost), RMW_RET_OK);
   EXPECT_GE(take<rmw_liveliness_lost_status_t>(lost).total_count, 1);
-  // It comes alive, then ceases to be: one event or two.
+  // It comes alive and then ends: that is one event or two.
   rmw_liveliness_changed_status_t status{};
   while (status.not_alive_count == 0) {
     ASSERT_EQ(wait(changed), RMW_RET_OK);
@@ -163,7 +163,7 @@ TEST_F(EventTest, BothSidesHearOfAnotherTypeOnTheirTopic) {
   EXPECT_EQ(take<rmw_incompatible_type_status_t>(of_subscription).total_count_change, 1);
   EXPECT_EQ(wait(of_subscription, kNoWait), RMW_RET_TIMEOUT);
 
-  // Who comes later hears of who was there.
+  // A subscription that is made later gets the event for the earlier publisher.
   Subscription<std_msgs::msg::Int32> later(other_node, "/chatter");
   const rmw_event_t of_later = event_of(later, RMW_EVENT_SUBSCRIPTION_INCOMPATIBLE_TYPE);
   EXPECT_EQ(wait(of_later, kNoWait), RMW_RET_OK);
@@ -200,7 +200,7 @@ TEST_F(EventTest, CallbacksAreToldOfWhatWaitsAndOfWhatComes) {
   rmw_event_t event = matched;
   std::atomic<size_t> matches{0};
   ASSERT_EQ(rmw_event_set_callback(&event, count, &matches), RMW_RET_OK);
-  EXPECT_EQ(matches, 1u);  // nobody has taken it
+  EXPECT_EQ(matches, 1u);  // nobody has taken the event
   ASSERT_EQ(rmw_event_fini(&event), RMW_RET_OK);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the graph cache makes of discovery and of what participants tell, in any order.
+// The graph cache gets discovery and the messages of participants in any order.
 #include "graph/graph_cache.hpp"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST_F(Graph, TellsEndpointsOfOthersOnTheirTopicWithAnotherType) {
   EXPECT_EQ(taken_from(*subscription), 2);
   EXPECT_EQ(taken_from(*publisher), 1);
 
-  // Discovery may find an own endpoint before its creation is told, and again.
+  // Discovery may find an own endpoint before its creation is reported, and again after it.
   const auto late = std::make_shared<IncompatibleType>();
   graph_.add_endpoint(gid_of(8), {GraphCache::Kind::kReader, "rt/chatter", "Int32", {}});
   EXPECT_EQ(taken_from(*publisher), 1);

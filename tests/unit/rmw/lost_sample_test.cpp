@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subscription makes of samples that get lost on the way, from a writer of plain Fast DDS whose transport loses
-// what the test wants.
+// A subscription whose samples get lost on the way. They come from a writer of plain Fast DDS whose transport loses the
+// samples that the test chooses.
 #include <fastrtps/transport/test_UDPv4TransportDescriptor.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
@@ -37,7 +37,7 @@ using std_msgs::msg::String;
 constexpr uint32_t kDomain = 42;
 constexpr rmw_time_t kNoWait{0, 0};
 
-// Loses the samples of one sequence number as long as it is told to, and counts how often.
+// Loses the samples of one sequence number until told otherwise, and counts the losses.
 class Loss {
  public:
   bool loses(const rtps::CDRMessage_t& message) {
@@ -59,7 +59,7 @@ class Loss {
     lost_ = sequence_number;
   }
 
-  // Returns after that many more losses.
+  // Returns after this number of further losses.
   void wait_for(int more) {
     std::unique_lock lock(mutex_);
     const int until = times_ + more;
@@ -121,7 +121,7 @@ class LostSample : public testing::Test {
     return publisher->create_datawriter(topic_, qos, &matches_);
   }
 
-  // Both ends know each other.
+  // Returns when both ends know each other.
   void wait_for_match(const Subscription<String>& subscription) {
     matches_.wait();
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(rmw_test::kPatience.sec);
@@ -161,9 +161,9 @@ TEST_F(LostSample, LeavesAReliableSubscriptionNotReadyUntilItIsResent) {
   loss_.lose(1);
   write(*writer, "first");
   write(*writer, "second");
-  loss_.wait_for(3);  // asked for again and lost again, long after the second one arrived
+  loss_.wait_for(3);  // it was requested again and lost again, long after the second sample arrived
   String message;
-  if (subscription.wait(kNoWait) == RMW_RET_OK) {  // to look in vain is allowed, but only once
+  if (subscription.wait(kNoWait) == RMW_RET_OK) {  // one wake-up without a sample is allowed, but no more
     EXPECT_FALSE(subscription.take(message));
   }
   for (int i = 0; i < 3; ++i) {

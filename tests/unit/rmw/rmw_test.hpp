@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of rmw share: owners for its handles, with failures as test failures.
+// The common part of the tests of rmw: owners for its handles, with failures as test failures.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace rmw_test {
 
-// Waiting for something that must come ends a broken test.
+// A longer wait than this for something that must come ends a broken test.
 inline constexpr rmw_time_t kPatience{10, 0};
 
 inline std::string take_error() {
@@ -148,7 +148,7 @@ class Subscription {
 
   // Waits for the next message and takes it.
   Message next(rmw_message_info_t* info = nullptr) {
-    // A message of many fragments makes the reader ready before its last one is there.
+    // The reader of a message of many fragments is ready before the last fragment has arrived.
     Message message;
     bool taken = false;
     while (!taken) {

@@ -254,7 +254,7 @@ TEST_F(ServiceTest, NameAndTypeMustFit) {
 TEST_F(ServiceTest, WaitSetOutlivesAndIsOutlivedByWhatItWaitedFor) {
   rmw_wait_set_t* wait_set = rmw_create_wait_set(&serving_context_.handle, 2);
   for (int i = 0; i < 3; ++i) {
-    // A new service may be where the old one was: it must be waited for all the same.
+    // A new service may have the address of the old one: it must be waited for all the same.
     Service service(server_, "/add");
     Client client(asker_, "/add");
     client.wait_for_service();

@@ -30,7 +30,7 @@ class Topic : public testing::Test {
   Node receiver_{receiving_context_, "receiver"};
 };
 
-// Both ends know each other.
+// Returns when both ends know each other.
 template <typename Message>
 void wait_for_match(Publisher<Message>& publisher, Subscription<Message>& subscription, size_t publishers = 1) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(rmw_test::kPatience.sec);
@@ -103,7 +103,7 @@ TEST_F(Topic, DoesNotMatchABestEffortPublisherWithAReliableSubscription) {
   Subscription<String> reliable(receiver_, "/chatter");
   Subscription<String> matching(receiver_, "/chatter", best_effort);
   wait_for_match(publisher, matching);
-  // Discovery has told of both subscriptions, in this order.
+  // Discovery has found both subscriptions, in this order.
   receiver_.wait_for_graph([&] { return receiver_.count_publishers("/chatter") == 1; });
   EXPECT_EQ(publisher.matched(), 1u);
   EXPECT_EQ(reliable.matched(), 0u);
@@ -204,7 +204,8 @@ TEST_F(Topic, ReportsItsActualQos) {
   EXPECT_TRUE(rmw_time_equal(actual.liveliness_lease_duration, RMW_DURATION_INFINITE));
 }
 
-// Fast DDS lets participants of one process write into each other's memory: one must not go before the other knows.
+// Participants of one process write into each other's memory in Fast DDS: none must end before the other knows about
+// it.
 TEST(Contexts, EndOneAfterAnotherInOneProcess) {
   test_support::Sandbox sandbox;
   for (int i = 0; i < 100; ++i) {

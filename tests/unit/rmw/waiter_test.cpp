@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wait of one thread for entities, with entities of the test's own.
+// The wait of one thread for entities, with entities that the test defines.
 #include "rmw/waiter.hpp"
 
 #include <gmock/gmock.h>
@@ -105,7 +105,7 @@ TEST_F(WaiterTest, TellsPositionsInAscendingOrder) {
   entities_[5]->arrive();
   entities_[12]->arrive();
   EXPECT_THAT(wait(kForever), ElementsAre(5, 12, 30));
-  // So many are not listed one by one.
+  // This many are not listed one by one.
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < entities_.size(); ++i) {
     entities_[entities_.size() - 1 - i]->arrive();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other DDS applications see of us, and we of them: checked with a participant of plain Fast DDS.
+// Checks with a participant of plain Fast DDS how other DDS applications see us, and how we see them.
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class FoundParticipants final : public fdds::DomainParticipantListener {
     return name_;
   }
 
-  // Of an endpoint on the DDS topic, "" if none was found.
+  // The user data of an endpoint on the DDS topic, "" if none was found.
   std::string user_data_on(const std::string& topic) {
     std::lock_guard lock(mutex_);
     return endpoints_[topic];
@@ -86,7 +86,7 @@ constexpr uint32_t kDomain = 42;
 class Wire : public testing::Test {
  protected:
   Wire() {
-    // Serialized bytes must cross between the two sides as between processes.
+    // Serialized bytes must work between the two sides as between processes.
     eprosima::fastrtps::LibrarySettingsAttributes settings;
     settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
     eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);

@@ -60,7 +60,7 @@ pid_t child_called(const std::string& name) {
         return std::stoi(directory);
       }
     } catch (const std::exception&) {
-      // it has gone meanwhile
+      // the process has gone meanwhile
     }
   }
   return -1;
@@ -84,7 +84,7 @@ class RosClientTest : public testing::Test {
     rclcpp::shutdown();
   }
 
-  // Serves what has been created so far and what will be.
+  // Serves the nodes that were created so far and those that will be.
   void spin() {
     spinner_ = std::thread([this] { executor_->spin(); });
   }
@@ -97,7 +97,7 @@ class RosClientTest : public testing::Test {
     });
     EXPECT_FALSE(answer);
     while (!answer) {
-      loop_->run();  // which another answer may end
+      loop_->run();  // another answer may end the loop
     }
     return *answer;
   }
@@ -159,7 +159,7 @@ TEST_F(RosClientTest, LoadsListsAndUnloadsNodesOfAContainer) {
   EXPECT_EQ(seen.node_name, "talker");
   EXPECT_EQ(seen.node_namespace, "/left");
   EXPECT_THAT(seen.remap_rules, ElementsAre("chatter:=/out"));
-  ASSERT_EQ(seen.parameters.size(), 4U);  // the last of a name counts
+  ASSERT_EQ(seen.parameters.size(), 4U);  // the last parameter of a name wins
   EXPECT_EQ(seen.parameters[0].name, "twice");
   EXPECT_EQ(seen.parameters[0].value.type, rcl_interfaces::msg::ParameterType::PARAMETER_INTEGER);
   EXPECT_EQ(seen.parameters[0].value.integer_value, 1);
@@ -198,7 +198,7 @@ TEST_F(RosClientTest, AMissingServiceIsWaitedForAndATimeOutSaysForWhat) {
   EXPECT_EQ(ask(launch::GetState{"/n"}).state, "inactive");
 }
 
-// A container that was killed stays in the graph for a while: the request must reach its successor, too.
+// A container that was killed stays in the graph for a while. The request must also reach its successor.
 TEST_F(RosClientTest, ARequestIsSentAgainToAServiceThatAppearsLater) {
   using Service = rclcpp::Service<lifecycle::GetState>;
   std::atomic<int> asked{0};
@@ -210,7 +210,7 @@ TEST_F(RosClientTest, ARequestIsSentAgainToAServiceThatAppearsLater) {
   Service::SharedPtr service;
   std::function<void()> watch;
   launch::EventLoop::SourcePtr timer;
-  watch = [&] {  // once the first has the request
+  watch = [&] {  // when the first container has the request
     if (asked == 0) {
       timer = loop_->after(10ms, watch);
       return;
@@ -263,7 +263,7 @@ TEST_F(RosClientTest, StatesAreChangedAndWaitedFor) {
         const std::lock_guard lock(mutex);
         response->success = request->transition.label == "configure" && request->transition.id == 1;
         if (response->success) {
-          EXPECT_EQ(events->get_subscription_count(), 2U);  // who watches is known before the change
+          EXPECT_EQ(events->get_subscription_count(), 2U);  // the watch is known before the change
           lifecycle_msgs::msg::TransitionEvent event;
           event.start_state.label = state;
           event.goal_state.label = state = "inactive";

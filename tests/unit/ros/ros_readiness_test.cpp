@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conditions of the graph that a start may wait for.
+// Conditions of the graph for the start of a process.
 #include "launcher/ros/ros_readiness.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading components and changing states, as a launch does it: order, messages, respawn, shutdown. On virtual time.
+// Loads components and changes states as a launch does: order, messages, respawn, shutdown. On virtual time.
 #include "launcher/ros/ros_tasks.hpp"
 
 #include <gmock/gmock.h>
@@ -86,7 +86,7 @@ TEST_F(RosTasksTest, ActionsLoadSideBySide) {
     EXPECT_TRUE(client_.answer_pending("load /y b", FakeRosClient::loaded("/b")));
     EXPECT_TRUE(client_.answer_pending("load /x a", FakeRosClient::loaded("/a")));
   });
-  // Without any process: the launch lasts until all is loaded.
+  // There is no process: the launch lasts until everything is loaded.
   EXPECT_EQ(
       run(R"xml(<load_composable_node target="x"><composable_node pkg="p" plugin="A" name="a"/></load_composable_node>
 <load_composable_node target="/y"><composable_node pkg="p" plugin="B" name="b"/></load_composable_node>)xml"),

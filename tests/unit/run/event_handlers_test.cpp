@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Event handlers: when they are visited, in which scope, and what they may ask for.
+// Event handlers: the time and the scope of their visit, and the requests that they may make.
 #include <signal.h>
 
 #include "tests/unit/run/launch_service_fixture.hpp"

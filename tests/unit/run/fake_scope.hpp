@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A RunScope for tests, which begins and ends a while after it is asked to, and writes down when.
+// A RunScope for tests. It begins and ends a while after the request, and notes the times.
 #pragma once
 
 #include <memory>
@@ -46,7 +46,7 @@ class FakeScope : public RunScope {
   std::vector<TimedStep> timing() const override { return {}; }
   const SourceRange& origin() const override { return origin_; }
 
-  std::vector<std::string> records;  // the names in what it was told
+  std::vector<std::string> records;  // the names of the records that it got
 
  private:
   std::string name_;

@@ -53,7 +53,7 @@ TEST_F(FarewellTest, IsOverWhenTheLastProcessIsDone) {
   farewell_.say({handler("a", 5s)});
   loop_.advance(1s);
   farewell_.on_done(2);
-  farewell_.on_done(7);  // not one of them
+  farewell_.on_done(7);  // not a process of the handlers
   loop_.advance(1s);
   EXPECT_THAT(journal_, ElementsAre("a"));
   farewell_.on_done(1);

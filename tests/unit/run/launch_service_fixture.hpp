@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A launch on virtual time, with processes and scopes that follow scripts, which writes down what happens.
+// A launch on virtual time, with processes and scopes that follow scripts. It notes what happens.
 #pragma once
 
 #include <fmt/format.h>

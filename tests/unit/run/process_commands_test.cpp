@@ -29,7 +29,7 @@ TEST_F(ProcessCommandsTest, StopEndsOneProcessThatWouldRespawn) {
                    <timer period="1.0"><stop process="a"/></timer>)xml"),
             0);
   EXPECT_THAT(journal_, ElementsAre("start a-1", "start b-2", "exit a-1", "exit b-2"));
-  EXPECT_THAT(signals(), ElementsAre("SIGINT 1", "SIGKILL 1"));  // the last for descendants
+  EXPECT_THAT(signals(), ElementsAre("SIGINT 1", "SIGKILL 1"));  // the last signal is for descendants
 }
 
 TEST_F(ProcessCommandsTest, StopEscalates) {

@@ -30,7 +30,7 @@ class FakeCondition : public ReadinessCondition {
 
 class ReadyHandlersTest : public testing::Test {
  protected:
-  // The condition is owned by the handlers alone.
+  // Only the handlers own the condition.
   FakeCondition& add(const std::string& name) {
     auto condition = std::make_shared<FakeCondition>(watched_);
     FakeCondition& given = *condition;

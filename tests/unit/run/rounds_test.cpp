@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class RoundsTest : public testing::Test {
  protected:
-  // A round that is named by a message of its own; a scope whose name begins with "bad" can't begin.
+  // A round with a message as its name. A scope whose name begins with "bad" can't begin.
   void add(const std::string& name, const std::vector<std::string>& scopes = {}) {
     Round round;
     round.requests.logs = {name};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// depends_on: who waits for what, and what happens when it can't come true.
+// depends_on: the conditions of processes, and what happens when a condition can't hold any more.
 #include <signal.h>
 
 #include "tests/unit/run/launch_service_fixture.hpp"
@@ -171,7 +171,7 @@ TEST_F(StartOrderTest, ACycleIsAnErrorBeforeAnythingStarts) {
                                    "      = help: remove one of these depends_on"));
 }
 
-// What something outside the launch would be.
+// Stands for something outside the launch.
 class FakeReadiness : public ReadinessCondition {
  public:
   FakeReadiness(Duration after, std::optional<std::string> failure) : after_(after), failure_(std::move(failure)) {}

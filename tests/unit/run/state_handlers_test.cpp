@@ -17,7 +17,7 @@ class StateHandlersTest : public LaunchServiceTest {
  protected:
   StateHandlersTest() { client = &client_; }
 
-  // The client is told of the change at this time, for which it was asked so many times.
+  // The client reports the change at this time, to this number of watches.
   void change_at(Duration time, std::string from, std::string to, int watches) {
     timers_.push_back(loop_.after(time, [this, from = std::move(from), to = std::move(to), watches] {
       EXPECT_EQ(client_.change_state("/left/n", from, to), watches);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session as the session daemon lists it, read with liblttng-ctl and nothing of ours.
+// A session in the listing of the session daemon, read with liblttng-ctl and without our code.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ struct NetworkSession : testing::Test {
     return made;
   }
 
-  // Answers when the command returns. Ends with the sandbox, as all of LTTng's daemons.
+  // Returns when the daemon answers. It ends with the sandbox, like all of LTTng's daemons.
   void start_relay_daemon() {
     ASSERT_EQ(run_command({"lttng-relayd", "--daemonize", "--output=" + relayed().string()}).exit_code, 0);
   }

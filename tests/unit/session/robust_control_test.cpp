@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may go wrong around a session: each is one clear error, blocks nobody, and leaves no session.
+// Problems around a session: each gives one clear error, blocks nothing, and leaves no session.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -49,7 +49,7 @@ struct RobustControl : testing::Test {
     return made;
   }
 
-  // An application that is not kept waiting, a megabyte, a session that ends and says what it lacks.
+  // An application that does not wait, a megabyte, and a session that ends and reports its losses.
   LossAccount record_more_than_fits(const std::string& base_path) {
     TraceConfig full = config();
     full.base_path = base_path;
@@ -64,7 +64,7 @@ struct RobustControl : testing::Test {
     return losses;
   }
 
-  // It depends on which processor the application ran whether the first packet of one of them fits.
+  // Whether the first packet of one of them fits depends on the processor of the application.
   static auto lacks_events(const std::string& why) {
     return testing::MatchesRegex(why +
                                  ": (events after 0\\.[0-9]+ s of [0-9.]+ s are missing|no event could be written); "
@@ -97,7 +97,7 @@ struct RobustControl : testing::Test {
     return found;
   }
 
-  // Kills them and waits until they have gone.
+  // Kills them and waits until they have ended.
   static void kill_processes(const std::string& name) {
     for (const pid_t pid : processes(name)) {
       const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
@@ -122,7 +122,7 @@ TEST_F(RobustControl, AKilledConsumerIsAnErrorAndBlocksNoApplication) {
   const std::string error = error_of([this] { tracer->finish(config(), never); });
   EXPECT_THAT(error, HasSubstr("run"));
   EXPECT_NE(error, "no error");
-  // Now and then LTTng's daemon goes with its consumer: then there is no session, either.
+  // Sometimes LTTng's daemon ends with its consumer: then there is no session, either.
   EXPECT_THAT(listed_sessions(), testing::AnyOf("", HasSubstr("No session daemon is available")));
 }
 
@@ -151,7 +151,7 @@ TEST_F(RobustControl, AFullDiskIsSaidAndTheSessionEnds) {
   umount2(sandbox.trace_directory().c_str(), MNT_DETACH);
 }
 
-// Of the file systems of an ordinary kernel only btrfs has quotas that hold for root, too.
+// On an ordinary kernel only btrfs has quotas that also hold for root.
 TEST_F(RobustControl, ADiskQuotaThatIsUsedUpIsSaidAndTheSessionEnds) {
   const std::string image = (sandbox.directory() / "disk").string();
   const std::string disk = sandbox.trace_directory().string();
@@ -260,7 +260,7 @@ TEST_F(RobustControl, AWrongUserIsToldWhoseSessionItIs) {
   tracer->finish(config(), never);
 }
 
-// What the guardian of a killed launcher runs when the launcher's session could not be created.
+// The command that the guardian of a killed launcher runs when the launcher's session could not be created.
 TEST_F(RobustControl, AnOlderSessionOfTheSameNameIsNotStopped) {
   tracer->start(config());
   const auto stop_since = [](std::int64_t seconds) {
@@ -276,7 +276,7 @@ TEST_F(RobustControl, AnOlderSessionOfTheSameNameIsNotStopped) {
   EXPECT_EQ(listed_sessions(), "");
 }
 
-// As in a container: a program that runs before the session daemon waits to be woken through /dev/shm.
+// As in a container: a program that runs before the session daemon waits for a wake-up through /dev/shm.
 TEST_F(RobustControl, ProcessesWithSharedMemoryOfTheirOwnAreRecordedOrToldOf) {
   if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root there is no second /dev/shm";
   const std::string apart = std::string("mount -t tmpfs none /dev/shm && exec ") + TRACED_APP + " 5 10";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each attribute of a trace, read back from the session daemon; and that it does what it says.
+// Reads each attribute of a trace back from the session daemon, and checks its effect.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ struct SessionAttributes : testing::Test {
     return made;
   }
 
-  // What the daemon says of the session that `config` makes.
+  // The daemon's description of the session for `config`.
   ListedSession session_of(const TraceConfig& config) {
     tracer->start(config);
     ListedSession session = list_session(config.lttng_session_name());
@@ -194,7 +194,7 @@ TEST_F(SessionAttributes, BlockingChannelsLoseNothing) {
   asked.blocking_timeout_ust = -1;
   setenv("LTTNG_UST_ALLOW_BLOCKING", "1", 1);
   tracer->start(asked);
-  constexpr int kEvents = 400;  // ten times what the buffers hold; a thread that waits looks again after 100 ms
+  constexpr int kEvents = 400;  // ten times what the buffers hold; a waiting thread looks again after 100 ms
   TracedApp(kEvents, 200).end();
   const LossAccount losses = tracer->finish(asked, [] { return false; });
   unsetenv("LTTNG_UST_ALLOW_BLOCKING");

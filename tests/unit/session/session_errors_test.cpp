@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions that can't be set up or ended: each is an error that says what to do, and leaves nothing behind.
+// Sessions that can't be set up or ended: each gives an error that says what to do, and leaves nothing behind.
 #include <gmock/gmock.h>
 #include <poll.h>
 #include <signal.h>
@@ -104,7 +104,7 @@ TEST_F(LttngTracer, StoppedDaemonIsAnErrorAndDoesNotBlock) {
   ASSERT_TRUE(tracing::ensure_session_daemon());
   const pid_t pid = std::stoi(read_file(daemon_pid_file()));
   kill(pid, SIGSTOP);
-  ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);  // an orphan by now, so it is the sandbox's child
+  ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);  // it is an orphan now, so it is a child of the sandbox
   EXPECT_EQ(start_error(config_named("run")), "the LTTng session daemon (process " + std::to_string(pid) +
                                                   ") is stopped and answers nobody\ncontinue it with `kill -CONT " +
                                                   std::to_string(pid) + "`");

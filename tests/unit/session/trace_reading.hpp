@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of this folder ask babeltrace2 and lttng, which know nothing of our code.
+// Questions of the tests in this folder to babeltrace2 and lttng, which know nothing about our code.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct ReadTrace {
   std::map<std::string, int> events;  // count by name
   std::uint64_t discarded = 0;        // events, as the reader's warnings say
   std::vector<std::string> lines;
-  std::string complaints;  // the reader's stderr but for those warnings; must be empty
+  std::string complaints;  // the reader's stderr except those warnings; must be empty
 };
 
 // Reads a trace directory with babeltrace2. A failure is in `complaints`.
@@ -28,7 +28,7 @@ std::string listed_sessions();
 class TracedApp {
  public:
   TracedApp(int count, int bytes);
-  void fire_again();  // as many as at first
+  void fire_again();  // the same number of events as at first
   void end();
 
  private:

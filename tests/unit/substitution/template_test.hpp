@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of substitutions share: a scope with known content, and templates parsed from a string.
+// The common part of the tests of substitutions: a scope with known content, and templates parsed from a string.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace launch {
 
-// Text that stands alone in a file "t", so that errors can show their place.
+// Text that is alone in a file "t", so that errors can show their place.
 inline LocatedText located(const std::string& text) {
   const auto file = std::make_shared<const SourceFile>("t", text);
   return LocatedText(text, {file, 0, static_cast<std::uint32_t>(text.size())});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Libraries that take the place of one another: nothing is built again but the library itself.
+// Libraries that replace one another: only the library itself is built again.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ const Names kEvents = {TRACETOOLS_EVENTS(EVENT_NAME)};
 const Names kExtEvents = {TRACETOOLS_EXT_EVENTS(EVENT_NAME)};
 #undef EVENT_NAME
 
-// Of an event: to record if wanted, to ask, to record.
+// The functions of an event: to record if wanted, to ask, to record.
 Names functions() {
   Names names = {"ros_trace_compile_status", "ros_trace_runtime_status"};
   for (const char* infix : {"", "do_", "enabled_"}) {
@@ -49,7 +49,7 @@ Names symbols(const std::string& file, const std::string& kind, const std::vecto
   return names;
 }
 
-// A program that was built with the library of LTTng, run with another one in its place.
+// A program that was built with the library of LTTng runs with another library in its place.
 CommandResult run_with(const std::string& library, const std::string& program) {
   return run_command(Command{{program}, {{"LD_LIBRARY_PATH", std::filesystem::path(library).parent_path().string()}}});
 }
@@ -112,7 +112,7 @@ TEST(Backends, UsdtHasAProbeForEachEvent) {
 
 #endif
 
-// rcl's publisher, compiled for this.
+// rcl's publisher, compiled for this test.
 TEST(DisabledTracepoints, LeaveNoCallInTheObjectCode) {
   EXPECT_EQ(symbols(INSTRUMENTED_OBJECT, "U"),
             (Names{"ros_trace_ext_rcl_publisher_fini", "ros_trace_rcl_publish", "ros_trace_rcl_publisher_init"}));

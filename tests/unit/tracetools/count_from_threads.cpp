@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fires one ros2:rcl_init; 1000 ros2:rcl_take from each of 100 threads at once, and again one thread after the other;
-// then seven ros2:rclcpp_take from the child of a fork.
+// Fires one ros2:rcl_init. Then each of 100 threads fires 1000 ros2:rcl_take, first all threads at once, and again one
+// thread after the other. Then the child of a fork fires seven ros2:rclcpp_take.
 #include <sys/wait.h>
 #include <unistd.h>
 

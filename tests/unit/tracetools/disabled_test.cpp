@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// With TRACETOOLS_DISABLED nothing is left of the macros, and no library is linked.
+// With TRACETOOLS_DISABLED the macros produce nothing, and no library is linked.
 #include <gtest/gtest.h>
 
 #include "tracetools/tracetools.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What processes say about the events that they fire, as the launcher reads it.
+// The counts of fired events that processes publish, as the launcher reads them.
 #include "tracing/account/event_counters.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST_F(EventCountersOfProcesses, AreRightForMoreThreadsThanBlocksAndForTheChildO
   record("ros2:*");
   const std::vector<EventCounts> processes = run(COUNT_FROM_THREADS);
   ASSERT_EQ(processes.size(), 2u);
-  // By the time of their beginning: the parent first. 100 threads at once, then 100 one after the other.
+  // In the order of their beginning: the parent comes first. 100 threads at once, then 100 one after the other.
   EXPECT_EQ(processes[0].events.at("ros2:rcl_take"), 200u * 1000u);
   EXPECT_EQ(processes[0].events.at("ros2:rcl_init"), 1u);
   EXPECT_EQ(processes[1].events, (std::map<std::string, std::uint64_t>{{"ros2:rclcpp_take", 7}}));

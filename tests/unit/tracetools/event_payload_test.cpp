@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The events of ROS 2, compared with what LTTng wrote and babeltrace2 reads: neither is ours.
+// Compares the events of ROS 2 with the trace that LTTng wrote and babeltrace2 reads: neither program is ours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using test_support::run_command;
 
-// Event: its fields, each with type and the value that fire_all_events.cpp gives.
+// For each event its fields, each with type and the value that fire_all_events.cpp gives.
 constexpr const char* kEventRows = R"rows(
 rcl_init: context_handle ptr 0x1, version str "8.10.1"
 rcl_node_init: node_handle ptr 0x1, rmw_handle ptr 0x2, node_name str "ping", namespace str "/robot"
@@ -63,7 +63,7 @@ message_link_periodic_async: _subs_length u64 2, subs ptr[_subs_length] [ 0x51 0
 message_link_partial_sync: _subs_length u64 1, subs ptr[_subs_length] [ 0x51 ], _pubs_length u64 0, pubs ptr[_pubs_length] [ ]
 )rows";
 
-// The same of provider ros2_ext.
+// The same for provider ros2_ext.
 constexpr const char* kExtEventRows = R"rows(
 rcl_context_fini: context_handle ptr 0x1
 rcl_node_fini: node_handle ptr 0x1
@@ -106,7 +106,7 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
   return parts;
 }
 
-// From `rows`, made by `field` from the name, type and value of each field.
+// The expected fields from `rows`; `field` makes each of them from name, type and value.
 template <typename MakeField>
 EventTable expected(const char* rows, MakeField field) {
   EventTable table;
@@ -137,7 +137,7 @@ std::string type_of(const std::string& declaration) {
   return found == types.end() ? declaration : found->second;
 }
 
-// What stands between two texts, "" if they don't.
+// The text between two texts, "" if they don't occur.
 std::string between(const std::string& text, const std::string& before, const std::string& after) {
   const std::size_t begin = text.find(before);
   if (begin == std::string::npos) return "";
@@ -150,7 +150,7 @@ std::string without_underscore(const std::string& name) {
   return name.starts_with('_') ? name.substr(1) : name;
 }
 
-// From the trace's metadata in CTF's language: what every reader knows of the events. A field is a line such as
+// Reads the trace's metadata in CTF's language, which tell every reader about the events. A field is a line such as
 //   integer { size = 8; … base = 10; } _gid[16];
 EventTable declared_events(const std::string& provider, const std::string& metadata) {
   EventTable table;
@@ -177,7 +177,7 @@ EventTable declared_events(const std::string& provider, const std::string& metad
   return table;
 }
 
-// What babeltrace2 prints for each event, as "name = value". A line is such as
+// The output of babeltrace2 for each event, as "name = value". A line is such as
 //   [1795257084.1] (+0.1) host ros2:rmw_client_init: { cpu_id = 1 }, { rmw_client_handle = 0x1, gid = [ [0] = 1, … ] }
 EventTable printed_events(const std::string& provider, const std::string& text) {
   EventTable table;
@@ -190,7 +190,7 @@ EventTable printed_events(const std::string& provider, const std::string& text) 
       if (begin == std::string::npos) continue;
       std::string field = part.substr(begin, part.find_last_not_of(' ') + 1 - begin);
       if (field.starts_with('[')) {
-        fields.back() += " " + field.substr(field.find("= ") + 2);  // a further element of an array
+        fields.back() += " " + field.substr(field.find("= ") + 2);  // one more element of an array
       } else {
         const std::size_t first = field.find("[ [0] = ");
         fields.push_back(first == std::string::npos ? field : field.substr(0, first + 2) + field.substr(first + 8));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fires every event once, with arguments that event_payload_test.cpp expects in the trace, and prints how many threads
-// the process has. With --stay nothing ends the objects, and the process waits for the end of its input, so that a
-// session can start late; with --stay-empty all objects end first.
+// Fires every event once, with the arguments that event_payload_test.cpp expects in the trace, and prints how many
+// threads the process has. With --stay no object ends, and the process waits for the end of its input, so that a
+// session can start late. With --stay-empty all objects end first.
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -35,7 +35,7 @@ void end_objects() {
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_ring_buffer_fini, at(0x1));
 }
 
-// The objects to which end_objects() does not come, because another argument of their events has the address 0x1.
+// The objects that end_objects() does not end, because another argument of their events has the address 0x1.
 void end_remaining_objects() {
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_subscription_fini, at(0x2));
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_callback_fini, at(0x2));
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   TRACETOOLS_TRACEPOINT(rcl_lifecycle_transition, at(0x1), "unconfigured", "configuring");
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, -1);
-  // The other way to fire: ask, then record.
+  // The other way to fire: first ask, then record.
   if (TRACETOOLS_TRACEPOINT_ENABLED(rclcpp_executor_execute)) {
     TRACETOOLS_DO_TRACEPOINT(rclcpp_executor_execute, at(0x1));
   }
@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
   TRACETOOLS_EXT_TRACEPOINT(state_dump_end, 2);
   TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state, at(0x1), "active");
 
-  std::thread([] {}).join();  // with it a sanitizer starts its own, if lttng-ust has not caused that already
+  std::thread([] {}).join();  // so that a sanitizer starts its own thread, if lttng-ust has not caused that already
   const auto threads = std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   std::printf("%d\n", static_cast<int>(threads));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four threads make and end objects until the end of input; then the objects 0x1 and 0x2 live, and nothing happens
-// until the process is ended by a signal. No handle is used twice.
+// Four threads make and end objects until the end of input. Then the objects 0x1 and 0x2 live, and nothing happens
+// until a signal ends the process. No handle is used twice.
 #include <unistd.h>
 
 #include <atomic>
@@ -28,7 +28,7 @@ int main() {
       for (uintptr_t address = thread << 32; !stop; ++address) {
         TRACETOOLS_TRACEPOINT(rcl_timer_init, at(address), 3);
         TRACETOOLS_EXT_TRACEPOINT(rcl_timer_fini, at(address));
-        // Slow enough for the sub-buffers of a default session.
+        // This is slow enough for the sub-buffers of a default session.
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading libtracetools_provider.so, seen from outside: each case is a process of its own.
+// Loading of libtracetools_provider.so, seen from outside: each case is a process of its own.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,7 +29,7 @@ TEST(Provider, IsNotLoadedWhenTracingIsDisabled) {
   expect_result(run_command(Command{{STATUS}, {{"TRACETOOLS_RUNTIME_DISABLE", "1"}}}), 1, "Tracing disabled\n", "");
 }
 
-// The program prints how many threads it has: one, and those of sanitizers and of lttng-ust.
+// The program prints how many threads it has: one, and the threads of sanitizers and of lttng-ust.
 TEST(Provider, BringsTwoThreadsUnlessTracingIsDisabled) {
   const CommandResult traced = run_command({FIRE_ALL_EVENTS});
   const CommandResult untraced = run_command(Command{{FIRE_ALL_EVENTS}, {{"TRACETOOLS_RUNTIME_DISABLE", "1"}}});

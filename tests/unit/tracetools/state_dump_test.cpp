@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session that starts while a process runs already gets the objects that live then.
+// A session that starts while a process runs already gets the objects that live at that time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -22,7 +22,7 @@ using testing::IsEmpty;
 
 using Lines = std::vector<std::string>;
 
-// What fire_all_events.cpp told about objects, in its order.
+// The events of fire_all_events.cpp about objects, in its order.
 const Lines kInitEvents = {
     R"(ros2:rcl_init: { context_handle = 0x1, version = "8.10.1" })",
     R"(ros2:rcl_node_init: { node_handle = 0x1, rmw_handle = 0x2, node_name = "ping", namespace = "/robot" })",
@@ -80,7 +80,7 @@ struct StateDump : testing::Test {
   }
 
   // The application takes the commands of the session daemon one after the other, and dumps its state before it takes
-  // the next: what `lttng start` asked for is recorded when `lttng stop` returns.
+  // the next one. So the dump for `lttng start` is recorded when `lttng stop` returns.
   void finish_session(const std::string& name) {
     run({"lttng", "stop", name});
     run({"lttng", "destroy", name});
@@ -156,8 +156,8 @@ TEST_F(StateDump, LeavesOutObjectsThatAreGone) {
   EXPECT_THAT(recorded("late"), IsEmpty());
 }
 
-// Threads make and end objects while sessions start and ask again. Every object whose end is recorded must not be
-// dumped afterwards, and what lives at the end is in the last dump.
+// Threads make and end objects while sessions start and ask again. An object whose end is recorded must not be dumped
+// afterwards. An object that lives at the end is in the last dump.
 TEST_F(StateDump, AgreesWithObjectsThatComeAndGo) {
   run({"lttng-sessiond", "--daemonize"});
   create_session("busy");
@@ -179,7 +179,7 @@ TEST_F(StateDump, AgreesWithObjectsThatComeAndGo) {
   EXPECT_THAT(Lines(events.end() - 4, events.end()),
               ElementsAreArray(state_dump({"ros2:rcl_timer_init: { timer_handle = 0x1, period = 1 }",
                                            "ros2:rcl_timer_init: { timer_handle = 0x2, period = 2 }"})));
-  // Handles are used once each: an init event after the end of its object is a dead object in a dump.
+  // Each handle is used once, so an init event after the end of its object is a dead object in a dump.
   std::set<std::string> ended;
   for (const std::string& event : events) {
     const std::size_t begin = event.find("timer_handle = ");

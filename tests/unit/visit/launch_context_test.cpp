@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visiting alone, with actions that write down that they were executed: conditions, scopes, what is explored on the
-// side.
+// The visit alone, with actions that note their execution: conditions, scopes, and what is explored on the side.
 #include "launcher/visit/launch_context.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +19,7 @@ Condition condition(const std::string& text) {
   return {Template({std::make_shared<Text>(text, SourceRange())}, SourceRange()), false};
 }
 
-// Writes down its name and sets a launch configuration to it.
+// Notes its name and sets a launch configuration to it.
 class Note : public Action {
  public:
   Note(std::string name, Condition when, Journal& journal)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What applications written for ROS 2 use beside the nodes themselves.
+// The parts of rclcpp besides nodes that applications written for ROS 2 use.
 #include <rclcpp/version.h>
 
 #include <rcl_interfaces/srv/get_logger_levels.hpp>
@@ -41,7 +41,7 @@ TEST_F(Application, FunctionsTakeThePartOfANodeThatTheyNeed) {
   EXPECT_EQ(node_->get_node_services_interface()->resolve_service_name("reset"), "/ns/reset");
 }
 
-// Names of an application must not meet names that rclcpp's classes have for themselves.
+// Names of an application must not collide with names that rclcpp's classes use for themselves.
 using SetParametersResult = std::shared_future<std::vector<rcl_interfaces::msg::SetParametersResult>>;
 using ParameterDescriptor = int;
 class NodeWithNames : public rclcpp::Node {
@@ -70,7 +70,7 @@ TEST_F(Application, MayGiveServicesAProfileOfTheMiddleware) {
   EXPECT_TRUE(future.get()->success);
 }
 
-// As in the constructor of a node, where there is no shared pointer to it yet.
+// As in the constructor of a node, where no shared pointer to the node exists yet.
 TEST_F(Application, ReadsParametersOfItsOwnThroughAPlainPointer) {
   node_->declare_parameter("speed", 1.5);
   rclcpp::SyncParametersClient client(node_.get());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How libraries made on rclcpp use it: they take the interfaces of a node one by one, whatever class the node is of.
+// The use of rclcpp by libraries: they take the interfaces of a node one by one, whatever class the node has.
 #include <rosidl_runtime_c/type_hash.h>
 
 #include <rclcpp/create_publisher.hpp>
@@ -33,7 +33,7 @@ std::string error_of(ActionT action) {
   return "no error";
 }
 
-// In the manner of message filters: subscribes with what it keeps of a node, and may do so again.
+// Like message filters: it subscribes with the interfaces that it keeps of a node, and may subscribe again.
 class Filter {
  public:
   using Interfaces = NodeInterfaces<NodeParametersInterface, NodeTopicsInterface>;
@@ -59,7 +59,7 @@ class Filter {
   Interfaces interfaces_;
 };
 
-// In the manner of a diagnostic updater.
+// Like a diagnostic updater.
 class Updater {
  public:
   template <typename NodeT>
@@ -149,7 +149,7 @@ TEST_F(Library, OptionsOfANodeBecomeThoseOfRcl) {
 
 TEST_F(Library, EndpointsTellTheHashOfTheirType) {
   const auto publisher = node_->create_publisher<String>("topic", 1);
-  // That of std_msgs/msg/String in every ROS 2 since Iron.
+  // The hash of std_msgs/msg/String in every ROS 2 since Iron.
   const std::string expected = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
   const auto other_context = std::make_shared<rclcpp::Context>();
   other_context->init(0, nullptr);
@@ -208,8 +208,8 @@ TEST_F(Library, MayHaveARateOnAClockOfCpp) {
     return rate.sleep();
   };
   EXPECT_TRUE(sleeps_at(0));
-  EXPECT_FALSE(sleeps_at(2000));  // just over
-  EXPECT_FALSE(sleeps_at(5000));  // more than an interval too late: the next one starts now
+  EXPECT_FALSE(sleeps_at(2000));  // slightly too late
+  EXPECT_FALSE(sleeps_at(5000));  // more than an interval too late, so the next interval starts now
   EXPECT_TRUE(sleeps_at(5500));
   EXPECT_TRUE(sleeps_at(100));  // time has jumped back
   rate.reset();

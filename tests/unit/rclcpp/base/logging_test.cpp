@@ -73,7 +73,7 @@ TEST_F(LoggingTest, OnceSkipfirstAndExpressionRememberTheirPlace) {
                                    "INFO logger: if 1", "INFO logger: skip 2", "INFO logger: function 2"));
 }
 
-// A clock set by hand.
+// A clock that the test sets.
 struct FakeClock {
   int64_t value = 0;
   rclcpp::Time now() const { return rclcpp::Time(value, RCL_ROS_TIME); }

@@ -89,7 +89,7 @@ TEST_F(InitTest, ANodeNeedsInit) {
 }
 
 TEST_F(InitTest, ShutdownRunsCallbacksInOrder) {
-  // The context keeps its callbacks for the next shutdown: they must not refer to this function.
+  // The context keeps its callbacks for the next shutdown, so they must not refer to this function.
   const auto calls = std::make_shared<std::vector<std::string>>();
   auto context = rclcpp::contexts::get_global_default_context();
   const auto pre =

@@ -88,14 +88,14 @@ TEST_F(EventsExecutorTest, NeitherTimersNorMessagesStarveTheOther) {
   int ticks = 0;
   auto subscription = node_->create_subscription<UInt64>("topic", 10, [&](const UInt64& message) {
     ++messages;
-    publisher->publish(message);  // there is always another one
+    publisher->publish(message);  // there is always another message
   });
   auto timer = node_->create_wall_timer(milliseconds(0), [&ticks] { ++ticks; });  // always due
   publisher->publish(UInt64());
   EXPECT_TRUE(spin_until(executor, [&] { return messages > 20 && ticks > 20; }));
 }
 
-// Hands out the newest event first.
+// Returns the newest event first.
 class Stack : public rclcpp::experimental::executors::EventsQueue {
  public:
   void enqueue(const ExecutorEvent& event) override {
@@ -144,7 +144,7 @@ TEST_F(EventsExecutorTest, TakesItsEventsFromTheQueueItIsGiven) {
   EXPECT_THROW(EventsExecutor(nullptr), std::invalid_argument);
 }
 
-// Ready when its guard condition is triggered, of which it tells an executor that does not wait.
+// Ready when its guard condition is triggered. It reports the trigger to an executor that does not wait.
 class Bell : public rclcpp::Waitable {
  public:
   size_t get_number_of_ready_guard_conditions() override { return 1; }
@@ -166,7 +166,7 @@ TEST_F(EventsExecutorTest, HearsOfEveryTriggerOfAGuardCondition) {
   EventsExecutor executor;
   executor.add_node(node_);
   const auto bell = std::make_shared<Bell>();
-  bell->condition.trigger();  // told when somebody listens
+  bell->condition.trigger();  // reported when a listener is set
   bell->condition.trigger();
   node_->get_node_waitables_interface()->add_waitable(bell, nullptr);
   ASSERT_TRUE(spin_until(executor, [&] { return bell->rings == 2; }));
@@ -204,7 +204,7 @@ TEST_F(EventsExecutorTest, SubscriptionsTellOfMessagesUntilTheirCallbackIsCleare
   ASSERT_TRUE(publisher->wait_for_all_acked(kPatience));
   std::atomic<size_t> told{0};
   subscription->set_on_new_message_callback([&told](size_t count) { told += count; });
-  EXPECT_EQ(told, 1u);  // of the one from before
+  EXPECT_EQ(told, 1u);  // the message from before
   publisher->publish(UInt64());
   ASSERT_TRUE(publisher->wait_for_all_acked(kPatience));
   EXPECT_EQ(told, 2u);

@@ -55,7 +55,7 @@ TEST_F(ExecutorTest, SpinAllStopsAfterItsTime) {
   auto timer = eager_timer([&calls] { ++calls; });
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
   while (calls < 10 && std::chrono::steady_clock::now() < give_up) {
-    executor_.spin_all(milliseconds(5));  // returns, though there is always more
+    executor_.spin_all(milliseconds(5));  // returns, although there is always more
   }
   EXPECT_GE(calls, 10);
   EXPECT_THROW(executor_.spin_all(nanoseconds(-1)), std::invalid_argument);
@@ -70,7 +70,7 @@ TEST_F(ExecutorTest, CancelFromACallbackEndsSpin) {
   });
   executor_.spin();
   EXPECT_EQ(calls, 1);
-  executor_.spin();  // may be spun again
+  executor_.spin();  // spin() may be called again
   EXPECT_EQ(calls, 2);
 }
 
@@ -174,7 +174,7 @@ TEST_F(ExecutorTest, NothingOfARemovedNodeRuns) {
   int calls = 0;
   auto timer_a = eager_timer([&calls] { ++calls; });
   auto timer_b = eager_timer([&calls] { ++calls; });
-  executor_.spin_once();  // both were found ready
+  executor_.spin_once();  // both were ready in one wait
   executor_.remove_node(node_);
   executor_.spin_once(milliseconds(0));
   EXPECT_EQ(calls, 1);
@@ -253,7 +253,7 @@ TEST_F(ExecutorTest, SurvivesTheDestructionOfItsNodesInAnyOrder) {
   auto subscription = node_->create_subscription<String>("topic", 10, [](const String&) {});
   executor_.spin_some();
   node_.reset();
-  executor_.spin_some();  // what is left of the node waits for its pointers to go
+  executor_.spin_some();  // the rest of the node waits until its pointers are gone
   timer.reset();
   executor_.spin_some();
   subscription.reset();

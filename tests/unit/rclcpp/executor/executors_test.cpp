@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every executor does alike.
+// The common behaviour of all executors.
 #include <example_interfaces/srv/add_two_ints.hpp>
 #include <future>
 #include <memory>
@@ -28,7 +28,7 @@ class ExecutorsTest : public RosTest {
     return node_->create_wall_timer(milliseconds(0), callback);
   }
 
-  // Spins in a thread until the callback, which gets the executor, has returned.
+  // Spins in a thread until the callback has returned. The callback gets the executor.
   template <typename FunctionT>
   void beside_spin(FunctionT function) {
     std::promise<void> spinning;
@@ -94,7 +94,7 @@ TYPED_TEST(ExecutorsTest, SpinAllStopsAfterItsTime) {
   auto timer = this->eager_timer([&calls] { ++calls; });
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
   while (calls < 10 && std::chrono::steady_clock::now() < give_up) {
-    this->executor_.spin_all(milliseconds(5));  // returns, though there is always more
+    this->executor_.spin_all(milliseconds(5));  // returns, although there is always more
   }
   EXPECT_GE(calls, 10);
   EXPECT_THROW(this->executor_.spin_all(nanoseconds(-1)), std::invalid_argument);
@@ -126,7 +126,7 @@ TYPED_TEST(ExecutorsTest, CancelFromACallbackEndsSpin) {
   });
   this->executor_.spin();
   EXPECT_EQ(calls, 1);
-  this->executor_.spin();  // may be spun again
+  this->executor_.spin();  // spin() may be called again
   EXPECT_EQ(calls, 2);
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr size_t kNodes = 200;
 constexpr size_t kTopicsPerNode = 5;
 
-// Counts the waits that it is part of.
+// Counts the waits in which it takes part.
 class WaitCounter : public rclcpp::Waitable {
  public:
   void add_to_wait_set(rcl_wait_set_t&) override { ++waits; }
@@ -108,7 +108,7 @@ TEST_F(ManyEntitiesTest, TheIdleOnesDoNotWakeTheExecutor) {
   }
   const auto took = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - start);
   RecordProperty("us_per_message", static_cast<int>(took.count() / kMessages));
-  // One wait for each message, and one that finds that there is nothing more, now and then.
+  // One wait for each message, and from time to time one that finds nothing more.
   EXPECT_LE(counter->waits - before, static_cast<int>(3 * kMessages));
 }
 

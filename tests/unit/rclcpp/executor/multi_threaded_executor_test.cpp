@@ -19,10 +19,10 @@ using std_msgs::msg::UInt64;
 
 namespace {
 
-// Where callbacks wait for one another.
+// A point where callbacks wait for one another.
 class Meeting {
  public:
-  // True if `participants` have arrived before patience ends.
+  // True if `participants` callbacks have arrived in time.
   bool arrive(int participants) {
     std::unique_lock lock(mutex_);
     ++arrived_;
@@ -54,7 +54,7 @@ class MultiThreadedExecutorTest : public RosTest {
         group);
   }
 
-  // Two callbacks in the groups that wait for each other; spins until both have returned.
+  // Adds two callbacks in these groups that wait for each other, and spins until both have returned.
   void expect_beside_one_another(const rclcpp::CallbackGroup::SharedPtr& group_a,
                                  const rclcpp::CallbackGroup::SharedPtr& group_b) {
     Meeting meeting;
@@ -138,7 +138,7 @@ TEST_F(MultiThreadedExecutorTest, OneReentrantSubscriptionTakesSeveralMessagesAt
 }
 
 TEST_F(MultiThreadedExecutorTest, ACallbackMayWaitForTheResponseOfAClientInAnotherGroup) {
-  // Kept here: the node refers to groups weakly.
+  // Kept here, because the node has only weak references to groups.
   const auto service_group = node_->create_callback_group(CallbackGroupType::MutuallyExclusive);
   const auto client_group = node_->create_callback_group(CallbackGroupType::MutuallyExclusive);
   auto service = node_->create_service<AddTwoInts>(
@@ -169,7 +169,7 @@ TEST_F(MultiThreadedExecutorTest, AnExceptionEndsEveryThread) {
   EXPECT_THROW(executor_.spin(), std::logic_error);
   EXPECT_FALSE(executor_.is_spinning());
   auto next = once([this] { executor_.cancel(); });
-  executor_.spin();  // and may be spun again
+  executor_.spin();  // spin() may be called again
 }
 
 TEST_F(MultiThreadedExecutorTest, OptionsYieldAndTimeoutChangeNothingThatCanBeSeen) {
@@ -183,10 +183,10 @@ TEST_F(MultiThreadedExecutorTest, OptionsYieldAndTimeoutChangeNothingThatCanBeSe
     }
   });
   executor.spin();
-  EXPECT_GE(calls, 3);  // the other thread may be at the next
+  EXPECT_GE(calls, 3);  // the other thread may be in the next call
 }
 
-// Ready after trigger(); counts the waits that it is part of.
+// Ready after trigger(). Counts the waits in which it takes part.
 class CountingBell : public rclcpp::Waitable {
  public:
   size_t get_number_of_ready_guard_conditions() override { return 1; }

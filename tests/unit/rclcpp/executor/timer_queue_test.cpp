@@ -56,7 +56,7 @@ class TimerQueueTest : public testing::Test {
   }
   rcl_timer_t* timer(std::size_t index) { return handles_[index].get(); }
   void set_time(std::int64_t time) { EXPECT_EQ(rcl_set_ros_time_override(&simulated_, time), RCL_RET_OK); }
-  // The indices of timers that are due; they are called.
+  // The indices of the timers that are due; these timers are called.
   std::vector<std::size_t> call_due() {
     std::vector<std::size_t> due;
     const bool is_due = queue_.time_until_first() <= 0;

@@ -28,7 +28,7 @@ std::unique_ptr<String> owned(const std::string& text) {
   return std::make_unique<String>(message_with(text));
 }
 
-// Subscriptions note the addresses of what they get.
+// Subscriptions note the addresses of the messages that they get.
 class IntraProcessTest : public RosTest {
  protected:
   using Addresses = std::vector<const void*>;
@@ -53,7 +53,7 @@ class IntraProcessTest : public RosTest {
   rclcpp::Node::SharedPtr node_ =
       std::make_shared<rclcpp::Node>("node", rclcpp::NodeOptions().use_intra_process_comms(true));
   rclcpp::executors::SingleThreadedExecutor executor_;
-  // Subscriptions may keep messages: no address occurs twice then.
+  // Subscriptions may keep messages, so that no address occurs twice.
   std::vector<String::ConstSharedPtr> kept_;
 };
 
@@ -142,7 +142,7 @@ TEST_F(IntraProcessTest, MessagesSayWhereTheyCameFrom) {
   EXPECT_THAT(from_intra_process, ElementsAre(true));
 }
 
-// The other node has not joined, so the middleware must write, and delivers to everybody.
+// The other node does not take part, so the middleware must write, and it delivers to all subscriptions.
 TEST_F(IntraProcessTest, OthersAreReachedThroughTheMiddlewareAndNobodyTwice) {
   const auto other = std::make_shared<rclcpp::Node>("other");
   executor_.add_node(other);

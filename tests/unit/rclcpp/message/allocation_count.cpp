@@ -115,7 +115,7 @@ bool AllocationCount::is_possible() {
 }  // namespace test_support
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// glibc's own names for what is replaced (malloc(3) allows replacing).
+// glibc's own names for the replaced functions (malloc(3) allows replacing).
 extern "C" {
 void* __libc_malloc(std::size_t size);                           // NOLINT
 void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what a thread allocates, and tells on whose behalf. Linking it replaces malloc() in the whole program.
+// Counts the allocations of a thread, and tells for which library they were made. Linking it replaces malloc() in the
+// whole program.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +12,10 @@ namespace test_support {
 struct Allocations {
   std::size_t in_stack = 0;                // by rclcpp, rcl, rmw, tracetools, messages and the program itself
   std::size_t in_fast_dds = 0;             // by Fast DDS and Fast CDR
-  std::vector<std::string> stack_callers;  // functions, or libraries with addresses, of the first ones in_stack
+  std::vector<std::string> stack_callers;  // functions, or libraries with addresses, of the first allocations in_stack
 };
 
-// Of this thread, from construction to finish().
+// Counts for this thread, from construction to finish().
 class AllocationCount {
  public:
   AllocationCount();
@@ -24,7 +25,7 @@ class AllocationCount {
 
   Allocations finish();
 
-  // Sanitizers bring an allocator of their own.
+  // Sanitizers have an allocator of their own.
   static bool is_possible();
 };
 

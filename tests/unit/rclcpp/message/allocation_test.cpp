@@ -15,14 +15,15 @@ using test_support::Allocations;
 
 constexpr int kWarmUp = 60;
 constexpr int kMessages = 100;
-// What Fast DDS 2.9 allocates for a message from writer to reader in one process; more would come from how we use it.
+// The allocations of Fast DDS 2.9 for a message from writer to reader in one process. More would come from our use of
+// it.
 constexpr std::size_t kFastDdsPerMessage = 12;
 
 class AllocationTest : public RosTest {
  protected:
   AllocationTest() { executor_.add_node(node_); }
 
-  // Publishes and receives on this thread: within a process Fast DDS calls the reader from the writer.
+  // Publishes and receives on this thread, because within a process the writer of Fast DDS calls the reader.
   template <typename MessageT>
   Allocations exchange(const MessageT& message) {
     std::size_t received = 0;

@@ -102,7 +102,7 @@ TEST_F(LoanedMessageTest, ALoanTakenForAReferenceIsReturnedAfterTheCallback) {
   std::vector<std::shared_ptr<const Float64>> kept;
   const auto referring = node_->create_subscription<Float64>(
       "topic", 1, [&by_reference](const Float64& message) { by_reference.push_back(message.data); });
-  // What a callback can keep is a copy.
+  // A callback can only keep a copy.
   const auto keeping = node_->create_subscription<Float64>(
       "topic", 1, [&kept](std::shared_ptr<const Float64> message) { kept.push_back(std::move(message)); });
   unsetenv("ROS_DISABLE_LOANED_MESSAGES");

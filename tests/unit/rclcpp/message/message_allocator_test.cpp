@@ -88,7 +88,7 @@ TEST_F(MessageAllocator, GivesTheMessagesThatAPublisherMakes) {
       subscription_options);
   UInt64 message;
   message.data = 5;
-  publisher->publish(message);  // within the process: a copy must be made
+  publisher->publish(message);  // within the process a copy must be made
   EXPECT_GE(sent_.allocations, 1);
   ASSERT_TRUE(spin_until(executor_, [&] { return !received.empty(); }));
   EXPECT_EQ(received, std::vector<uint64_t>{5});

@@ -63,7 +63,7 @@ class TypeAdapterTest : public RosTest, public testing::WithParamInterface<bool>
     conversions = 0;
   }
 
-  // What `callback`, which calls got(), makes of a message of the custom type and one of the message type.
+  // The result of `callback`, which calls got(), for a message of the custom type and for one of the message type.
   template <typename CallbackT>
   void expect_both(CallbackT callback) {
     got_.clear();

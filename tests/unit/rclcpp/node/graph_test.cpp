@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node knows of the system, and waiting for it to change.
+// The graph as a node sees it, and waiting for a change of it.
 #include <gmock/gmock.h>
 
 #include <example_interfaces/srv/add_two_ints.hpp>
@@ -20,7 +20,7 @@ using testing::Pair;
 
 class GraphTest : public RosTest {
  protected:
-  // A node of another context: its endpoints are discovered, as those of another process.
+  // A node of another context: its endpoints are discovered like those of another process.
   class Elsewhere {
    public:
     explicit Elsewhere(const std::string& name) : context_(std::make_shared<rclcpp::Context>()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node tells of the types that it uses.
+// The descriptions that a node gives of the types that it uses.
 #include <rmw/type_description.h>
 
 #include <example_interfaces/srv/add_two_ints.hpp>
@@ -17,7 +17,7 @@ using type_description_interfaces::msg::FieldType;
 using type_description_interfaces::srv::GetTypeDescription;
 using Names = std::vector<std::string>;
 
-// As every ROS 2 system has them.
+// The hashes that every ROS 2 system has.
 constexpr const char* kStringHash = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
 constexpr const char* kAddTwoIntsHash = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a";
 
@@ -25,7 +25,7 @@ class TypeDescription : public RosTest {
  protected:
   TypeDescription() { executor_.add_node(node_); }
 
-  // What /ns/node answers.
+  // The answer of /ns/node.
   GetTypeDescription::Response::SharedPtr ask(const std::string& type_hash, bool with_sources = true) {
     const auto client = node_->create_client<GetTypeDescription>("/ns/node/get_type_description");
     EXPECT_TRUE(client->wait_for_service(kPatience));

@@ -7,7 +7,7 @@
 
 namespace {
 
-// The owner of the parameters in an executor of its own, and somebody who asks.
+// The owner of the parameters in an executor of its own, and a node that asks.
 class ParameterClient : public RosTest {
  protected:
   ParameterClient() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes of parameters, heard by another node.
+// Changes of parameters, received by another node.
 #include "rclcpp/parameter_event_handler.hpp"
 
 #include "tests/unit/rclcpp/ros_test.hpp"
@@ -16,7 +16,7 @@ class ParameterEvents : public RosTest {
     executor_.add_node(hearer_);
   }
 
-  // Spins until as many things were heard as are expected.
+  // Spins until the expected number of changes was received.
   void expect_heard(const Strings& expected) {
     spin_until(executor_, [&] { return heard_.size() >= expected.size(); });
     EXPECT_EQ(heard_, expected);
@@ -30,7 +30,7 @@ class ParameterEvents : public RosTest {
 };
 
 TEST_F(ParameterEvents, OfOneParameterOfANodeAndOfAll) {
-  // A name without a slash is one in the own namespace.
+  // A name without a slash is a name in the node's own namespace.
   const auto speed = handler_.add_parameter_callback(
       "speed", [this](const rclcpp::Parameter& p) { heard_.push_back("speed=" + p.value_to_string()); }, "owner");
   const auto other = handler_.add_parameter_callback(
@@ -69,7 +69,7 @@ TEST(ParameterEventHandler, FindsAParameterInAnEvent) {
   }
 }
 
-// Whoever asks for the event itself may own it.
+// A callback that takes the event itself may own it.
 TEST_F(ParameterEvents, OfAParameterClient) {
   rclcpp::AsyncParametersClient client(hearer_, "/ns/owner");
   const auto subscription = client.on_parameter_event([this](ParameterEvent::UniquePtr event) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of demo_nodes_cpp as launch files of others start them.
+// The nodes of demo_nodes_cpp, started as by the launch files of other projects.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -23,7 +23,7 @@ Command node(const std::string& name, const std::vector<std::string>& arguments 
   return command;
 }
 
-// Ends by a signal without an error.
+// Checks that a signal ends it without an error.
 void stop(RunningCommand& command) {
   command.send_signal(SIGINT);
   const CommandResult result = command.wait();
@@ -60,7 +60,7 @@ TEST(DemoNodesCpp, ListenerHearsSerializedMessages) {
   RunningCommand listener(node("listener"));
   RunningCommand talker(node("talker_serialized_message"));
   EXPECT_TRUE(listener.wait_for_output("I heard: [Hello World:")) << listener.err();
-  // The header says little endian, then come the length and the text.
+  // The header stands for little endian; then come the length and the text.
   EXPECT_TRUE(talker.wait_for_output("serialized message:\n00 01 00 00 0e 00 00 00 48 65 6c 6c 6f")) << talker.out();
   stop(listener);
   stop(talker);
@@ -115,7 +115,7 @@ TEST(DemoNodesCpp, BlackboardServesTheParametersThatItIsGiven) {
       blackboard.wait_for_output("Parameter blackboard node named '/here/parameter_blackboard' ready, and "
                                  "serving '"))
       << blackboard.err();
-  // It may not spin yet, and an executor refuses a context that is shut down: any end will do.
+  // It may not spin yet, and an executor refuses a context that is shut down. So any end is accepted.
   blackboard.send_signal(SIGINT);
   blackboard.wait();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The demo nodes whose calls can be watched: their parameters decide, at the start and while they run.
+// The demo nodes whose calls can be watched. Their parameters control this, at the start and while they run.
 #include <gmock/gmock.h>
 #include <signal.h>
 

@@ -33,7 +33,7 @@ Command perf_test(const std::vector<std::string>& parameters) {
 // The results of a run of about two seconds.
 nlohmann::json measure(const test_support::Sandbox& sandbox, std::vector<std::string> parameters) {
   const std::string logfile = (sandbox.directory() / "result.json").string();
-  // A queue in which nothing is lost, however long a busy machine keeps a thread waiting.
+  // The queue is so long that nothing is lost, however long a busy machine keeps a thread waiting.
   parameters.insert(parameters.end(), {"max_runtime:=2", "history_depth:=1000", "logfile:=" + logfile});
   const CommandResult result = run_command(perf_test(parameters));
   EXPECT_EQ(result.exit_code, 0) << result.err;

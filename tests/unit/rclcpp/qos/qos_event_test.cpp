@@ -74,7 +74,7 @@ TEST_F(QosEventTest, TheDefaultWarningsCanBeReplacedAndSwitchedOff) {
   auto publisher = node_->create_publisher<String>("topic", rclcpp::QoS(1).durability_volatile(), publisher_options);
   auto subscription =
       node_->create_subscription<String>("topic", rclcpp::QoS(1).transient_local(), ignore, subscription_options);
-  EXPECT_EQ(publisher->get_event_handlers().size(), 2u);  // that of incompatible types is there by default
+  EXPECT_EQ(publisher->get_event_handlers().size(), 2u);  // the handler for incompatible types is there by default
   EXPECT_EQ(subscription->get_event_handlers().size(), 0u);
   ASSERT_TRUE(spin_until(executor_, [&] { return incompatible == 1; }));
   EXPECT_EQ(policy, RMW_QOS_POLICY_DURABILITY);

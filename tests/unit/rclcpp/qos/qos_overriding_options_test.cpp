@@ -84,7 +84,7 @@ TEST_F(QosOverridingOptionsTest, SubscriptionsHaveTheirOwnAndAnIdentifierTellsTh
             "qos policy {depth} for subscription {/there} with id {left}");
   // A subscription has no lifespan.
   EXPECT_FALSE(node_->has_parameter("qos_overrides./there.subscription_left.lifespan"));
-  // The second goes by the same parameters.
+  // The second one uses the same parameters.
   EXPECT_EQ(node_->create_subscription<String>("topic", 10, nothing, options)->get_actual_qos().depth(), 4U);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients and services of types that are known by name only.
+// Clients and services of types of which only the name is known.
 #include <gmock/gmock.h>
 
 #include <example_interfaces/srv/add_two_ints.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What services and clients publish of their calls.
+// The messages that services and clients publish about their calls.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Event = AddTwoInts::Event;
 
 constexpr const char* kTopic = "/add_two_ints/_service_event";
 
-// Whoever comes late hears of what was.
+// A subscription that comes late gets the earlier messages.
 rclcpp::QoS event_qos() {
   return rclcpp::QoS(50).transient_local();
 }
@@ -61,7 +61,7 @@ class ServiceIntrospection : public RosTest {
     return future.request_id;
   }
 
-  // Those of both ends come in any order: in the order of a call.
+  // The messages of the two ends arrive in any order. They are put into the order of a call.
   std::vector<Event> take_events(size_t count) {
     EXPECT_TRUE(spin_until(executor_, [&] { return events_.size() >= count; })) << events_.size();
     std::vector<Event> events = std::move(events_);
@@ -195,7 +195,7 @@ std::string refusal(EndT& end) {
   try {
     end.configure_introspection(nullptr, rclcpp::SystemDefaultsQoS(), RCL_SERVICE_INTROSPECTION_METADATA);
   } catch (const rclcpp::exceptions::RCLInvalidArgument& error) {
-    // What follows is the place in the source.
+    // The rest is the place in the source.
     return std::string(error.what()).substr(0, std::string(error.what()).find(", at "));
   }
   return "accepted";

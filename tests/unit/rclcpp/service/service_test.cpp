@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services and clients: every form of callback and of request, and what happens when somebody is not there.
+// Services and clients: every form of callback and of request, and calls when one side is missing.
 #include <example_interfaces/srv/add_two_ints.hpp>
 #include <thread>
 
@@ -26,7 +26,7 @@ class ServiceTest : public RosTest {
  protected:
   ServiceTest() { executor_.add_node(node_); }
 
-  // Asks the service `add` and gives its answer.
+  // Calls the service `add` and returns its answer.
   int64_t ask(int64_t a, int64_t b) {
     const auto client = node_->create_client<AddTwoInts>("add");
     EXPECT_TRUE(client->wait_for_service(kPatience));

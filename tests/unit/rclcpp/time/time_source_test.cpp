@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulated time that comes although nobody spins the node.
+// Simulated time arrives even if nobody spins the node.
 #include <future>
 #include <rclcpp/time_source.hpp>
 #include <rosgraph_msgs/msg/clock.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Content filters: which messages a subscription gets, and how the filter changes while it is used.
+// Content filters: the messages that a subscription gets, and changes of the filter while it is used.
 #include <gmock/gmock.h>
 
 #include <rcl_interfaces/msg/log.hpp>
@@ -32,7 +32,7 @@ class ContentFilter : public RosTest {
         "topic", 20, [this](const Int32& message) { received_.push_back(message.data); }, options);
   }
 
-  // Publishes 0 to 9, and 100, which every filter of these tests lets through. What came of the former.
+  // Publishes 0 to 9, and 100, which every filter of these tests lets through. Returns which of 0 to 9 arrived.
   std::vector<int32_t> send_and_receive() {
     EXPECT_TRUE(spin_until(executor_, [this] { return publisher_->get_subscription_count() == 1; }));
     received_.clear();
@@ -47,7 +47,7 @@ class ContentFilter : public RosTest {
     return received_;
   }
 
-  // A publisher, which filters too, hears of a change a little later.
+  // A publisher, which filters too, learns of a change a little later.
   bool comes_to_receive(const std::vector<int32_t>& expected) {
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
     while (send_and_receive() != expected) {

@@ -30,7 +30,7 @@ class PubSubTest : public RosTest {
  protected:
   PubSubTest() { executor_.add_node(node_); }
 
-  // What a subscription with this callback makes of one message; the callback calls got().
+  // The result of a subscription with this callback for one message; the callback calls got().
   template <typename CallbackT>
   void expect_delivery(CallbackT callback) {
     got_.clear();
@@ -208,7 +208,7 @@ TEST_F(PubSubTest, TellsWhereInTheNetworkItSendsAndListens) {
                                 [](const auto& endpoint) { return endpoint.transport_protocol() == "UDP"; });
   ASSERT_NE(udp, endpoints.end());
   EXPECT_EQ(udp->internet_protocol(), "IPv4");
-  EXPECT_GT(udp->transport_port(), 7400);  // where the ports of DDS begin
+  EXPECT_GT(udp->transport_port(), 7400);  // ports of DDS begin here
   EXPECT_THAT(udp->internet_address(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\\.[0-9]+"));
   EXPECT_EQ(*udp, *udp);
   EXPECT_THAT(testing::PrintToString(*udp), testing::StartsWith("{\"transportProtocol\": \"UDP\", "));

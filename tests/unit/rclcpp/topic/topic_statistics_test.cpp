@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subscription tells of the messages that it receives.
+// The statistics of a subscription about the messages that it receives.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ class TopicStatistics : public RosTest {
  protected:
   TopicStatistics() { executor_.add_node(node_); }
 
-  // Receives what is published on `topic`.
+  // Receives the messages of `topic`.
   void listen(const std::string& topic = "/statistics") {
     listener_ = node_->create_subscription<MetricsMessage>(
         topic, 10, [this](const MetricsMessage& message) { messages_.push_back(message); });

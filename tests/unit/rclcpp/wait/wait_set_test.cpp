@@ -154,7 +154,7 @@ TEST_F(WaitSetTest, AnEntityIsInOneWaitSetAtATime) {
     wait_set.remove_timer(timer);
     other.add_timer(timer);
   }
-  other.add_subscription(subscription);  // the other one is gone
+  other.add_subscription(subscription);  // the other wait set is gone
   EXPECT_EQ(error_of([&] { other.add_timer(nullptr); }), "timer is nullptr");
   EXPECT_EQ(error_of([&] { other.remove_waitable(nullptr); }), "waitable is nullptr");
 }
