@@ -2,14 +2,14 @@
 # Compile options of every target of this project, as one interface target.
 set(SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread")
 
-# On in the presets, with whose compilers and options the sources are clean. Other compilers and other levels of
+# On in the presets: the sources give no warnings with their compilers and options. Other compilers and other levels of
 # optimisation warn of other things, which must not stop the build of a release.
 option(WARNINGS_AS_ERRORS "Stop at warnings" OFF)
 
 add_library(project_options INTERFACE)
 target_compile_options(project_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${WARNINGS_AS_ERRORS}>:-Werror>
-  # A designated initialiser says what it sets; the rest has its default.
+  # A designated initialiser names the members that it sets; the others have their defaults.
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual -Wno-missing-field-initializers>)
 
 if(SANITIZE)

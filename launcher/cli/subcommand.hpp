@@ -24,7 +24,7 @@ struct LaunchTarget {
   std::vector<std::pair<std::string, std::string>> arguments;
 };
 
-// The variables that it is given to fill must live until it has parsed.
+// The variables that it fills must live until it has parsed.
 class Subcommand {
  public:
   // `name` is "launch check".

@@ -154,8 +154,8 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
     child.program = exec_program_;
   }
 
-  // Libraries open descriptors without close-on-exec, and whoever started us may have left some open. One call marks
-  // them all (Linux 5.11; older kernels leave the marks as they are).
+  // Libraries open descriptors without close-on-exec, and the program that started us may have left some open. One call
+  // marks all of them (Linux 5.11; older kernels leave the marks as they are).
   static_cast<void>(::syscall(SYS_close_range, 3U, ~0U, CLOSE_RANGE_CLOEXEC));
 
   Process process;

@@ -53,7 +53,7 @@ class ProcessSupervisor {
   // The number that the next start() will return, unless an observer starts a process before.
   ProcessId next_id() const;
 
-  // Called for every line of every process, before the router writes it and before the exit of its process is told.
+  // Called for every line of every process, before the router writes it and before the exit of its process is reported.
   // One observer, null for none; it must not call the supervisor.
   using OutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,
                                             OutputStream stream, std::string_view line)>;

@@ -23,7 +23,7 @@ struct Scope {
   std::map<std::string, std::string> configurations;
   // The launch environment: what $(env X) reads and what children inherit.
   Environment environment;
-  // What every later node is given before its own parameters and remaps, in the order in which it was set.
+  // The settings that every later node gets before its own parameters and remaps, in the order in which they were set.
   std::vector<GlobalParameter> global_parameters;
   std::vector<std::pair<std::string, std::string>> global_remaps;  // from, to
   // Variables of the enclosing `for` and `for_each`: what $(index i) and $(for-var x) read.

@@ -59,7 +59,7 @@ class SubstitutionCall {
 
   Scope& scope() const { return scope_; }
   const SourceRange& where() const { return where_; }
-  // Of an argument; of the substitution when there is none.
+  // The place of an argument, or of the substitution when there is no such argument.
   const SourceRange& where(std::size_t index) const { return has(index) ? arguments_[index].where() : where_; }
 
  private:

@@ -2,8 +2,8 @@
 """
 Every word of the launch language is tested.
 
-Every action, item and substitution stands in a pair of launch files, XML and YAML, that a test compares. Every extension
-is refused by `launch check --strict-ros2` and has its place in the documentation.
+Every action, item and substitution is in a pair of launch files, XML and YAML, that a test compares. Every extension is
+refused by `launch check --strict-ros2` and has its place in the documentation.
 """
 
 import json
@@ -19,7 +19,7 @@ GOLDEN = Path(os.environ['SOURCE_DIRECTORY']) / 'tests/golden'
 
 
 def texts(suffix):
-    """Those that tests/unit/python/triplets_test.cpp compares by what they ask for, the others by what they say."""
+    """The launch files of triplets, which are compared by their requests, and of twins, compared by their entities."""
     return '\n'.join(path.read_text() for folder in ('triplets', 'twins')
                      for path in sorted((GOLDEN / folder).glob(f'*.launch.{suffix}')))
 
@@ -51,7 +51,7 @@ class EveryWord(unittest.TestCase):
 
 
 def extensions(reference):
-    """(action, names of items from it to the element, attribute), '' for none, of all that is marked in the reference."""
+    """(action, names of the items down to the element, attribute) of all that the reference marks; '' for none."""
     found = []
     action, path = '', ()
     for line in reference.partition('## Substitutions')[0].splitlines():

@@ -82,7 +82,7 @@ class GoldenErrors(unittest.TestCase):
             with self.subTest(path.name):
                 self.assertEqual(result.returncode, 1, result.stderr)
                 self.assertEqual(result.stdout, '')
-                # Where the checkout and the prefixes are is not the file's business.
+                # The places of the checkout and of the prefixes must not be in the expected text.
                 text = result.stderr.replace(f'{path.parent}/', '').replace(f'{GOLDEN}/errors/', '')
                 text = text.replace(self.prefix, 'PREFIX').replace(str(Path(LAUNCH).parent.parent), 'OWN_PREFIX')
                 expected = Path(f'{path}.expected')
@@ -91,7 +91,7 @@ class GoldenErrors(unittest.TestCase):
                 self.assertEqual(text, expected.read_text())
                 self.assertRegex(text, r'^[^\n]+:\d+:\d+: error: [^\n]+\n +\d+ \| ')
                 self.assertIn('^', text)
-                # What to do about it, unless the cause names all that is right.
+                # There is help, unless the cause already names everything that is right.
                 self.assertRegex(text, r'= help: |expected |can be |Valid options|is not a valid package name|No such file|not found: |is not a file')
 
     def test_the_page_names_each_file_once(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What holds of the repository as a whole: every source names its licence, and the version stands in one place.
+Checks of the repository as a whole: every source names its licence, and the version is written in one place.
 
 The version is that of `project(launch VERSION ...)` in CMakeLists.txt. The launcher, the newest release in CHANGELOG.md and
 the packages of this project agree with it. Packages that stand in for a package of ROS 2 have the version of the release
@@ -42,9 +42,9 @@ VERSIONS_OF_ROS_2 = {
 
 
 def tracked_files():
-    """The files under version control, or None where the sources are no checkout."""
+    """The files under version control, or None when the sources are not a checkout."""
     try:
-        # The user who runs the tests need not be the owner of the checkout.
+        # The user who runs the tests may not be the owner of the checkout.
         listed = subprocess.run(['git', '-c', 'safe.directory=*', 'ls-files', '-z'], cwd=SOURCE, capture_output=True)
     except FileNotFoundError:
         return None

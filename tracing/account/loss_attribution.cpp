@@ -23,7 +23,7 @@ std::uint64_t userspace_losses(const LossAccount& account) {
   return sum;
 }
 
-// Of each process whose buffers are its own.
+// The losses of each process that has buffers of its own.
 std::map<std::int64_t, std::uint64_t> losses_by_buffers(const std::vector<Stream>& streams) {
   std::map<std::int64_t, std::uint64_t> losses;
   for (const Stream& stream : streams) {
@@ -32,7 +32,7 @@ std::map<std::int64_t, std::uint64_t> losses_by_buffers(const std::vector<Stream
   return losses;
 }
 
-// Of each process that counts: what it fired, less what the trace holds.
+// Lost = events fired - events in the trace, for each process that counts its events.
 std::map<std::int64_t, std::uint64_t> losses_by_counters(const std::vector<EventCounts>& counts,
                                                          const RecordedEvents& events,
                                                          const RecordedProcesses& recorded) {

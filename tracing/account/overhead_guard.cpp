@@ -124,7 +124,7 @@ void OverheadGuard::cut(const DroppableClass& drop, std::uint64_t rate) {
       made.events.push_back(rule.event);
     }
   }
-  if (made.events.empty()) return;  // somebody else has ended the session, or switched them off
+  if (made.events.empty()) return;  // the session was ended, or the events were switched off, by somebody else
   note_cut(config_, made);
   told_(made);
 }

@@ -109,8 +109,8 @@ std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const 
 }
 
 void check_kernel_context_fields(const std::vector<ChannelPlan>& channels, const std::string& modules_version) {
-  // Their function wrapper_task_prio_init is called by nobody: the first event calls the null pointer that it should
-  // have set, and the kernel panics.
+  // Nothing calls their function wrapper_task_prio_init: the first event calls the null pointer that this function
+  // should have set, and the kernel panics.
   if (!modules_version.starts_with("2.13.")) return;
   for (const ChannelPlan& channel : channels) {
     const std::vector<std::string>& fields = channel.context_fields;

@@ -75,7 +75,7 @@ std::vector<std::string> unreachable_process_warnings() {
   const auto memory = identity_of("/dev/shm");
   const auto directory = identity_of(daemon);
   const auto daemon_started = start_time(fs::path("/proc") / std::to_string(session_daemon_pid()));
-  std::optional<std::set<int>> registered;  // asked for when somebody is suspected
+  std::optional<std::set<int>> registered;  // asked for only when some process is suspected
   std::error_code none;
   for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
     const int pid = number_of(process.path());

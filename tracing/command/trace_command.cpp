@@ -95,7 +95,7 @@ EnterOrSignal::Answer ask(const std::string& prompt, EnterOrSignal& input) {
   fmt::print("{}", prompt);
   std::fflush(stdout);
   const EnterOrSignal::Answer answer = input.wait();
-  // Who types Enter at a terminal has made the line break.
+  // A user who types Enter at a terminal has made the line break already.
   if (answer != EnterOrSignal::Answer::kEnter || isatty(STDIN_FILENO) == 0) print_line("");
   return answer;
 }

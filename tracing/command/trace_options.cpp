@@ -161,7 +161,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   add_session_options(*start, session, options);
   CLI::App* stop = add_verb(command, "stop", "stop recording and end the session", session);
   add_fail_on_loss(*stop, options);
-  // Of a launcher that was killed, which tells its guardian this command; removed afterwards.
+  // The counters of a launcher that was killed, whose guardian runs this command. They are removed afterwards.
   stop->add_option("--event-counters", options.config.event_counters)->group("");
   stop->add_option("--created-since", options.created_since,
                    "leave the session as it is when it was created before (seconds since 1970)")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernel tells of another process.
+// The kernel's description of another process.
 #pragma once
 
 #include <sys/types.h>

@@ -88,7 +88,7 @@ pid_t spawn_daemon(const DaemonOutput& output) {
     return launch::spawn({
         .program = kDaemon,
         // --daemonize would close every descriptor that the limit allows, one by one: 10 ms for 20,000, half a second
-        // for the million of many containers. Here nothing is open but what it is given.
+        // for the million of many containers. Here only the descriptors that it gets are open.
         .argv = {kDaemon, "--background"},
         .search_path = true,
         .descriptors = {{STDIN_FILENO, launch::kDevNull}, {STDOUT_FILENO, out}, {STDERR_FILENO, out}},
@@ -102,7 +102,8 @@ pid_t spawn_daemon(const DaemonOutput& output) {
   }
 }
 
-// Whoever starts a daemon first holds this lock; the others' daemons give up before the first one answers.
+// The process that starts a daemon first holds this lock. The daemons of the others give up before the first one
+// answers.
 bool another_daemon_starts() {
   const std::string lock_file = std::filesystem::path(pid_file_of_daemon()).replace_extension(".lck");
   const int fd = open(lock_file.c_str(), O_RDONLY | O_CLOEXEC);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run-time events of ROS 2 in classes, for a trace that must not cost more than it is given: a class is dropped as
-// a whole, so that what remains can still be understood.
+// The run-time events of ROS 2 in classes, for a trace whose cost is limited: a class is dropped as a whole, so that
+// the remaining events can still be understood.
 #pragma once
 
 #include <optional>

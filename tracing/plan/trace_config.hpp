@@ -33,7 +33,7 @@ struct ChannelConfig {
   std::int64_t blocking_timeout = 0;  // as TraceConfig::blocking_timeout_ust
 };
 
-// Who has userspace buffers: a user, for all processes together, or each process.
+// The owner of userspace buffers: a user, for all processes together, or each process.
 enum class BufferOwner { kUser, kProcess };
 
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.

@@ -204,7 +204,8 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
         {.domain = "kernel", .channel = kKernelRecorderChannel, .discarded_events = *lost_by_kernel});
   }
   const bool hurried = losses.cut_short || (give_up && give_up());
-  // The first session on a machine takes some 30 ms longer to end: the measurement. It disturbs nobody then.
+  // The first session on a machine takes some 30 ms longer to end, because of the measurement. It disturbs no process
+  // then.
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
   timer.finished("cost of events");
   if (local && !session->snapshot) by_process.look_into(session->path);
@@ -216,7 +217,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
 }
 
 void LttngTracer::pause(const std::string& name) {
-  // Waits for the data: whoever pauses wants to look at the trace.
+  // Waits for the data, because a user who pauses wants to look at the trace.
   check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
   pause_kernel_recorder(recorder_directory(name));
 }

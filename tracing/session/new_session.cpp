@@ -13,8 +13,7 @@ namespace tracing {
 namespace {
 
 // Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the
-// first one, so each further one gets a directory of its own inside: whoever reads the trace directory reads all of
-// them.
+// first one, so each further one gets a directory of its own inside. A reader of the trace directory reads all of them.
 std::string recording_directory(const TraceConfig& config) {
   const std::filesystem::path directory = config.trace_directory();
   if (!std::filesystem::exists(directory / "ust") && !std::filesystem::exists(directory / "kernel")) {

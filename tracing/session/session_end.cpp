@@ -20,8 +20,8 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 // LTTng has no event for "all data is written" or "the session is gone", and its own waiting calls look only every 200
-// and 500 ms. The state is asked for instead, soon at first and then less often: an eighth of the time that has passed
-// is the most that is waited in vain.
+// and 500 ms. The state is therefore polled, soon at first and then less often: at most an eighth of the time that has
+// passed is waited too long.
 class Polling {
  public:
   void pause() {

@@ -20,7 +20,7 @@ std::optional<SessionSummary> find_session(const std::string& lttng_session_name
 // With its channels and the counts of lost events so far. Throws TraceError, also when there is no such session.
 SessionDetails describe_session(const std::string& lttng_session_name);
 
-// Starts a session daemon when none runs, since programs tell their events to nobody else. Throws TraceError.
+// Starts a session daemon when none runs, because programs report their events only to a daemon. Throws TraceError.
 TraceableEvents list_traceable_events();
 
 }  // namespace tracing

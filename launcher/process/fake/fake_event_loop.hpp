@@ -28,8 +28,8 @@ class FakeEventLoop final : public EventLoop {
   void run_until_idle();
   // Lets time pass, from timer to timer, running everything that becomes pending.
   void advance(Duration duration);
-  // Delivers a signal to its callback in the next turn. Throws std::logic_error when nobody watches it: a real one
-  // would have ended the process.
+  // Delivers a signal to its callback in the next turn. Throws std::logic_error when there is no callback for it: a
+  // real signal would have ended the process.
   void deliver_signal(int signal);
 
   // Runs what is pending, then jumps to the next timer, until quit(). Throws std::logic_error when nothing is left that

@@ -32,7 +32,7 @@ struct FakeScript {
   std::optional<int> spawn_error{};  // errno of a start that fails
 };
 
-// Records what it is asked for. The processes are no real ones, so their pids (from 1,000,001 on) must not be
+// Records the requests that it gets. The processes are not real, so their pids (from 1,000,001 on) must not be
 // signalled.
 class FakeProcessRunner final : public ProcessRunner {
  public:

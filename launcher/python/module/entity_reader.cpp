@@ -68,7 +68,7 @@ class Level {
   }
 };
 
-// A str for the launcher. Throws Error for one that no program could be given.
+// Reads a str for the launcher. Throws Error for a text that can't be passed to a program.
 std::string read_str(const py::handle& value) {
   std::string text;
   try {

@@ -12,7 +12,7 @@ def generate_launch_description():
         Node(
             package='demo_nodes', executable='talker', name='ear', namespace='left', exec_name='speaker',
             arguments=['-v', rate], ros_arguments=['--log-level', 'warn'],
-            # A mapping is one parameter file; here each is one of its own, as in the XML file.
+            # A mapping is one parameter file. Here each parameter is a mapping of its own, as in the XML file.
             parameters=[
                 {'rate': rate},
                 {'text': '1'},

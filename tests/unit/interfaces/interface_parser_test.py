@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the parser of .msg, .srv and .action files accepts, and what it says about mistakes."""
+"""The files that the parser of .msg, .srv and .action files accepts, and its errors for mistakes."""
 
 import unittest
 

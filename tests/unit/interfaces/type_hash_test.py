@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hashes of definitions are those that ROS 2 systems announce."""
+"""Compares the hashes of definitions with those that ROS 2 systems announce."""
 
 import glob
 import os
@@ -31,7 +31,7 @@ class TypeHash(unittest.TestCase):
         return type_hash(self.descriptions[name], self.descriptions)
 
     def test_known_hashes(self):
-        # As ROS 2 Jazzy announces them.
+        # The hashes that ROS 2 Jazzy announces.
         for name, expected in (
                 ('std_msgs/msg/Empty', '20b625256f32d5dbc0d04fee44f43c41e51c70d3502f84b4a08e7a9c26a96312'),
                 ('example_interfaces/action/Fibonacci_FeedbackMessage',

@@ -58,7 +58,7 @@ _NO_LISTS = (Mapping, bytes, bytearray, memoryview, set, frozenset)
 
 
 def _checked(value, what):
-    """A str that a program can be given."""
+    """A str that can be passed to a program."""
     if '\0' in value:
         raise LaunchFileError(f'{what} holds the character NUL')
     try:
