@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What <node>, <node_container> and <lifecycle_node> have in common: a process that understands --ros-args.
+// The common part of <node>, <node_container> and <lifecycle_node>: a process that understands --ros-args.
 #pragma once
 
 #include <optional>

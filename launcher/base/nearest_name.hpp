@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mistyped name was probably meant to be.
+// Finds the name that a user probably meant by a mistyped one.
 #pragma once
 
 #include <string>

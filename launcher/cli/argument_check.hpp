@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the launch arguments of the command line mean anything to the launch file.
+// Checks whether the launch file knows the launch arguments of the command line.
 #pragma once
 
 #include <string>

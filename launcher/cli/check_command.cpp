@@ -19,7 +19,7 @@ namespace launch {
 
 namespace {
 
-// What find_launch_files() needs to look for packages.
+// The scope that find_launch_files() needs to look for packages.
 Scope scope_of(const Environment& environment) {
   Scope scope;
   scope.environment = environment;

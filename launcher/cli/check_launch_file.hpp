@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `launch check` finds in a launch file without running anything.
+// The checks of `launch check`: they find the errors of a launch file without running anything.
 #pragma once
 
 #include <string>

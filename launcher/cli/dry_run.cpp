@@ -108,7 +108,7 @@ std::string counted(std::size_t count, std::string_view one, std::string_view se
   return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
-// What is done to a process: "stop 'talker'", "signal SIGUSR1 to 'talker'".
+// A command to a process as text: "stop 'talker'", "signal SIGUSR1 to 'talker'".
 std::string command_as_text(const ProcessCommand& command) {
   return command.kind == ProcessCommand::Kind::kSignal
              ? fmt::format("signal SIG{} to '{}'", ::sigabbrev_np(command.signal), command.process)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `launch --dry-run` prints.
+// The output of `launch --dry-run`.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `launch --print` prints: the actions of a launch file as they stand in it, included files in place.
+// The output of `launch --print`: the actions as the launch file has them, with included files in place.
 #pragma once
 
 #include <string>

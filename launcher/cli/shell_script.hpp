@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `launch --dry-run=shell` prints, and how a shell writes words and environments.
+// The output of `launch --dry-run=shell`, and the syntax of words and environments in a shell.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
 // A word quoted in such a way that a shell reads this word.
 std::string shell_quoted(const std::string& word);
 
-// What has to change in `to` to get `of`; nullopt: the variable is removed.
+// The changes that turn `to` into `of`; nullopt: the variable is removed.
 std::map<std::string, std::optional<std::string>> environment_difference(const Environment& of, const Environment& to);
 
 }  // namespace launch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a supervised process is asked to end, and what happens afterwards to what is left of it.
+// Asks a supervised process to end, and handles its descendants afterwards.
 #include <signal.h>
 
 #include <utility>

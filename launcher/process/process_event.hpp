@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens to a supervised process, as its observers are told.
+// The events of a supervised process, for its observers.
 #pragma once
 
 #include <sys/types.h>

@@ -23,7 +23,7 @@ namespace launch {
 // Number of a process in this launch, from 1 in the order of requests; the N of its label "talker-N". Kept by respawns.
 using ProcessId = std::uint32_t;
 
-// Where a stream's lines go; combine freely.
+// The destinations of a stream's lines; combine freely.
 struct OutputTargets {
   bool screen = false;   // launcher's standard output, "[LABEL] text"
   bool log = false;      // launch.log
@@ -88,7 +88,7 @@ struct Process {
   UniqueFd in;  // write end of standard input, kept open, never written
 };
 
-// What counts as the exit code of a process that could not be started.
+// The exit code of a process that could not be started.
 constexpr int kExitCodeOfFailedStart = 127;
 
 // Outcome.

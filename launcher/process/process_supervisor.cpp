@@ -15,8 +15,8 @@ namespace launch {
 
 namespace {
 
-// How long the destructor waits for a process that it has killed. Only a process that hangs in the kernel takes so
-// long.
+// How long the destructor waits for a process that it has killed. Only a process that hangs in the kernel needs so much
+// time.
 constexpr int kReapTimeoutMilliseconds = 1000;
 
 using Event = SupervisionEvent;
@@ -57,7 +57,7 @@ void Supervision::handle(Supervised& first, Event event, int signal) {
 
 void Supervision::notify(Supervised& process, decltype(ProcessEvent::what) what) {
   const ProcessEvent event{process.id, process.label, process.spec, std::move(what)};
-  // By index: an observer may register another one.
+  // Loops by index, because an observer may register another one.
   for (std::size_t i = 0; i < observers.size(); ++i) {
     observers[i](event);
   }
@@ -253,7 +253,7 @@ void ProcessSupervisor::restart(ProcessId id) {
 }
 
 void ProcessSupervisor::kill_all() {
-  // By index: an observer may start a process.
+  // Loops by index, because an observer may start a process.
   for (std::size_t i = 0; i < impl_->processes.size(); ++i) {
     impl_->handle(*impl_->processes[i], Event::kKill);
   }

@@ -11,7 +11,7 @@
 namespace launch {
 namespace {
 
-// What execvp(3) and Python use when PATH is not set.
+// The default of execvp(3) and Python when PATH is not set.
 constexpr const char* kDefaultPath = "/bin:/usr/bin";
 
 bool is_program(const std::string& path) {

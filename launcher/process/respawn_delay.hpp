@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long to wait between an exit and the next start: always the same time, or longer after each run that was short.
+// The time between an exit and the next start: always the same, or longer after each run that was short.
 #pragma once
 
 #include "launcher/process/process_spec.hpp"

@@ -18,7 +18,7 @@ using ParameterValue = std::variant<ParameterScalar, std::vector<ParameterScalar
 // As Python's str() writes the value: True, 1.0, (1, 2).
 std::string to_python_text(const ParameterValue& value);
 
-// What a `set_parameter` or a `set_parameters_from_file` leaves in the scope.
+// The entry that a `set_parameter` or a `set_parameters_from_file` leaves in the scope.
 struct NamedParameter {
   std::string name;
   ParameterValue value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What substitutions can see: the plain state of a launch at one moment.
+// The state of a launch at one moment, as substitutions see it.
 #pragma once
 
 #include <functional>

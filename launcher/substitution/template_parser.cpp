@@ -15,7 +15,7 @@ namespace {
 // Far above what a person writes, far below what would exhaust the stack.
 constexpr int kMaximumNesting = 200;
 
-// What ROS 1 files call a substitution, and what it has become.
+// Names of substitutions in ROS 1, and the substitutions that replace them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFormerNames = {{
     {"arg", "$(var NAME)"},
     {"find", "$(find-pkg-share PKG)"},

@@ -25,7 +25,7 @@ struct SubstitutionType {
   std::function<SubstitutionPtr(std::vector<Template> arguments, SourceRange where)> make;
 };
 
-// What is wrong with that number of arguments; nullopt when the substitution takes it.
+// The error for this number of arguments; nullopt when the substitution takes it.
 std::optional<std::string> wrong_number_of_arguments(const SubstitutionType& type, std::size_t count);
 
 // Every substitution there is, by name. The built-in ones are listed in builtin_substitutions.cpp.

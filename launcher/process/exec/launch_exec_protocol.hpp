@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What launch-exec and the launcher say to each other.
+// The interface between launch-exec and the launcher.
 //
 //   launch-exec STEP… - PROGRAM ARGV0 ARG…
 //

@@ -37,7 +37,7 @@ using launch::UniqueFd;
 // A command that hangs must not block this program, and everything that waits for it, for ever.
 constexpr std::chrono::milliseconds kCleanUpLimit = std::chrono::seconds(10);
 
-// What the launcher has left behind when it has gone.
+// The groups and commands that a launcher has left behind.
 struct Remains {
   std::set<pid_t> groups;
   std::map<std::int32_t, std::vector<std::string>> clean_ups;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launcher tells launch-guardian: one record for each message of a sequenced-packet socket.
+// The messages of the launcher to launch-guardian: one record for each message of a sequenced-packet socket.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@ namespace launch {
 
 // str() of the value of `expression`. `modules` are names separated by commas; the names of "math" are also available
 // unqualified. Throws std::runtime_error with one line: Python's error, or what to install when there is no Python.
-// Not for several threads at once.
+// Must not be called by several threads at once.
 std::string evaluate_python(const std::string& expression, const std::string& modules);
 
 }  // namespace launch

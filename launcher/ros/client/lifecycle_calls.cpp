@@ -30,7 +30,8 @@ Transition transition_of(const std::string& label) {
                                                           {"cleanup", Transition::TRANSITION_CLEANUP},
                                                           {"activate", Transition::TRANSITION_ACTIVATE},
                                                           {"deactivate", Transition::TRANSITION_DEACTIVATE},
-                                                          // By its label: the number depends on the state.
+                                                          // Chosen by its label, because the number depends on the
+                                                          // state.
                                                           {"shutdown", Transition::TRANSITION_UNCONFIGURED_SHUTDOWN}};
   const auto found = ids.find(label);
   if (found == ids.end()) {
