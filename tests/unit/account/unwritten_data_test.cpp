@@ -14,7 +14,7 @@ namespace {
 using tracing::LossAccount;
 using tracing::Stream;
 
-constexpr std::uint64_t kSecond = 1'000'000'000;
+constexpr std::uint64_t kNsPerSecond = 1'000'000'000;
 
 LossAccount account() {
   LossAccount losses;
@@ -24,21 +24,29 @@ LossAccount account() {
 
 // From the first second of the clock on. Processor 1 writes nothing after half a second, processor 2 never writes.
 std::vector<Stream> streams() {
-  return {{.domain = "ust", .channel = "ros2", .cpu = "0", .packets = {{.begin = kSecond, .end = 4 * kSecond}}},
-          {.domain = "ust", .channel = "ros2", .cpu = "1", .packets = {{.begin = kSecond, .end = kSecond * 3 / 2}}},
-          {.domain = "ust", .channel = "ros2", .cpu = "2", .packets = {}},
-          {.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 7, .packets = {{.begin = kSecond, .end = kSecond}}},
-          {.domain = "kernel", .channel = "kchan", .cpu = "0", .packets = {{.begin = kSecond, .end = kSecond}}}};
+  return {
+      {.domain = "ust", .channel = "ros2", .cpu = "0", .packets = {{.begin = kNsPerSecond, .end = 4 * kNsPerSecond}}},
+      {.domain = "ust",
+       .channel = "ros2",
+       .cpu = "1",
+       .packets = {{.begin = kNsPerSecond, .end = kNsPerSecond * 3 / 2}}},
+      {.domain = "ust", .channel = "ros2", .cpu = "2", .packets = {}},
+      {.domain = "ust",
+       .channel = "ros2",
+       .cpu = "0",
+       .pid = 7,
+       .packets = {{.begin = kNsPerSecond, .end = kNsPerSecond}}},
+      {.domain = "kernel", .channel = "kchan", .cpu = "0", .packets = {{.begin = kNsPerSecond, .end = kNsPerSecond}}}};
 }
 
 TEST(UnwrittenData, IsWhatComesAfterTheLastPacketOfAStreamThatEndsBeforeTheSession) {
   LossAccount losses = account();
-  tracing::find_unwritten(losses, streams(), 4 * kSecond, false);
+  tracing::find_unwritten(losses, streams(), 4 * kNsPerSecond, false);
   const auto& ranges = losses.channels[0].unwritten;
   ASSERT_EQ(ranges.size(), 2u);
   EXPECT_EQ(ranges[0].cpu, "1");
-  EXPECT_EQ(ranges[0].begin_ns, kSecond / 2);
-  EXPECT_EQ(ranges[0].end_ns, 3 * kSecond);
+  EXPECT_EQ(ranges[0].begin_ns, kNsPerSecond / 2);
+  EXPECT_EQ(ranges[0].end_ns, 3 * kNsPerSecond);
   EXPECT_EQ(ranges[1].cpu, "2");
   EXPECT_EQ(ranges[1].begin_ns, 0u);
   EXPECT_TRUE(losses.channels[1].unwritten.empty());
@@ -53,7 +61,7 @@ TEST(UnwrittenData, IsWhatComesAfterTheLastPacketOfAStreamThatEndsBeforeTheSessi
 TEST(UnwrittenData, MayBeAllThatThereWas) {
   LossAccount losses = account();
   const std::vector<Stream> empty = {{.domain = "ust", .channel = "ros2", .cpu = "0", .packets = {}}};
-  tracing::find_unwritten(losses, empty, 4 * kSecond, true);
+  tracing::find_unwritten(losses, empty, 4 * kNsPerSecond, true);
   EXPECT_EQ(losses.channels[0].unwritten.size(), 1u);
   EXPECT_EQ(tracing::describe_damage(losses, "the disk quota for /traces/run is used up", "/traces/run"),
             "the disk quota for /traces/run is used up: no event could be written; make room there, or choose another "
@@ -66,7 +74,7 @@ TEST(UnwrittenData, IsNotLookedForWhereTheEndOfTheSessionIsNotKnown) {
   EXPECT_TRUE(paused.channels[0].unwritten.empty());
   LossAccount hurried = account();
   hurried.cut_short = true;
-  tracing::find_unwritten(hurried, streams(), 4 * kSecond, true);
+  tracing::find_unwritten(hurried, streams(), 4 * kNsPerSecond, true);
   EXPECT_TRUE(hurried.channels[0].unwritten.empty());
   EXPECT_EQ(tracing::describe_damage(hurried, "", "/traces/run"), "");
   EXPECT_EQ(tracing::describe_damage(hurried, "the file system of /traces/run is full", "/traces/run"),
@@ -77,9 +85,9 @@ TEST(UnwrittenData, IsNotLookedForWhereTheEndOfTheSessionIsNotKnown) {
 TEST(UnwrittenData, BuffersThatWereFullAtTheEndAreNoFailureToWrite) {
   LossAccount losses = account();
   losses.channels[0].discarded_events = 12;
-  tracing::find_unwritten(losses, streams(), 4 * kSecond, false);
+  tracing::find_unwritten(losses, streams(), 4 * kNsPerSecond, false);
   EXPECT_TRUE(losses.channels[0].unwritten.empty());
-  tracing::find_unwritten(losses, streams(), 4 * kSecond, true);
+  tracing::find_unwritten(losses, streams(), 4 * kNsPerSecond, true);
   EXPECT_EQ(losses.channels[0].unwritten.size(), 2u);
 }
 

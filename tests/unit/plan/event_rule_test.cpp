@@ -14,7 +14,7 @@ using tracing::parse_event_rule;
 
 constexpr const char* kForm = "an event is written: PATTERN [except PATTERN,…] [level [=]LEVEL] [if FILTER]";
 
-std::string error_of(const std::string& text) {
+std::string rule_error(const std::string& text) {
   try {
     parse_event_rule(text);
   } catch (const tracing::TraceError& error) {
@@ -45,12 +45,12 @@ TEST(EventRule, PatternIsFoundInAnyText) {
 }
 
 TEST(EventRule, WhatIsNoRuleIsAnError) {
-  EXPECT_EQ(error_of(""), "event name '' has 0 characters: 1 to 255 are possible\n");
-  EXPECT_EQ(error_of("a:b where c"), std::string("unexpected 'where' in event 'a:b where c'\n") + kForm);
-  EXPECT_EQ(error_of("a:b if"), std::string("event 'a:b if' ends where its filter is expected\n") + kForm);
-  EXPECT_EQ(error_of("a:b except"),
+  EXPECT_EQ(rule_error(""), "event name '' has 0 characters: 1 to 255 are possible\n");
+  EXPECT_EQ(rule_error("a:b where c"), std::string("unexpected 'where' in event 'a:b where c'\n") + kForm);
+  EXPECT_EQ(rule_error("a:b if"), std::string("event 'a:b if' ends where its filter is expected\n") + kForm);
+  EXPECT_EQ(rule_error("a:b except"),
             std::string("event 'a:b except' ends where the events to exclude are expected\n") + kForm);
-  EXPECT_EQ(error_of("a:b level LOUD"),
+  EXPECT_EQ(rule_error("a:b level LOUD"),
             "unknown log level 'LOUD' in event 'a:b level LOUD'\n"
             "the levels are EMERG, ALERT, CRIT, ERR, WARNING, NOTICE, INFO, DEBUG_SYSTEM, DEBUG_PROGRAM, "
             "DEBUG_PROCESS, DEBUG_MODULE, DEBUG_UNIT, DEBUG_FUNCTION, DEBUG_LINE, DEBUG");
