@@ -225,7 +225,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
         if (!error) {
           tell_result(tell);
-          if (config_.fail_on_loss && !losses_.complete()) {
+          if (config_.fail_on_loss && losses_.has_losses()) {
             error = std::make_exception_ptr(
                 LaunchError(fmt::format("the trace of session '{}' is incomplete", config_.lttng_session_name()),
                             origin_, "use larger sub-buffers, record fewer events, or leave out fail-on-loss"));
@@ -253,8 +253,8 @@ void TraceScope::tell_result(const Tell& tell) const {
   tell(false,
        fmt::format("trace written to: {}{}", config_.destination(), summary_.empty() ? "" : " (" + summary_ + ")"));
   if (!config_.records_snapshots()) {
-    tell(!losses_.complete(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
-                                          tracing::describe_losses(losses_)));
+    tell(losses_.has_losses(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
+                                           tracing::describe_losses(losses_)));
   }
   if (const std::string cost = tracing::describe_cost(losses_); !cost.empty()) {
     tell(false, cost);

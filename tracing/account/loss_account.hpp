@@ -29,33 +29,64 @@ struct UnwrittenRange {
   std::uint64_t end_ns = 0;  // when the session was stopped
 };
 
-// Events of a channel that the tracer could not keep, as its counters say just before the session is destroyed.
+// What a channel recorded before the first packet that its trace still has.
+struct BeforeFirstPacket {
+  enum Why {
+    kOverwrittenInFiles,  // as asked: the oldest of a limited number of files is overwritten
+    kLost,                // in overwrite mode, before they were read
+    kRemoved              // the session was cleared, or an archive of it was moved away
+  };
+  Why why = kLost;
+  std::uint64_t packets = 0;
+  std::uint64_t discarded_events = 0;        // before the end of the first packet that is left
+  std::optional<std::uint64_t> events = {};  // in these packets; nothing: unknown
+  bool at_least = false;                     // some processes do not count what they fire
+
+  bool nothing() const { return packets == 0 && discarded_events == 0; }
+};
+
+enum class LossSource { kDaemon, kPackets, kKernelRecorder };
+
+// Events of a channel that the tracer could not keep: as the session daemon counts before the session is destroyed, or
+// as the packets of the trace tell (packet_losses.hpp).
 struct ChannelLoss {
   std::string domain;  // "ust" or "kernel"
   std::string channel;
   std::uint64_t discarded_events = 0;  // event-loss mode: newest events dropped while buffers were full
   std::uint64_t lost_packets = 0;      // overwrite mode: oldest packets overwritten
+  LossSource counted_by = LossSource::kPackets;
+  std::uint64_t only_daemon_events = 0;   // of discarded_events: those that never got into the count of a packet
+  std::uint64_t only_daemon_packets = 0;  // of lost_packets
+  BeforeFirstPacket before_first = {};    // not in the two counts
 
+  bool overwrite = false;
+  std::uint64_t tracefile_size = 0;  // bytes of a file, of which there are so many; 0: no limit
+  std::uint64_t tracefile_count = 0;
   std::uint64_t subbuffer_size = 0;  // bytes
   std::uint64_t subbuffer_count = 0;
   std::uint64_t bytes = 0;             // recorded
   std::vector<LossRange> ranges = {};  // where the discarded events are missing
   std::vector<UnwrittenRange> unwritten = {};
-  // Bytes. With kAdvisedSubbuffers (verdict.hpp) of this size nothing would have been lost.
+  // Bytes. With so many sub-buffers of this size nothing would have been lost.
   std::uint64_t advised_subbuffer_size = 0;
+  std::uint64_t advised_subbuffer_count = 0;
 };
 
 // How far it is known which process the lost events are of.
 enum class LossAttribution {
-  kExact,     // the processes lost no more than the daemon counts; other programs, which do not count, lost the rest
-  kEstimate,  // the processes lost more than the daemon counts: another session recorded at other times
+  kExact,     // the processes lost as much as the channels
+  kEstimate,  // they lost more (another session recorded at other times) or less (other programs do not count), or
+              // packets are missing, whose events nobody counted
   kUnknown
 };
 
 struct LossAccount {
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
-  bool complete() const { return discarded_events() == 0 && lost_packets() == 0 && !cut_short && damage.empty(); }
+  // Everything that was recorded is in the trace, and nothing was lost.
+  bool complete() const;
+  // Something was lost that nobody asked to be overwritten or removed.
+  bool has_losses() const;
 
   std::vector<ChannelLoss> channels;
   std::vector<ProcessAccount> processes = {};  // by the time of their beginning

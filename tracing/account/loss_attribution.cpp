@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "tracing/account/packet_losses.hpp"
 #include "tracing/account/process_account.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -23,33 +25,47 @@ std::uint64_t userspace_losses(const LossAccount& account) {
   return sum;
 }
 
-// The losses of each process that has buffers of its own.
-std::map<std::int64_t, std::uint64_t> losses_by_buffers(const std::vector<Stream>& streams) {
-  std::map<std::int64_t, std::uint64_t> losses;
+// The losses of each process that has buffers of its own. Nothing if packets are missing: how many events these held is
+// unknown.
+std::map<std::int64_t, std::optional<std::uint64_t>> losses_by_buffers(const std::vector<Stream>& streams) {
+  std::map<std::int64_t, std::optional<std::uint64_t>> losses;
   for (const Stream& stream : streams) {
-    if (stream.pid && !stream.packets.empty()) losses[*stream.pid] += stream.packets.back().discarded_events;
+    if (!stream.pid || stream.packets.empty()) continue;
+    const PacketLosses found = losses_of(stream);
+    std::optional<std::uint64_t>& sum = losses.try_emplace(*stream.pid, 0).first->second;
+    if (found.lost_packets + found.earlier_packets != 0) sum.reset();
+    if (sum) *sum += found.discarded_events;
   }
   return losses;
 }
 
+// In all channels together.
+bool packets_are_missing(const LossAccount& account) {
+  return std::any_of(account.channels.begin(), account.channels.end(), [](const ChannelLoss& channel) {
+    return channel.domain == "ust" && channel.lost_packets + channel.before_first.packets != 0;
+  });
+}
+
 // Lost = events fired - events in the trace, for each process that counts its events.
-std::map<std::int64_t, std::uint64_t> losses_by_counters(const std::vector<EventCounts>& counts,
-                                                         const RecordedEvents& events,
-                                                         const RecordedProcesses& recorded) {
+std::map<std::int64_t, std::optional<std::uint64_t>> losses_by_counters(const std::vector<EventCounts>& counts,
+                                                                        const RecordedEvents& events,
+                                                                        const RecordedProcesses& recorded) {
   std::map<std::int64_t, std::map<std::string, std::uint64_t>> fired;
   for (const EventCounts& process : counts) {
     for (const auto& [event, count] : process.events) {
       if (events.countable(event)) fired[process.pid][event] += count * events.times(event);
     }
   }
-  std::map<std::int64_t, std::uint64_t> losses;
+  std::map<std::int64_t, std::optional<std::uint64_t>> losses;
   for (const auto& [pid, by_event] : fired) {
     const auto found = recorded.find(pid);
+    std::uint64_t lost = 0;
     for (const auto& [event, count] : by_event) {
       std::uint64_t arrived = 0;
       if (found != recorded.end() && found->second.events.contains(event)) arrived = found->second.events.at(event);
-      losses[pid] += count - std::min(count, arrived);
+      lost += count - std::min(count, arrived);
     }
+    losses[pid] = lost;
   }
   return losses;
 }
@@ -90,15 +106,15 @@ std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& co
 
 void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,
                       const RecordedProcesses& recorded, const std::vector<Stream>& streams) {
-  std::map<std::int64_t, std::uint64_t> losses = losses_by_buffers(streams);
+  std::map<std::int64_t, std::optional<std::uint64_t>> losses = losses_by_buffers(streams);
   const bool by_buffers = !losses.empty();
   if (!by_buffers) losses = losses_by_counters(counts, events, recorded);
   std::uint64_t sum = 0;
   for (const auto& [pid, lost] : losses) {
-    sum += lost;
+    sum += lost.value_or(0);
     const bool counted = std::any_of(account.processes.begin(), account.processes.end(),
                                      [pid = pid](const ProcessAccount& process) { return process.pid == pid; });
-    if (!counted && lost != 0) account.processes.push_back({.name = "", .pid = pid});
+    if (!counted && lost.value_or(1) != 0) account.processes.push_back({.name = "", .pid = pid});
   }
   for (ProcessAccount& process : account.processes) {
     process.lost.reset();
@@ -111,8 +127,35 @@ void attribute_losses(LossAccount& account, const std::vector<EventCounts>& coun
   }
   if (account.processes.empty()) return;
   const std::uint64_t total = userspace_losses(account);
-  account.attribution = sum <= total ? LossAttribution::kExact : LossAttribution::kEstimate;
+  account.attribution =
+      sum == total && !packets_are_missing(account) ? LossAttribution::kExact : LossAttribution::kEstimate;
   account.unattributed = total - std::min(sum, total);
+}
+
+void count_overwritten(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,
+                       const RecordedProcesses& recorded) {
+  ChannelLoss* overwritten = nullptr;
+  std::uint64_t discarded = 0;
+  for (ChannelLoss& channel : account.channels) {
+    if (channel.domain != "ust") continue;
+    discarded += channel.discarded_events + channel.before_first.discarded_events;
+    const bool in_files = channel.before_first.why == BeforeFirstPacket::kOverwrittenInFiles;
+    // Counters know one sum for all channels, and what lost packets held is unknown as well.
+    if (channel.lost_packets != 0 || (in_files && channel.before_first.packets != 0 && overwritten)) return;
+    if (in_files && channel.before_first.packets != 0) overwritten = &channel;
+  }
+  if (overwritten == nullptr) return;
+  std::uint64_t missing = 0;
+  for (const auto& [pid, lost] : losses_by_counters(counts, events, recorded)) missing += lost.value_or(0);
+  if (missing <= discarded) return;
+  overwritten->before_first.events = missing - discarded;
+  const bool all_count = std::all_of(recorded.begin(), recorded.end(), [&counts](const auto& process) {
+    return std::any_of(counts.begin(), counts.end(),
+                       [&process](const EventCounts& counted) { return counted.pid == process.first; });
+  });
+  const bool all_countable =
+      std::none_of(events.rules.begin(), events.rules.end(), [](const auto& rule) { return rule.conditional; });
+  overwritten->before_first.at_least = !all_count || !all_countable;
 }
 
 }  // namespace tracing

@@ -2,8 +2,8 @@
 // Finds out which process lost how many of a session's events, and how many each process fired.
 //
 // Where each process has buffers of its own, their packets tell the losses. Where processes share buffers, lost =
-// events fired (event_counters.hpp) − events in the trace. LTTng's own counts for the channels are the check: where the
-// sums agree, the account is exact.
+// events fired (event_counters.hpp) − events in the trace. The losses of the channels are the check: where both sums
+// are equal and no packet is missing, the account is exact.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 #include "tracing/account/event_counters.hpp"
 #include "tracing/account/loss_account.hpp"
-#include "tracing/account/packet_index.hpp"
 #include "tracing/account/process_account.hpp"
 #include "tracing/account/recorded_events.hpp"
+#include "tracing/account/stream_packets.hpp"
 
 namespace tracing {
 
@@ -38,5 +38,10 @@ std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& co
 // Sets `lost` and `nodes` of `account.processes`, and its attribution.
 void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,
                       const RecordedProcesses& recorded, const std::vector<Stream>& streams);
+
+// Finds out how many events were in the packets that files of a limited size have overwritten: fired, neither in the
+// trace nor discarded. Unknown if several channels have overwritten some, or packets were lost as well.
+void count_overwritten(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,
+                       const RecordedProcesses& recorded);
 
 }  // namespace tracing

@@ -23,8 +23,12 @@ void read_domain(const std::string& session, const lttng_domain& domain, LossAcc
   const std::string doing = fmt::format("read the lost events of session '{}'", session);
   for (lttng_channel& channel : LttngList<lttng_channel>(doing, lttng_list_channels, handle.get())) {
     ChannelLoss loss{.domain = domain_name(domain.type), .channel = channel.name};
+    loss.counted_by = LossSource::kDaemon;
     loss.subbuffer_size = channel.attr.subbuf_size;
     loss.subbuffer_count = channel.attr.num_subbuf;
+    loss.overwrite = channel.attr.overwrite != 0;
+    loss.tracefile_size = channel.attr.tracefile_size;
+    loss.tracefile_count = channel.attr.tracefile_count;
     check_lttng(lttng_channel_get_discarded_event_count(&channel, &loss.discarded_events), doing);
     check_lttng(lttng_channel_get_lost_packet_count(&channel, &loss.lost_packets), doing);
     loss.discarded_events &= kCountBits;

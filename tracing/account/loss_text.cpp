@@ -9,7 +9,6 @@
 
 #include "tracing/account/event_cuts.hpp"
 #include "tracing/account/process_account.hpp"
-#include "tracing/account/verdict.hpp"
 
 namespace tracing {
 namespace {
@@ -40,6 +39,31 @@ std::string processes_that_lost(const LossAccount& losses) {
                      text);
 }
 
+std::string counted(std::uint64_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// What the channel recorded and lost before the first packet that is left.
+std::string before_first_packet(const ChannelLoss& loss) {
+  const BeforeFirstPacket& before = loss.before_first;
+  const std::string channel = fmt::format("{} channel {}", loss.domain, loss.channel);
+  std::string text;
+  if (before.packets != 0) {
+    const std::string packets = counted(before.packets, "packet");
+    if (before.why == BeforeFirstPacket::kOverwrittenInFiles) {
+      text = fmt::format("{}{} overwritten in {}, as asked: {} in its oldest files", before.at_least ? "at least " : "",
+                         before.events ? counted(*before.events, "event") : "some events", channel, packets);
+    } else if (before.why == BeforeFirstPacket::kLost) {
+      text = fmt::format("{} lost in {} before the first that was read", packets, channel);
+    } else {
+      text = fmt::format("{} of {} cleared or moved away", packets, channel);
+    }
+  }
+  if (before.discarded_events == 0) return text;
+  return fmt::format("{}{}{} lost in {} before the end of the first packet that is left", text,
+                     text.empty() ? "" : "\n", counted(before.discarded_events, "event"), channel);
+}
+
 }  // namespace
 
 std::string describe_losses(const LossAccount& losses) {
@@ -52,12 +76,15 @@ std::string describe_losses(const LossAccount& losses) {
       text += fmt::format(" with {} sub-buffers of {} bytes", loss.subbuffer_count, loss.subbuffer_size);
     }
     if (loss.advised_subbuffer_size != 0) {
-      text += fmt::format("; {} of {} would have held them", kAdvisedSubbuffers, loss.advised_subbuffer_size);
+      text += fmt::format("; {} of {} would have held them", loss.advised_subbuffer_count, loss.advised_subbuffer_size);
     }
+    if (loss.counted_by == LossSource::kDaemon) text += " (as the session daemon counts)";
   };
   for (const ChannelLoss& loss : losses.channels) {
     add(loss.discarded_events, "event", loss);
     add(loss.lost_packets, "packet", loss);
+    const std::string earlier = before_first_packet(loss);
+    if (!earlier.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", earlier);
   }
   text += processes_that_lost(losses);
   if (!losses.damage.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", losses.damage);

@@ -8,6 +8,7 @@
 #include "tracing/account/event_counters.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/recorded_events.hpp"
+#include "tracing/account/stream_packets.hpp"
 #include "tracing/plan/trace_config.hpp"
 
 namespace tracing {
@@ -19,13 +20,15 @@ class LossesByProcess {
  public:
   LossesByProcess(const TraceConfig& config, LossAccount& losses);
 
-  // When the session has gone. Reads the trace, which takes a second for a million events; only when something was
-  // lost.
-  void look_into(const std::string& recording);
+  // When the session has gone and its losses are counted (packet_losses.hpp). Reads the trace, which takes a second for
+  // a million events; only when something was lost.
+  void look_into(const std::string& recording, const std::vector<Stream>& streams);
 
  private:
   // Userspace has lost something, and there is time to look.
   bool needed() const;
+  // Files of a userspace channel have overwritten packets.
+  bool overwrites() const;
 
   LossAccount& losses_;
   std::vector<EventCounts> counts_;

@@ -29,7 +29,7 @@ bool ends_with_losses(const ChannelLoss& channel, const std::vector<Stream>& str
     if (stream.domain != channel.domain || stream.channel != channel.channel || stream.packets.empty()) continue;
     known += stream.packets.back().discarded_events;
   }
-  return channel.discarded_events > known;
+  return channel.discarded_events + channel.before_first.discarded_events > known;
 }
 
 // The error of writing so many bytes into a new file there; 0 when they fit, or no file can be made.
@@ -62,7 +62,8 @@ void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, st
   for (ChannelLoss& channel : account.channels) {
     if (channel.domain != "ust" || (!no_room && ends_with_losses(channel, streams))) continue;
     for (const Stream& stream : streams) {
-      if (stream.domain != channel.domain || stream.channel != channel.channel || stream.pid) continue;
+      if (stream.domain != channel.domain || stream.channel != channel.channel) continue;
+      if (stream.pid || stream.in_archives) continue;
       const std::uint64_t end = stream.packets.empty() ? origin : stream.packets.back().end;
       if (end >= stopped && !stream.packets.empty()) continue;
       channel.unwritten.push_back({.cpu = stream.cpu, .begin_ns = end - origin, .end_ns = stopped - origin});

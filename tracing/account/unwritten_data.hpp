@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tracing/account/loss_account.hpp"
-#include "tracing/account/packet_index.hpp"
+#include "tracing/account/stream_packets.hpp"
 
 namespace tracing {
 
@@ -17,7 +17,8 @@ namespace tracing {
 // that is stopped writes a last packet of every stream. A stream is therefore incomplete if its last packet ends before
 // `stopped` (CLOCK_MONOTONIC, ns; 0: unknown, nothing is added). Buffers that were full at the stop get no last packet
 // either: where events were lost after the last packets, streams count only when there is `no_room`. A process that has
-// buffers of its own ends its streams when it ends; such streams are left out.
+// buffers of its own ends its streams when it ends; such streams are left out. So are the
+// streams of a session that was rotated: without events after the rotation they get no last packet.
 void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped, bool no_room);
 
 // Why a file in `directory` can't grow, as a sentence: "the file system of DIRECTORY is full". "" when it can.

@@ -14,6 +14,7 @@
 #include "tracing/account/event_cost.hpp"
 #include "tracing/account/event_cuts.hpp"
 #include "tracing/account/loss_account.hpp"
+#include "tracing/account/packet_losses.hpp"
 #include "tracing/account/process_account.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -22,12 +23,16 @@ namespace {
 
 // The unbroken runs of packets before which events were lost. Returns the events of the longest.
 std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector<LossRange>& ranges) {
+  if (stream.packets.empty()) return 0;
   std::uint64_t longest = 0;
-  std::uint64_t discarded = 0;
+  // What was lost before packets that are not there any more has no place in the trace.
+  const bool is_whole = stream.packets.front().sequence_number.value_or(0) == 0;
+  std::uint64_t discarded = is_whole ? 0 : stream.packets.front().discarded_events;
   bool in_run = false;
   for (std::size_t i = 0; i < stream.packets.size(); ++i) {
     const Packet& packet = stream.packets[i];
-    const std::uint64_t lost = packet.discarded_events - std::exchange(discarded, packet.discarded_events);
+    const std::uint64_t before = std::exchange(discarded, packet.discarded_events);
+    const std::uint64_t lost = packet.discarded_events - std::min(before, packet.discarded_events);
     if (lost != 0) {
       const std::uint64_t begin = i == 0 ? packet.begin : stream.packets[i - 1].end;
       if (!in_run) ranges.push_back({.cpu = stream.cpu, .begin_ns = begin - origin, .end_ns = 0, .events = 0});
@@ -40,6 +45,30 @@ std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector
   return longest;
 }
 
+// Beyond kLargestAdvice nothing. LTTng takes no sub-buffer that is larger than the files of its channel.
+void advise(ChannelLoss& channel, std::uint64_t longest) {
+  // What was lost before the first packet or after the last is known as a sum only.
+  longest = std::max({longest, channel.before_first.discarded_events, std::uint64_t{1}});
+  const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + longest * kBytesPerLostEvent);
+  if (needed > kLargestAdvice) return;
+  channel.advised_subbuffer_size = std::bit_ceil(needed / kAdvisedSubbuffers);
+  channel.advised_subbuffer_count = kAdvisedSubbuffers;
+  if (channel.tracefile_size != 0 && channel.advised_subbuffer_size > channel.tracefile_size) {
+    channel.advised_subbuffer_size = std::bit_floor(channel.tracefile_size);
+    channel.advised_subbuffer_count = std::bit_ceil(needed / channel.advised_subbuffer_size);
+  }
+}
+
+const char* name_of(LossSource source) {
+  return source == LossSource::kPackets ? "packets" : source == LossSource::kDaemon ? "daemon" : "kernel recorder";
+}
+
+const char* name_of(BeforeFirstPacket::Why why) {
+  return why == BeforeFirstPacket::kOverwrittenInFiles ? "overwritten, as asked"
+         : why == BeforeFirstPacket::kLost             ? "lost"
+                                                       : "removed";
+}
+
 nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   nlohmann::ordered_json json = {{"domain", channel.domain},
                                  {"channel", channel.channel},
@@ -48,7 +77,20 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
                                  {"bytes", channel.bytes},
                                  {"discarded_events", channel.discarded_events},
                                  {"lost_packets", channel.lost_packets},
+                                 {"counted_by", name_of(channel.counted_by)},
                                  {"lost", nlohmann::ordered_json::array()}};
+  if (channel.only_daemon_events + channel.only_daemon_packets != 0) {
+    json["only_daemon"] = {{"discarded_events", channel.only_daemon_events},
+                           {"lost_packets", channel.only_daemon_packets}};
+  }
+  if (const BeforeFirstPacket& before = channel.before_first; !before.nothing()) {
+    json["before_first_packet"] = {{"why", name_of(before.why)},
+                                   {"packets", before.packets},
+                                   {"events", nullptr},
+                                   {"discarded_events", before.discarded_events}};
+    if (before.events) json["before_first_packet"]["events"] = *before.events;
+    if (before.at_least) json["before_first_packet"]["at_least"] = true;
+  }
   for (const LossRange& range : channel.ranges) {
     json["lost"].push_back(
         {{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}, {"events", range.events}});
@@ -58,7 +100,7 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   }
   if (channel.advised_subbuffer_size != 0) {
     json["would_have_held"] = {{"subbuffer_size", channel.advised_subbuffer_size},
-                               {"subbuffer_count", kAdvisedSubbuffers}};
+                               {"subbuffer_count", channel.advised_subbuffer_count}};
   }
   return json;
 }
@@ -105,11 +147,8 @@ void explain_losses(LossAccount& account, const std::vector<Stream>& streams) {
       for (const Packet& packet : stream.packets) channel.bytes += packet.bytes;
       longest = std::max(longest, add_ranges(stream, origin, channel.ranges));
     }
-    if (channel.discarded_events == 0 || channel.subbuffer_count == 0) continue;
-    // What was lost after the last packet is known as a sum only.
-    const std::uint64_t missing = std::max(longest, std::uint64_t{1}) * kBytesPerLostEvent;
-    const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + missing);
-    if (needed <= kLargestAdvice) channel.advised_subbuffer_size = std::bit_ceil(needed / kAdvisedSubbuffers);
+    const bool lost = channel.discarded_events + channel.before_first.discarded_events != 0;
+    if (lost && channel.subbuffer_count != 0) advise(channel, longest);
   }
 }
 
@@ -154,17 +193,13 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
   std::uint64_t lost = 0;
   std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t end = 0;
-  for (const Stream& stream : read_packet_index(directory)) {
-    for (std::size_t i = 0; i < stream.packets.size(); ++i) {
-      const Packet& packet = stream.packets[i];
+  for (const Stream& stream : read_streams(directory)) {
+    const PacketLosses losses = losses_of(stream);
+    discarded += losses.discarded_events;
+    lost += losses.lost_packets;
+    for (const Packet& packet : stream.packets) {
       begin = std::min(begin, packet.begin);
       end = std::max(end, packet.end);
-      if (i == 0) continue;
-      const Packet& before = stream.packets[i - 1];
-      discarded += packet.discarded_events - before.discarded_events;
-      if (packet.sequence_number && before.sequence_number) {
-        lost += *packet.sequence_number - *before.sequence_number - 1;
-      }
     }
   }
   const nlohmann::ordered_json json = {{"session", session_name},

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "tracing/account/packet_index.hpp"
+#include "tracing/account/stream_packets.hpp"
 #include "tracing/checks/perf_check.hpp"
 #include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/installed_program.hpp"
@@ -70,7 +70,7 @@ bool records_an_event(const std::vector<std::string>& context_fields, const fs::
   check_lttng(lttng_start_tracing(session.name().c_str()), doing);
   run_program(probe);
   check_lttng(lttng_stop_tracing(session.name().c_str()), doing);
-  const std::vector<Stream> streams = read_packet_index(session.directory());
+  const std::vector<Stream> streams = read_streams(session.directory());
   return std::any_of(streams.begin(), streams.end(), [](const Stream& stream) {
     return std::any_of(stream.packets.begin(), stream.packets.end(),
                        [](const Packet& packet) { return packet.bytes > kBytesWithoutEvents; });

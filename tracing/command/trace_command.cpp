@@ -85,7 +85,7 @@ void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool(
   const LossAccount losses = tracer.finish(config, give_up);
   print_line(describe_losses(losses));
   if (!losses.unwritten_verdict.empty()) fmt::print(stderr, "warning: {}\n", losses.unwritten_verdict);
-  if (config.fail_on_loss && !losses.complete()) {
+  if (config.fail_on_loss && losses.has_losses()) {
     throw TraceError(fmt::format("the trace of session '{}' is incomplete", config.lttng_session_name()),
                      "use larger buffers, record fewer events, or leave out --fail-on-loss");
   }

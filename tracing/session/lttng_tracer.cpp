@@ -7,14 +7,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "launcher/base/monotonic_clock.hpp"
 #include "tracing/account/cost_measurement.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/losses_by_process.hpp"
-#include "tracing/account/packet_index.hpp"
+#include "tracing/account/packet_losses.hpp"
 #include "tracing/account/session_step.hpp"
+#include "tracing/account/stream_packets.hpp"
 #include "tracing/account/unwritten_data.hpp"
 #include "tracing/account/verdict.hpp"
 #include "tracing/checks/context_check.hpp"
@@ -47,8 +49,8 @@ namespace tracing {
 namespace {
 
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
-void judge(LossAccount& losses, const std::string& name, const std::string& directory, std::uint64_t stopped) {
-  const std::vector<Stream> streams = read_packet_index(directory);
+void judge(LossAccount& losses, const std::vector<Stream>& streams, const std::string& name,
+           const std::string& directory, std::uint64_t stopped) {
   explain_losses(losses, streams);
   const std::string no_room = why_no_room(directory);
   find_unwritten(losses, streams, stopped, !no_room.empty());
@@ -58,6 +60,15 @@ void judge(LossAccount& losses, const std::string& name, const std::string& dire
   } catch (const TraceError& error) {
     losses.unwritten_verdict = error.what();
   }
+}
+
+// The streams of a recording that has been written.
+std::vector<Stream> streams_of(const LossAccount& losses, const std::string& directory) {
+  std::set<std::string> in_files;
+  for (const ChannelLoss& channel : losses.channels) {
+    if (channel.tracefile_size != 0) in_files.insert(channel.channel);
+  }
+  return read_streams(directory, in_files);
 }
 
 // Where the kernel recorder of a session runs: beside what is recorded, or beside the snapshots.
@@ -199,17 +210,27 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   timer.finished("destroy");
   EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
+  const bool readable = local && !session->snapshot;
+  std::vector<Stream> streams;
+  if (readable) {
+    streams = streams_of(losses, session->path);
+    count_in_packets(losses, streams);
+  }
   if (lost_by_kernel && !session->snapshot) {
-    losses.channels.push_back(
-        {.domain = "kernel", .channel = kKernelRecorderChannel, .discarded_events = *lost_by_kernel});
+    losses.channels.push_back({.domain = "kernel",
+                               .channel = kKernelRecorderChannel,
+                               .discarded_events = *lost_by_kernel,
+                               .counted_by = LossSource::kKernelRecorder});
   }
   const bool hurried = losses.cut_short || (give_up && give_up());
   // The first session on a machine takes some 30 ms longer to end, because of the measurement. It disturbs no process
   // then.
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
   timer.finished("cost of events");
-  if (local && !session->snapshot) by_process.look_into(session->path);
-  if (local && !session->snapshot) judge(losses, name, session->path, stopped);
+  if (readable) {
+    by_process.look_into(session->path, streams);
+    judge(losses, streams, name, session->path, stopped);
+  }
   timer.finished("verdict");
   losses.steps = std::move(steps);
   if (!kernel_failure.empty()) throw TraceError(kernel_failure);

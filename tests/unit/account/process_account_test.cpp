@@ -8,8 +8,8 @@
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/loss_attribution.hpp"
 #include "tracing/account/loss_text.hpp"
-#include "tracing/account/packet_index.hpp"
 #include "tracing/account/recorded_events.hpp"
+#include "tracing/account/stream_packets.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace {
@@ -91,16 +91,41 @@ TEST(ProcessAccount, WhatWasFiredAndIsNotInTheTraceIsLost) {
 TEST(ProcessAccount, WhatProgramsLoseThatDoNotCountIsLeftOver) {
   LossAccount losses = account(257);
   tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
-  EXPECT_EQ(losses.attribution, LossAttribution::kExact);
+  EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
   EXPECT_EQ(losses.unattributed, 7u);
   EXPECT_THAT(tracing::describe_losses(losses), testing::EndsWith("; 7 by programs that do not count"));
 }
 
-TEST(ProcessAccount, IsAnEstimateWhenTheDaemonCountsLess) {
+TEST(ProcessAccount, IsAnEstimateWhenTheChannelsLostLess) {
   LossAccount losses = account(200);
   tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
   EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
   EXPECT_THAT(tracing::describe_losses(losses), testing::HasSubstr("\nlost by process, estimated: listener [13]"));
+}
+
+TEST(ProcessAccount, IsAnEstimateWherePacketsAreMissing) {
+  LossAccount losses = account(250);
+  losses.channels[0].lost_packets = 1;
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
+  EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
+}
+
+TEST(ProcessAccount, CountsWhatFilesOfALimitedSizeHaveOverwritten) {
+  LossAccount losses = account(30);
+  losses.channels[0].before_first = {.why = tracing::BeforeFirstPacket::kOverwrittenInFiles, .packets = 4};
+  RecordedProcesses all = recorded();
+  tracing::count_overwritten(losses, talker_and_listener(), kRosEvents, all);
+  EXPECT_EQ(losses.channels[0].before_first.events, 220u);
+  EXPECT_EQ(tracing::describe_losses(losses),
+            "30 events lost in ust channel ros2\n"
+            "at least 220 events overwritten in ust channel ros2, as asked: 4 packets in its oldest files");
+  all.erase(99);
+  tracing::count_overwritten(losses, talker_and_listener(), kRosEvents, all);
+  EXPECT_FALSE(losses.channels[0].before_first.at_least) << "every process of the trace counts its events";
+  EXPECT_FALSE(losses.complete());
+  losses.channels[0].discarded_events = 0;
+  EXPECT_FALSE(losses.complete());
+  EXPECT_FALSE(losses.has_losses()) << "overwritten as asked";
 }
 
 TEST(ProcessAccount, NothingIsKnownOfEventsWithAConditionAndOfThoseThatWereNotAskedFor) {
@@ -125,6 +150,18 @@ TEST(ProcessAccount, BuffersOfAProcessTellByThemselves) {
   EXPECT_EQ(losses.processes[2].pid, 77);
   EXPECT_EQ(losses.processes[2].lost, 5u);
   EXPECT_EQ(losses.attribution, LossAttribution::kExact);
+}
+
+TEST(ProcessAccount, NothingIsKnownOfTheEventsOfLostPackets) {
+  LossAccount losses = account(0);
+  losses.channels[0].lost_packets = 3;
+  const std::vector<tracing::Stream> streams = {
+      {.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 12, .packets = {{.sequence_number = 3}}},
+      {.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 13, .packets = {{.sequence_number = 0}}}};
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, {}, streams);
+  EXPECT_EQ(losses.processes[0].lost, std::nullopt);
+  EXPECT_EQ(losses.processes[1].lost, 0u);
+  EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
 }
 
 TEST(ProcessAccount, CostIsWhatTheEventsTake) {

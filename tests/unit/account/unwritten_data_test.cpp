@@ -7,7 +7,7 @@
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tracing/account/loss_account.hpp"
-#include "tracing/account/packet_index.hpp"
+#include "tracing/account/stream_packets.hpp"
 
 namespace {
 
@@ -89,6 +89,14 @@ TEST(UnwrittenData, BuffersThatWereFullAtTheEndAreNoFailureToWrite) {
   EXPECT_TRUE(losses.channels[0].unwritten.empty());
   tracing::find_unwritten(losses, streams(), 4 * kNsPerSecond, true);
   EXPECT_EQ(losses.channels[0].unwritten.size(), 2u);
+}
+
+TEST(UnwrittenData, ASessionThatWasRotatedEndsWithoutLastPackets) {
+  LossAccount losses = account();
+  std::vector<Stream> rotated = streams();
+  for (Stream& stream : rotated) stream.in_archives = true;
+  tracing::find_unwritten(losses, rotated, 4 * kSecond, false);
+  EXPECT_TRUE(losses.channels[0].unwritten.empty());
 }
 
 TEST(UnwrittenData, ADirectoryWithRoomIsLeftAsItIs) {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verdict on a trace that lost events, from index files that the tests write.
+// The verdict on a trace that lost events, from packets that the tests make up.
 #include "tracing/account/verdict.hpp"
 
-#include <endian.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
+#include <utility>
+#include <vector>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/loss_text.hpp"
-#include "tracing/account/packet_index.hpp"
+#include "tracing/account/stream_packets.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace {
@@ -21,33 +21,11 @@ namespace {
 using tracing::ChannelLoss;
 using tracing::LossAccount;
 
-struct IndexEntry {
-  std::uint64_t begin;
-  std::uint64_t end;
-  std::uint64_t bytes;
-  std::uint64_t discarded;
-};
+using tracing::Stream;
 
 struct Verdict : testing::Test {
-  void write_index(const std::string& stream, const std::vector<IndexEntry>& entries) const {
-    const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index" / (stream + ".idx");
-    std::filesystem::create_directories(path.parent_path());
-    const std::filesystem::path packets = path.parent_path().parent_path() / stream;  // which are not read
-    std::ofstream{packets};
-    std::filesystem::resize_file(packets, 32768);
-    std::ofstream file(path, std::ios::binary);
-    for (const std::uint32_t word : {0xC1F1DCC1U, 1U, 1U, 72U}) {
-      const std::uint32_t big = htobe32(word);
-      file.write(reinterpret_cast<const char*>(&big), sizeof big);
-    }
-    for (const IndexEntry& entry : entries) {
-      for (const std::uint64_t word :
-           {std::uint64_t{0}, std::uint64_t{32768 * 8}, entry.bytes * 8, entry.begin, entry.end, entry.discarded,
-            std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{0}}) {
-        const std::uint64_t big = htobe64(word);
-        file.write(reinterpret_cast<const char*>(&big), sizeof big);
-      }
-    }
+  Stream stream(const std::string& cpu, std::vector<tracing::Packet> packets) const {
+    return {.domain = "ust", .channel = "ros2", .cpu = cpu, .packets = std::move(packets)};
   }
 
   LossAccount account(std::uint64_t discarded) const {
@@ -62,14 +40,13 @@ struct Verdict : testing::Test {
 };
 
 TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
-  write_index("ros2_0", {{1000, 2000, 32000, 0},
-                         {2100, 3000, 32000, 300},
-                         {3100, 4000, 32000, 1000},
-                         {4100, 5000, 100, 1000},
-                         {5100, 6000, 32000, 1500}});
-  write_index("ros2_1", {{900, 5900, 500, 0}});
   LossAccount losses = account(1500);
-  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
+  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 0},
+                                                {2100, 3000, 32000, 300},
+                                                {3100, 4000, 32000, 1000},
+                                                {4100, 5000, 100, 1000},
+                                                {5100, 6000, 32000, 1500}}),
+                                   stream("1", {{900, 5900, 500, 0}})});
   const ChannelLoss& channel = losses.channels.at(0);
   EXPECT_EQ(channel.bytes, 4 * 32000u + 100u + 500u);
   ASSERT_EQ(channel.ranges.size(), 2u);
@@ -85,14 +62,45 @@ TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
 }
 
 TEST_F(Verdict, AdvisesNothingWhereNoBufferHelps) {
-  write_index("ros2_0", {{1000, 2000, 32000, 10'000'000}});
   LossAccount losses = account(10'000'000);
-  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
+  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 10'000'000}})});
   EXPECT_EQ(losses.channels.at(0).advised_subbuffer_size, 0u);
 }
 
+TEST_F(Verdict, AdvisesNoSubbuffersThatAreLargerThanTheFilesOfTheChannel) {
+  LossAccount losses = account(1000);
+  losses.channels[0].tracefile_size = 70'000;
+  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 1000}})});
+  // The same 2 * (2 * 32 KiB + 1000 * 128 bytes) as above.
+  EXPECT_EQ(losses.channels[0].advised_subbuffer_size, 65536u);
+  EXPECT_EQ(losses.channels[0].advised_subbuffer_count, 8u);
+}
+
+TEST_F(Verdict, SaysWhatIsMissingBeforeTheFirstPacket) {
+  LossAccount losses = account(0);
+  losses.channels[0].before_first = {
+      .why = tracing::BeforeFirstPacket::kOverwrittenInFiles, .packets = 7, .discarded_events = 3};
+  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 3, 7}})});
+  EXPECT_TRUE(losses.channels[0].ranges.empty()) << "nobody knows where";
+  EXPECT_EQ(tracing::describe_losses(losses),
+            "some events overwritten in ust channel ros2, as asked: 7 packets in its oldest files\n"
+            "3 events lost in ust channel ros2 before the end of the first packet that is left");
+  EXPECT_FALSE(losses.complete());
+  EXPECT_NE(tracing::verdict_as_json(losses, "run").find("\"why\": \"overwritten, as asked\",\n"), std::string::npos);
+  losses.channels[0].before_first = {.why = tracing::BeforeFirstPacket::kLost, .packets = 1};
+  EXPECT_EQ(tracing::describe_losses(losses), "1 packet lost in ust channel ros2 before the first that was read");
+  losses.channels[0].before_first.why = tracing::BeforeFirstPacket::kRemoved;
+  EXPECT_EQ(tracing::describe_losses(losses), "1 packet of ust channel ros2 cleared or moved away");
+}
+
+TEST_F(Verdict, SaysThatTheDaemonHasCounted) {
+  LossAccount losses = account(12);
+  losses.channels[0].counted_by = tracing::LossSource::kDaemon;
+  EXPECT_EQ(tracing::describe_losses(losses),
+            "12 events lost in ust channel ros2 with 2 sub-buffers of 32768 bytes (as the session daemon counts)");
+}
+
 TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
-  write_index("ros2_0", {{1000, 2000, 32000, 0}});
   LossAccount losses = account(0);
   const std::filesystem::path directory = sandbox.directory() / "run";
   losses.attribution = tracing::LossAttribution::kExact;
@@ -108,7 +116,8 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
                   .time = 77,
                   .rate = 300'000,
                   .share = 0.03}};
-  tracing::explain_losses(losses, tracing::read_packet_index(directory));
+  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 0}})});
+  std::filesystem::create_directories(directory);
   tracing::write_verdict(losses, "run", directory);
   EXPECT_EQ(test_support::read_file(directory / tracing::kVerdictFile), R"json({
   "session": "run",
@@ -126,6 +135,7 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
       "bytes": 32000,
       "discarded_events": 0,
       "lost_packets": 0,
+      "counted_by": "packets",
       "lost": []
     }
   ],
@@ -197,16 +207,6 @@ TEST_F(Verdict, ReplacesAPlantedLinkAndLeavesItsTargetAsItWas) {
     EXPECT_EQ(test_support::read_file(verdict).substr(0, 15), "{\n  \"session\": ");
   }
   EXPECT_EQ(test_support::read_file(sandbox.directory() / "target"), "precious\n");
-}
-
-TEST_F(Verdict, IgnoresWhatIsNoIndex) {
-  const std::filesystem::path path = sandbox.directory() / "run/ust/uid/0/64-bit/index/ros2_0.idx";
-  std::filesystem::create_directories(path.parent_path());
-  test_support::write_file(path, "not an index at all, and long enough to be read as one");
-  LossAccount losses = account(3);
-  tracing::explain_losses(losses, tracing::read_packet_index(sandbox.directory() / "run"));
-  EXPECT_EQ(losses.channels.at(0).bytes, 0u);
-  EXPECT_TRUE(losses.channels.at(0).ranges.empty());
 }
 
 TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {

@@ -26,8 +26,11 @@ ReadTrace read_trace(const std::string& directory) {
   std::istringstream err(result.err);
   for (std::string line; std::getline(err, line);) {
     const std::size_t found = line.find(discarded);
-    if (found != std::string::npos && line.find(" event", found) != std::string::npos) {
-      trace.discarded += std::stoull(line.substr(found + discarded.size()));
+    if (found != std::string::npos) {
+      const bool packets = line.find(" packet", found) < line.find(" between", found);
+      (packets ? trace.lost_packets : trace.discarded) += std::stoull(line.substr(found + discarded.size()));
+    } else if (line.find("Tracer may have discarded ") != std::string::npos) {
+      ++trace.unknown_losses;
     } else {
       trace.complaints += line + "\n";
     }

@@ -14,6 +14,8 @@ namespace trace_test {
 struct ReadTrace {
   std::map<std::string, int> events;  // count by name
   std::uint64_t discarded = 0;        // events, as the reader's warnings say
+  std::uint64_t lost_packets = 0;     // likewise
+  int unknown_losses = 0;             // warnings that events may have been discarded, without a number
   std::vector<std::string> lines;
   std::string complaints;  // the reader's stderr except those warnings; must be empty
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of a recorded trace, from the index files that LTTng's consumer writes beside the streams, or the
-// streams.
+// The packets of a trace that has been written, stream by stream.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,12 +26,16 @@ struct Stream {
   std::string channel;                   // "ros2"
   std::string cpu;                       // "0"
   std::optional<std::int64_t> pid = {};  // of the process that owns the buffers, where each process has its own
-  std::vector<Packet> packets;
+  bool in_archives = false;              // a part of it is: the session was rotated
+  std::vector<Packet> packets = {};      // in their order
 };
 
-// The streams of the recording in `directory` (the path of its session, or of a snapshot). A file that is no stream
-// gives none. Format of an index: struct ctf_packet_index of lttng-tools, big-endian.
-std::vector<Stream> read_packet_index(const std::filesystem::path& directory);
+// The streams of the recording in `directory`, the path of its session or of a snapshot. A stream is the same through
+// all archives that `lttng rotate` made, and through the numbered files of a channel in `channels_in_files`, which
+// limits their size. A stream without readable packets is listed, too: on a full disk there may be no more of it.
+// Packets that are there in part are left out.
+std::vector<Stream> read_streams(const std::filesystem::path& directory,
+                                 const std::set<std::string>& channels_in_files = {});
 
 // When the first packet of all streams begins; the greatest number when there is none.
 std::uint64_t first_time(const std::vector<Stream>& streams);
