@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/frontend/entity_equivalence.hpp"
-
 #include <gtest/gtest.h>
 
 #include "launcher/base/read_source_file.hpp"
+#include "launcher/frontend/entity_equivalence.hpp"
 #include "tests/unit/frontend/entity_test_support.hpp"
 
 namespace launch {
