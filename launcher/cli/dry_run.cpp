@@ -181,6 +181,15 @@ std::string load_request_as_text(const LoadRequest& request) {
   return text;
 }
 
+constexpr const char* kLeftToRun = "depends on a function that only a run calls";
+
+std::string left_to_run_as_text(const LeftToRun& left) {
+  if (!left.function.empty()) {
+    return fmt::format("function {} ({})\n  {}\n", left.function, to_string(left.where), kLeftToRun);
+  }
+  return fmt::format("action ({})\n  {}: {}\n", to_string(left.where), kLeftToRun, left.error);
+}
+
 // Everything but the last line.
 std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_environment) {
   std::string text;
@@ -203,6 +212,9 @@ std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_
   }
   for (const CoroutineRequest& coroutine : plan.coroutines) {
     text += fmt::format("coroutine {}\n\n", coroutine.object->describe());
+  }
+  for (const LeftToRun& left : plan.left_to_run) {
+    text += left_to_run_as_text(left) + "\n";
   }
   for (const PlannedHandler& planned : plan.handlers) {
     text += fmt::format("{} ({})\n", describe(planned.handler), to_string(planned.handler.where));
@@ -299,6 +311,16 @@ void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher
   }
   for (const ProcessCommand& command : plan.commands) {
     root["commands"].push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
+  }
+  for (const LeftToRun& left : plan.left_to_run) {
+    Json item;
+    item["function"] = left.function.empty() ? Json(nullptr) : Json(left.function);
+    item["why"] = kLeftToRun;
+    if (!left.error.empty()) {
+      item["error"] = left.error;
+    }
+    item["source"] = left.where ? source_as_json(left.where) : Json(nullptr);
+    root["only_in_a_run"].push_back(std::move(item));
   }
   for (const PlannedHandler& planned : plan.handlers) {
     root["handlers"].push_back(handler_as_json(planned, launcher_environment));

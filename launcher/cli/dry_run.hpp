@@ -20,6 +20,7 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
 //   traces           their evaluated attributes
 //   logs             messages of `log` actions
 //   python_includes  Python launch files, which count as empty
+//   only_in_a_run    what depends on functions that timers and handlers would call: function, why, source
 //   includes, shutdown  how many other files were included; whether a `shutdown` was visited
 std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment);
 

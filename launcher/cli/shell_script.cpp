@@ -54,6 +54,10 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
                           to_string(node.origin));
     }
   }
+  for (const LeftToRun& left : plan.left_to_run) {
+    text += fmt::format("\n# not known without a run: {}, {}\n",
+                        left.function.empty() ? "an action" : "function " + left.function, to_string(left.where));
+  }
   for (const PlannedHandler& planned : plan.handlers) {
     text += fmt::format("\n# not watched for: {}, {}\n", describe(planned.handler), to_string(planned.handler.where));
   }

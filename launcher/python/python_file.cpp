@@ -16,6 +16,16 @@ namespace launch {
 
 namespace {
 
+// Throws OnlyARunCalls if the object calls a function of the launch file and the scope is one of a plan's events.
+void call_if_run(python::Object& object, const Scope& scope, const SourceRange& where) {
+  if (!scope.only_planned) {
+    return;
+  }
+  if (std::optional<std::string> function = object.function()) {
+    throw OnlyARunCalls(std::move(*function), where);
+  }
+}
+
 // A substitution that only Python can perform.
 class PythonSubstitution : public Substitution {
  public:
@@ -23,6 +33,7 @@ class PythonSubstitution : public Substitution {
       : Substitution(std::move(where)), object_(std::move(object)), file_(std::move(file)) {}
 
   std::string perform(Scope& scope) const override {
+    call_if_run(*object_, scope, where());
     try {
       PythonHost host(*file_, scope);
       return object_->perform(host);
@@ -46,6 +57,7 @@ class PythonAction : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
+    call_if_run(*object_, context.scope(), where());
     std::vector<python::Entity> entities;
     try {
       PythonHost host(*file_, context);

@@ -36,6 +36,10 @@ struct Scope {
   std::shared_ptr<PackageIndex> packages;
   // Tells the user what is suspicious but no error, with its place. May be empty.
   std::function<void(const SourceRange& where, const std::string& text)> warn;
+  // A plan is looking at what waits for an event or a timer: functions of launch files must not be called.
+  bool only_planned = false;
+  // A function that might have changed this scope has not been called, so what follows may fail for that reason.
+  bool incomplete = false;
 
   // Forgets the configurations, parameters and remaps: for `reset`, and for `forwarding="false"` of a group.
   void clear_configurations() {

@@ -9,6 +9,9 @@ namespace launch {
 
 namespace {
 
+// An action that gives itself, or a file that includes itself, would exhaust the stack.
+constexpr int kDeepest = 600;
+
 // Runs `restore` at the end of a block, however it ends.
 template <typename Restore>
 class AtExit {
@@ -38,6 +41,12 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
 }
 
 void LaunchContext::visit(const Action& action) {
+  if (depth_ == kDeepest) {
+    throw LaunchError(fmt::format("actions hold each other more than {} deep", kDeepest), action.where(),
+                      "an action that gives itself has no end");
+  }
+  ++depth_;
+  AtExit restore([this] { --depth_; });
   if (action.condition().holds(scope_)) {
     action.execute(*this);
   } else {
@@ -47,14 +56,19 @@ void LaunchContext::visit(const Action& action) {
 
 void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
   for (const ActionPtr& action : actions) {
-    if (!report_) {
-      visit(*action);
-      continue;
-    }
     try {
       visit(*action);
+    } catch (const OnlyARunCalls& left) {
+      requests_.left_to_run.push_back({left.function(), "", action->where()});
+      scope_.incomplete = true;
     } catch (const LaunchError& error) {
-      report_(error, in_left_out_);
+      if (scope_.incomplete) {
+        requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
+      } else if (report_) {
+        report_(error, in_left_out_);
+      } else {
+        throw;
+      }
     }
   }
 }

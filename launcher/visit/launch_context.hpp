@@ -88,6 +88,7 @@ class LaunchContext {
   Scope scope_;
   Requests requests_;
   bool plan_only_ = false;
+  int depth_ = 0;                                         // of the actions that are being visited
   std::function<void(const LaunchError&, bool)> report_;  // empty: not exploring
   bool in_left_out_ = false;
   std::vector<Scope> pushed_environments_;

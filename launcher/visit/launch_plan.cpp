@@ -47,12 +47,15 @@ class Planner {
     collect(plan, timers, Duration(0));
     while (!timers.empty() && !plan.shutdown) {
       auto next = timers.extract(timers.begin());
+      next.mapped().scope.only_planned = true;
       context_.visit_in(std::move(next.mapped().scope), next.mapped().actions);
       collect(plan, timers, next.key());
     }
     for (PlannedHandler& planned : plan.handlers) {
       const auto handler = std::make_shared<const EventHandler>(planned.handler);
-      context_.visit_in(Invocation{handler, made_up_event(*handler)}.scope(), handler->actions);
+      Scope scope = Invocation{handler, made_up_event(*handler)}.scope();
+      scope.only_planned = true;
+      context_.visit_in(std::move(scope), handler->actions);
       if (std::holds_alternative<OnShutdown>(handler->event)) {
         check_farewell(context_.requests());
       }
@@ -75,8 +78,19 @@ class Planner {
     for (const ProcessSpec& spec : requests.processes) {
       asked_for.push_back(&table_.add(spec));
     }
-    resolve_dependencies(requests.dependencies, asked_for, table_);
-    check_commands(requests.commands, table_);
+    append(plan.left_to_run, requests.left_to_run);
+    any_left_ |= !plan.left_to_run.empty();
+    try {
+      resolve_dependencies(requests.dependencies, asked_for, table_);
+      check_commands(requests.commands, table_);
+    } catch (const LaunchError& error) {
+      if (!any_left_) {
+        throw;
+      }
+      // A function that was not called may start the process that this speaks of.
+      const Diagnostic& first = error.diagnostics().front();
+      plan.left_to_run.push_back({"", first.message, first.where});
+    }
 
     for (NodeDescription& node : requests.nodes) {
       node.process += plan.processes.size();
@@ -110,6 +124,7 @@ class Planner {
 
   LaunchContext& context_;
   ProcessTable table_;
+  bool any_left_ = false;                // a function was left to a run
   std::vector<const RunScope*> scopes_;  // scopes that are active at this point
 };
 

@@ -23,6 +23,7 @@ struct LaunchPlan {
   std::vector<CoroutineRequest> coroutines;  // of Python launch files
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // Python launch files, which count as empty
+  std::vector<LeftToRun> left_to_run;        // depends on functions that only a run calls
   int includes = 0;
   bool shutdown = false;  // a `shutdown` was visited
 };
@@ -34,7 +35,8 @@ struct PlannedHandler {
 };
 
 // Visits the description; timers fire without waiting, in the order of their due times, and after them every event
-// handler. Throws LaunchError.
+// handler. Functions of the launch file that timers and handlers would call are not called: `left_to_run` names them.
+// Throws LaunchError.
 LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description);
 
 }  // namespace launch

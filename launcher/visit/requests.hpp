@@ -18,6 +18,7 @@
 #include "launcher/visit/dependency.hpp"
 #include "launcher/visit/event_handler.hpp"
 #include "launcher/visit/launch_record.hpp"
+#include "launcher/visit/left_to_run.hpp"
 #include "launcher/visit/process_command.hpp"
 #include "launcher/visit/run_scope.hpp"
 
@@ -66,6 +67,7 @@ struct Requests {
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // paths of Python launch files, which are only noted
   int includes = 0;                          // other launch files that were included
+  std::vector<LeftToRun> left_to_run;        // in a plan: what only a run can tell
   std::vector<LaunchRecord> records;         // the steps of the visit
 
   // Whether nothing is to be carried out.

@@ -99,6 +99,8 @@ class Object {
   virtual std::string describe() = 0;
   // The entities to visit in place of an action.
   virtual std::vector<Entity> execute(Host& host) = 0;
+  // The function of the launch file that perform() of a condition or execute() would call; nullopt for none.
+  virtual std::optional<std::string> function() = 0;
   // Starts the object, which is a coroutine.
   virtual void start(Host& host) = 0;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/python/module/entity_reader.hpp"
 
+#include <pybind11/stl.h>
+
 #include "launcher/python/module/python_failure.hpp"
 #include "launcher/python/module/read_place.hpp"
 
@@ -35,6 +37,14 @@ class PythonObject : public Object {
   }
   std::vector<Entity> execute(Host& host) override {
     return run_python(host, [&] { return read_entities(object_.attr("_execute")()); });
+  }
+  std::optional<std::string> function() override {
+    const py::gil_scoped_acquire lock;
+    try {
+      return object_.attr("_calls")().cast<std::optional<std::string>>();
+    } catch (const std::exception&) {
+      return py::str(py::type::of(object_).attr("__name__")).cast<std::string>();
+    }
   }
   void start(Host& host) override {
     run_python(host, [&] { object_.attr("_start")(); });

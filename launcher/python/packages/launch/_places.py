@@ -26,6 +26,14 @@ def is_own(filename):
     return filename.startswith(_OWN_PACKAGES) or filename.startswith('<')
 
 
+def name_of_function(function):
+    """The name of a function; None for one of these packages."""
+    code = getattr(function, '__code__', None)
+    if code is not None and code.co_filename.startswith(_OWN_PACKAGES):
+        return None
+    return getattr(function, '__qualname__', None) or type(function).__name__
+
+
 def caller():
     """The instruction outside these packages that is being executed."""
     frame = sys._getframe(2)

@@ -3,7 +3,7 @@
 
 from launch._entities import entities, entity, told_at
 from launch._values import LaunchFileError, WrongKind, reject
-from launch._places import of_function
+from launch._places import name_of_function, of_function
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 
@@ -63,6 +63,14 @@ class Action(LaunchDescriptionEntity):
         from launch.launch_context import LaunchContext
         with told_at(self):
             return entities(self.execute(LaunchContext._of_launch()), self._place_of_execute())
+
+    # The function of the launch file that _execute() calls; a plan must not call it for an event.
+    def _calls(self):
+        called = name_of_function(type(self).execute)
+        function = getattr(self, '_function', None)
+        if called is None and function is not None:
+            return name_of_function(function) or 'a function'
+        return called
 
     def _place_of_execute(self):
         return of_function(type(self).execute)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Condition: whether an action is executed."""
 
-from launch._places import Located
+from launch._places import Located, name_of_function
 from launch._values import function
 
 
@@ -26,6 +26,12 @@ class Condition(Located):
     # None: the launcher asks Python, as for a substitution, and gets true or false.
     def _part(self):
         return None
+
+    # The function of the launch file that _perform() calls; a plan must not call it for an event.
+    def _calls(self):
+        if getattr(self, '_predicate', None) is not None:
+            return name_of_function(self._predicate) or 'a predicate'
+        return name_of_function(type(self).evaluate)
 
     def _perform(self):
         from launch._entities import told_at

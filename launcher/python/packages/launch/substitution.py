@@ -17,6 +17,10 @@ class Substitution(Located):
     def _part(self):
         return None
 
+    # A plan performs substitutions also for an event: they are values.
+    def _calls(self):
+        return None
+
     def _perform(self):
         from launch.launch_context import LaunchContext
         from launch._entities import told_at
