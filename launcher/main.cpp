@@ -15,6 +15,7 @@
 #include "launcher/cli/completion.hpp"
 #include "launcher/cli/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
+#include "launcher/cli/result_output.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "launcher/cli/schema_command.hpp"
 #include "tracing/command/trace_command.hpp"
@@ -52,9 +53,10 @@ int main(int argc, char** argv) {
     return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), launch::own_environment());
   }
   if (command == "complete") {
+    launch::ResultOutput result;
     for (const std::string& word : launch::completions({argv + 2, argv + argc}, launch::builtin_actions(),
                                                        launch::own_environment(), tracing::trace_completions)) {
-      fmt::print("{}\n", word);
+      result.print(word + "\n");
     }
     return 0;
   }

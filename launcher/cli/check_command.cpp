@@ -2,7 +2,6 @@
 #include "launcher/cli/check_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "launcher/cli/check_launch_file.hpp"
 #include "launcher/cli/diagnostic_output.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/result_output.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -50,6 +50,7 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
+  ResultOutput result;
   options.arguments = target.arguments;
   std::vector<Diagnostic> found;
   std::size_t files = 0;
@@ -66,12 +67,13 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   const auto errors = static_cast<std::size_t>(std::count_if(
       found.begin(), found.end(), [](const Diagnostic& one) { return one.severity == Severity::kError; }));
   if (format == "json") {
-    fmt::print("{}", diagnostics_as_json(found));
+    result.print(diagnostics_as_json(found));
   } else if (format == "sarif") {
-    fmt::print("{}", diagnostics_as_sarif(found));
+    result.print(diagnostics_as_sarif(found));
   } else {
-    fmt::print("{}{}: {}, {}\n", render(found, ::isatty(STDOUT_FILENO) != 0), counted(files, "file"),
-               counted(errors, "error"), counted(found.size() - errors, "warning"));
+    result.print(render(found, result.is_terminal()));
+    result.print(fmt::format("{}: {}, {}\n", counted(files, "file"), counted(errors, "error"),
+                             counted(found.size() - errors, "warning")));
   }
   return errors == 0 ? 0 : 1;
 }

@@ -9,6 +9,7 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/graph.hpp"
+#include "launcher/cli/result_output.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/visit/launch_plan.hpp"
 
@@ -27,6 +28,7 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
+  ResultOutput result;
   try {
     LaunchContext context(registry, environment, own_prefix(), [](auto, auto, auto) {});
     for (const auto& [name, value] : target.arguments) {
@@ -37,7 +39,7 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     const LaunchGraph graph = graph_of(plan_launch(context, *description));
     const std::string text = format == "svg" ? graph_as_svg(graph) : graph_as_dot(graph);
     if (output.empty()) {
-      fmt::print("{}", text);
+      result.print(text);
     } else if (!(std::ofstream(output) << text)) {
       throw LaunchError(fmt::format("'{}' can't be written", output), {});
     }

@@ -5,6 +5,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <optional>
+#include <string>
+
 #include "actions/builtin_actions.hpp"
 #include "launcher/base/monotonic_clock.hpp"
 #include "launcher/base/own_prefix.hpp"
@@ -13,6 +16,7 @@
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/launch_tracepoints.hpp"
 #include "launcher/cli/print_description.hpp"
+#include "launcher/cli/result_output.hpp"
 #include "launcher/cli/shell_script.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/language/introspection.hpp"
@@ -114,14 +118,13 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   return exit_code;
 }
 
-int dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
-            const Environment& environment) {
+std::string dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
+                    const Environment& environment) {
   const LaunchPlan plan = plan_launch(context, description);
   const auto show = command.mode == CommandMode::kDryRunJson    ? plan_as_json
                     : command.mode == CommandMode::kDryRunShell ? plan_as_shell_script
                                                                 : plan_as_text;
-  fmt::print("{}", show(plan, environment));
-  return 0;
+  return show(plan, environment);
 }
 
 }  // namespace
@@ -134,6 +137,10 @@ int run_command(const CommandLine& command, Environment environment) {
     show_python_tracebacks();
   }
   const Registry registry = builtin_actions();
+  std::optional<ResultOutput> result;
+  if (command.mode != CommandMode::kRun) {
+    result.emplace();
+  }
   try {
     LaunchContext context(registry, environment, own_prefix(),
                           [](LogLevel, std::string_view logger, std::string_view text) {
@@ -153,15 +160,16 @@ int run_command(const CommandLine& command, Environment environment) {
     const TimedStep load = {"load", std::chrono::nanoseconds(loading)};
     switch (command.mode) {
       case CommandMode::kShowArguments:
-        fmt::print("{}", show_arguments(find_arguments(*description, registry, context.scope())));
+        result->print(show_arguments(find_arguments(*description, registry, context.scope())));
         return 0;
       case CommandMode::kPrint:
-        fmt::print("{}", print_description(*description, registry, context.scope()));
+        result->print(print_description(*description, registry, context.scope()));
         return 0;
       case CommandMode::kDryRunText:
       case CommandMode::kDryRunJson:
       case CommandMode::kDryRunShell:
-        return dry_run(command, context, *description, environment);
+        result->print(dry_run(command, context, *description, environment));
+        return 0;
       case CommandMode::kRun:
         return run(command, registry, environment, description, load,
                    {.kind = LaunchRecord::Kind::kLoad,

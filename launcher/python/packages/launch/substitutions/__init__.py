@@ -218,6 +218,8 @@ class _Joined(Substitution):
     def __init__(self, substitutions):
         if isinstance(substitutions, (str, Substitution)):
             substitutions = [substitutions]
+        if isinstance(substitutions, (set, frozenset)):
+            raise WrongKind(f'the parts of {type(self).__name__} must be a list, a set has no order')
         self._texts = [text(part, f'a part of {type(self).__name__}')
                        for part in items(substitutions, f'the parts of {type(self).__name__}')]
 

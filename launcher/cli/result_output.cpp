@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/cli/result_output.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace launch {
+
+ResultOutput::ResultOutput() {
+  std::fflush(stdout);
+  const int former = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (former < 0) {
+    return;
+  }
+  file_ = ::fdopen(former, "w");
+  if (::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {  // without standard error
+    const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nothing >= 0) {
+      ::dup2(nothing, STDOUT_FILENO);
+      ::close(nothing);
+    }
+  }
+}
+
+ResultOutput::~ResultOutput() {
+  std::fflush(stdout);
+  if (file_ != nullptr) {
+    std::fflush(file_);
+    ::dup2(::fileno(file_), STDOUT_FILENO);
+    std::fclose(file_);
+  }
+}
+
+void ResultOutput::print(std::string_view text) {
+  if (file_ != nullptr) {
+    fmt::print(file_, "{}", text);
+  }
+}
+
+bool ResultOutput::is_terminal() const {
+  return file_ != nullptr && ::isatty(::fileno(file_)) != 0;
+}
+
+}  // namespace launch
