@@ -52,7 +52,7 @@ struct StreamClass {
 
 // Both functions write the value in its place: returning an optional takes longer than reading the value.
 void read_number(const ctf::Record& contexts, const Context& context, std::optional<std::int64_t>& value) {
-  if (!context.offset) {
+  if (!context.offset || contexts.base == nullptr) {
     value = contexts[context.index].integer();
     return;
   }
@@ -62,7 +62,7 @@ void read_number(const ctf::Record& contexts, const Context& context, std::optio
 }
 
 void read_text(const ctf::Record& contexts, const Context& context, std::optional<std::string_view>& value) {
-  if (!context.offset) {
+  if (!context.offset || contexts.base == nullptr) {
     value = contexts[context.index].string();
     return;
   }

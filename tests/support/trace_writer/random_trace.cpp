@@ -72,7 +72,7 @@ class RandomTraceWriter {
     clock_bits_ = compact_ ? 27 : 32;
     contexts_ = below(2) == 0;
     for (std::size_t i = 0; i < 1 + below(6); ++i) events_.push_back(structure(3));
-    context_ = structure(1);
+    context_ = below(2) == 0 ? usual_contexts() : structure(1);
   }
 
   void write() {
@@ -206,6 +206,21 @@ class RandomTraceWriter {
   RandomField random_structure(int depth) {
     const RandomField inside = structure(depth - 1);
     return {fmt::format("struct {{ {} }} @;", inside.declaration), inside.alignment, inside.write};
+  }
+
+  // Contexts that LTTng records, which readers look at for each event.
+  RandomField usual_contexts() {
+    return {integer(32, 8, true) + " _vpid;" + integer(32, 8, true) + " _vtid;" +
+                integer(8, 8, true, "encoding = UTF8;") + " _procname[17];",
+            8, [this](BitWriter& out) {
+              out.align(8);
+              out.number(below(1000), 32);
+              out.number(random_(), 32);
+              const std::uint64_t used = below(16);
+              for (std::uint64_t i = 0; i < 17; ++i) {
+                out.number(i < used ? 'n' : 0, 8);
+              }
+            }};
   }
 
   static void name_it(std::string& declaration, const std::string& name) {
