@@ -122,6 +122,7 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
           try {
             start_flight_recorder(loop, tell);
           } catch (const tracing::TraceError& failure) {
+            end_failed_session();
             error = std::make_exception_ptr(
                 LaunchError(fmt::format("tracing setup failed: {}", failure.what()), origin_, failure.remedy()));
           }
@@ -148,8 +149,18 @@ void TraceScope::guard_overhead(EventLoop& loop, const Tell& tell) {
   try {
     overhead_guard_ = watch_overhead(config_, prefix_, loop, tell);
   } catch (const tracing::TraceError&) {
-    tracer_->finish(config_, [] { return true; });
+    end_failed_session();
     throw;
+  }
+}
+
+void TraceScope::end_failed_session() {
+  overhead_guard_.reset();
+  flight_recorder_.reset();
+  try {
+    tracer_->finish(config_, [] { return true; });
+  } catch (const tracing::TraceError&) {
+    // The error of the setup counts.
   }
 }
 

@@ -67,6 +67,8 @@ class TraceScope : public RunScope {
   void look_around_later(EventLoop& loop, const Tell& tell);
   void summarize();
   void guard_overhead(EventLoop& loop, const Tell& tell);
+  // Ends a session that has begun although its setup failed.
+  void end_failed_session();
   void start_flight_recorder(EventLoop& loop, const Tell& tell);
 
   tracing::TraceConfig config_;

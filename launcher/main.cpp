@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
                                                        launch::own_environment(), tracing::trace_completions)) {
       result.print(word + "\n");
     }
-    return 0;
+    return result.finish() ? 0 : 1;
   }
   if (command == "schema") {
     return launch::schema_command({argv + 2, argv + argc}, launch::builtin_actions());

@@ -75,7 +75,7 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
     result.print(fmt::format("{}: {}, {}\n", counted(files, "file"), counted(errors, "error"),
                              counted(found.size() - errors, "warning")));
   }
-  return errors == 0 ? 0 : 1;
+  return result.finish() && errors == 0 ? 0 : 1;
 }
 
 }  // namespace launch

@@ -43,7 +43,7 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     } else if (!(std::ofstream(output) << text)) {
       throw LaunchError(fmt::format("'{}' can't be written", output), {});
     }
-    return 0;
+    return result.finish() ? 0 : 1;
   } catch (const LaunchError& error) {
     print_errors(error);
     return 1;

@@ -2,8 +2,10 @@
 #include "launcher/cli/result_output.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 namespace launch {
 
@@ -33,8 +35,24 @@ ResultOutput::~ResultOutput() {
 }
 
 void ResultOutput::print(std::string_view text) {
-  if (file_ != nullptr) {
-    fmt::print(file_, "{}", text);
+  if (file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_) < text.size()) {
+    note_error();
+  }
+}
+
+bool ResultOutput::finish() {
+  if (file_ != nullptr && std::fflush(file_) != 0) {
+    note_error();
+  }
+  if (error_ != 0) {
+    std::fprintf(stderr, "launch: error: the output can't be written: %s\n", std::strerror(error_));
+  }
+  return error_ == 0;
+}
+
+void ResultOutput::note_error() {
+  if (error_ == 0) {
+    error_ = errno != 0 ? errno : EIO;
   }
 }
 

@@ -17,10 +17,15 @@ class ResultOutput {
   ~ResultOutput();
 
   void print(std::string_view text);
+  // False if something could not be written, which it reports. To be called behind the last print().
+  bool finish();
   bool is_terminal() const;
 
  private:
+  void note_error();
+
   std::FILE* file_ = nullptr;  // the former standard output; null if there was none
+  int error_ = 0;              // errno of the first text that could not be written
 };
 
 }  // namespace launch

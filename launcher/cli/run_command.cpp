@@ -161,15 +161,15 @@ int run_command(const CommandLine& command, Environment environment) {
     switch (command.mode) {
       case CommandMode::kShowArguments:
         result->print(show_arguments(find_arguments(*description, registry, context.scope())));
-        return 0;
+        return result->finish() ? 0 : 1;
       case CommandMode::kPrint:
         result->print(print_description(*description, registry, context.scope()));
-        return 0;
+        return result->finish() ? 0 : 1;
       case CommandMode::kDryRunText:
       case CommandMode::kDryRunJson:
       case CommandMode::kDryRunShell:
         result->print(dry_run(command, context, *description, environment));
-        return 0;
+        return result->finish() ? 0 : 1;
       case CommandMode::kRun:
         return run(command, registry, environment, description, load,
                    {.kind = LaunchRecord::Kind::kLoad,

@@ -20,6 +20,8 @@ namespace {
 
 // Aliases of aliases can make a short text stand for a huge tree.
 constexpr std::size_t kMaximumNodes = 1'000'000;
+// As deep as yaml-cpp lets brackets nest; aliases of deep nodes inside deep nodes must not go beyond it.
+constexpr std::size_t kMaximumDepth = 500;
 
 constexpr std::size_t kUsualKeys = 4;  // of a mapping: what is reserved
 
@@ -47,6 +49,7 @@ class TreeBuilder {
   struct Anchored {
     YamlNode node;
     std::size_t size;
+    std::size_t height;  // levels below it
   };
 
   bool at_end() const { return next_ == events_.list.size() || events_.list[next_].kind == YamlEvent::Kind::kEnd; }
@@ -57,6 +60,8 @@ class TreeBuilder {
   void node(YamlNode& node, const YamlNode* key = nullptr, bool is_list = false) {
     const YamlEvent& event = events_.list[next_++];
     const std::size_t nodes_before = nodes_++;
+    ++depth_;
+    const std::size_t deepest_before = std::exchange(deepest_, depth_);
     switch (event.kind) {
       case YamlEvent::Kind::kNull:
         null(node, event, key);
@@ -66,7 +71,7 @@ class TreeBuilder {
         break;
       case YamlEvent::Kind::kAlias:
         alias(node, event);
-        return;
+        break;
       case YamlEvent::Kind::kSequence:
         sequence(node, event, is_list);
         break;
@@ -74,10 +79,23 @@ class TreeBuilder {
         mapping(node, event);
         break;
       case YamlEvent::Kind::kEnd:
-        return;
+        break;
     }
-    if (event.anchor != 0) {
-      anchors_[event.anchor] = {node, nodes_ - nodes_before};
+    const std::size_t height = deepest_ - depth_--;
+    deepest_ = std::max(deepest_, deepest_before);
+    if (event.anchor != 0 && event.kind != YamlEvent::Kind::kAlias) {
+      const std::size_t size = nodes_ - nodes_before;
+      count(size, event);  // the copy that aliases are made from
+      anchors_[event.anchor] = {node, size, height};
+    }
+  }
+
+  // Notes nodes that are copied.
+  void count(std::size_t nodes, const YamlEvent& event) {
+    nodes_ += nodes;
+    if (nodes_ > kMaximumNodes) {
+      throw LaunchError(fmt::format("the aliases expand to more than {} nodes", kMaximumNodes),
+                        source_.range(event.at, 1));
     }
   }
 
@@ -146,9 +164,10 @@ class TreeBuilder {
     if (found == anchors_.end()) {
       throw LaunchError("the alias stands inside the node that it refers to", source_.range(event.at, 1));
     }
-    nodes_ += found->second.size;
-    if (nodes_ > kMaximumNodes) {
-      throw LaunchError(fmt::format("the aliases expand to more than {} nodes", kMaximumNodes),
+    count(found->second.size, event);
+    deepest_ = std::max(deepest_, depth_ + found->second.height);
+    if (deepest_ > kMaximumDepth) {
+      throw LaunchError(fmt::format("the aliases nest more than {} levels deep", kMaximumDepth),
                         source_.range(event.at, 1));
     }
     scalar_begin_ = event.at;
@@ -194,6 +213,8 @@ class TreeBuilder {
   YamlNode root_;
   std::map<std::size_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
+  std::size_t depth_ = 0;    // of the node that is being built
+  std::size_t deepest_ = 0;  // of the nodes of the innermost node that is being built
   // The scalar read last: the key, when the value of a key follows.
   std::size_t scalar_begin_ = 0;
   std::size_t scalar_end_ = 0;

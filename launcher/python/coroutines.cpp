@@ -35,6 +35,12 @@ void Coroutines::cancel() {
   timer_ = loop_.after(Duration(0), [this] { step(); });
 }
 
+void Coroutines::abandon() {
+  running_ = 0;
+  wake_up_.reset();
+  timer_.reset();
+}
+
 void Coroutines::step() {
   const EventLoop::SourcePtr timer = std::move(timer_);  // outlives its callback
   std::optional<LaunchError> failure;

@@ -29,6 +29,8 @@ class Coroutines {
   bool idle() const { return running_ == 0; }
   // Asks all coroutines to end; they may still have something to do first.
   void cancel();
+  // Lets them wait for ever: none takes another step.
+  void abandon();
 
  private:
   void step();

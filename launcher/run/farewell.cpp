@@ -41,7 +41,12 @@ void Farewell::visit_handlers() {
 
 void Farewell::on_done(ProcessId process) {
   if (processes_.erase(process) != 0 && processes_.empty()) {
-    loop_.post([this] { end(); });
+    // Unless the handlers have started another process meanwhile.
+    loop_.post([this] {
+      if (processes_.empty()) {
+        end();
+      }
+    });
   }
 }
 

@@ -92,7 +92,11 @@ void LaunchService::on_signal(int signal) {
                    fmt::format("user interrupted with {} again, killing what is left", name));
   farewell_.end();
   supervisor_.kill_all();
+  timers_.clear();
+  coroutines_.abandon();
+  ros_tasks_.shutdown();
   scopes_.hurry();
+  check_finished();
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
@@ -179,6 +183,9 @@ void LaunchService::start(Round round) {
   for (const ProcessCommand& command : requests.commands) {
     processes_.execute(command);
   }
+  if (phase_ != Phase::kRunning) {
+    return;  // a command has ended the launch: its process could not start again
+  }
   for (const UnregisterRequest& request : requests.unregistered) {
     if (!handlers_.remove(request.name)) {
       context_.message(LogLevel::kWarning, "launch",
@@ -194,9 +201,10 @@ void LaunchService::start(Round round) {
   }
   processes_.wait(round);
   observe_output();
+  // Before the processes: a container that can't start drops what waits for it, and a shutdown drops everything.
+  ros_tasks_.start(std::move(requests.loads), std::move(requests.transitions));
   processes_.start(round);
   timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
-  ros_tasks_.start(std::move(requests.loads), std::move(requests.transitions));
   for (const CoroutineRequest& request : requests.coroutines) {
     if (phase_ == Phase::kRunning) {
       coroutines_.start(request);

@@ -19,6 +19,8 @@ class Timers {
   void start(TimerRequest request);
   // Forgets the timers that a shutdown cancels. The others still fire.
   void shutdown();
+  // Forgets all timers.
+  void clear() { timers_.clear(); }
   bool empty() const { return timers_.empty(); }
 
  private:

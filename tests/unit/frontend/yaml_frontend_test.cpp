@@ -118,6 +118,17 @@ TEST(YamlFrontend, ResolvesAliasesAndMergeKeysAsPyYamlDoes) {
   EXPECT_EQ(text_of(root.children[3], "exec"), "run");
 }
 
+// Each anchor is as deep as brackets may be, and stands on the one before.
+TEST(YamlFrontend, AliasesDoNotNestDeeperThanBrackets) {
+  std::string text = "launch:\n- let:\n    name: x\n    value:\n";
+  for (int i = 1; i <= 3; ++i) {
+    text += "    - &a" + std::to_string(i) + " " + std::string(300, '[') +
+            (i > 1 ? "*a" + std::to_string(i - 1) + " " : "x") + std::string(300, ']') + "\n";
+  }
+  EXPECT_NE(load_error(file_of("t.launch.yaml", text)).find("the aliases nest more than 500 levels deep"),
+            std::string::npos);
+}
+
 TEST(YamlFrontend, RefusesAliasesThatContainThemselvesOrExplode) {
   EXPECT_THROW(yaml("launch: &a\n- group: *a\n"), LaunchError);
   std::string text = "launch:\n- x: {a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]";

@@ -80,6 +80,21 @@ TEST_F(RosTasksTest, ComponentsOfOneActionAreLoadedOneAfterAnother) {
   EXPECT_TRUE(client_.closed);
 }
 
+TEST_F(RosTasksTest, TheComponentsOfAContainerThatCannotStartAreGivenUp) {
+  runner_.script("container", {{.spawn_error = ENOENT}});
+  EXPECT_EQ(run(kTwoInAContainer), 1);
+  EXPECT_THAT(messages_, testing::Contains(HasSubstr("Failed to load node 'a' of type 'p::A' in container '/left/c': "
+                                                     "its process does not run")));
+  EXPECT_LT(loop_.now(), 1s);
+}
+
+TEST_F(RosTasksTest, NothingIsLoadedWhenARequiredProcessCannotStart) {
+  runner_.default_script({.exits_after = 60s});
+  runner_.script("missing", {{.spawn_error = ENOENT}});
+  EXPECT_EQ(run(std::string(R"xml(<executable cmd="missing" on_exit="shutdown"/>)xml") + kTwoInAContainer), 1);
+  EXPECT_LT(loop_.now(), 10s);
+}
+
 TEST_F(RosTasksTest, ActionsLoadSideBySide) {
   const auto answers = loop_.after(1s, [this] {
     EXPECT_THAT(client_.asked, ElementsAre("load /x a", "load /y b"));

@@ -48,6 +48,24 @@ TEST_F(FarewellTest, HandlersAreVisitedInALaterTurn) {
   EXPECT_THAT(journal_, ElementsAre("a", "b", "over"));
 }
 
+TEST_F(FarewellTest, AProcessThatCannotStartDoesNotCutTheOthersShort) {
+  Farewell* running = nullptr;
+  std::vector<std::string> journal;
+  Farewell farewell(loop_, {[&](const Invocation&) {
+                              running->wait_for(1);
+                              running->on_done(1);  // it could not start
+                              running->wait_for(2);
+                            },
+                            [&] { journal.emplace_back("over"); }, [](const std::string&) {}});
+  running = &farewell;
+  farewell.say({handler("a", 5s)});
+  loop_.advance(1s);
+  EXPECT_THAT(journal, IsEmpty());
+  farewell.on_done(2);
+  loop_.run_until_idle();
+  EXPECT_THAT(journal, ElementsAre("over"));
+}
+
 TEST_F(FarewellTest, IsOverWhenTheLastProcessIsDone) {
   starts_ = {1, 2};
   farewell_.say({handler("a", 5s)});

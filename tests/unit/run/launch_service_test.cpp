@@ -101,6 +101,14 @@ TEST_F(LaunchServiceTest, ASignalShutsDownAndASecondKillsAndHurries) {
   EXPECT_LT(loop_.now(), 3s);
 }
 
+TEST_F(LaunchServiceTest, ASecondSignalWaitsForNoTimer) {
+  runner_.default_script({.exits_after = 1h});
+  const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
+  const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="3600" cancel_on_shutdown="false"/>)xml"), 0);
+  EXPECT_LT(loop_.now(), 3s);
+}
+
 TEST_F(LaunchServiceTest, ASignalWhileAScopeBeginsStartsNothingAndEndsIt) {
   const auto signal = loop_.after(5ms, [this] { loop_.deliver_signal(SIGTERM); });
   EXPECT_EQ(run(R"xml(<scope name="x"/><scope name="y"/><executable cmd="a"/>)xml"), 0);
