@@ -26,7 +26,7 @@ namespace {
 // Time after the start of a launch. It is a guess, and only the duration of the end depends on it.
 constexpr std::chrono::milliseconds kNodesHaveRegistered{500};
 // To describe a complete trace in one line, up to this many bytes are read: a tenth of a second.
-constexpr std::uint64_t kLargestSummarized = 8'000'000;
+constexpr std::uint64_t kLargestSummarized = 100'000'000;
 
 // An event of the stack (docs/tracetools.md): the stack compares the times itself and fires only this.
 constexpr const char* kLateCallback = "ros2_deadline:callback";
