@@ -101,10 +101,10 @@ struct Found {
 // The session's directory and those of its archives.
 std::vector<fs::path> chunks_of(const fs::path& directory) {
   std::vector<fs::path> chunks = {directory};
-  std::error_code none;
-  for (const fs::directory_entry& archive : fs::directory_iterator(directory / "archives", none)) {
-    chunks.push_back(archive.path());
-  }
+  std::error_code error;
+  // Another program may move an archive away meanwhile.
+  fs::directory_iterator archive(directory / "archives", error);
+  for (; !error && archive != fs::directory_iterator(); archive.increment(error)) chunks.push_back(archive->path());
   return chunks;
 }
 
@@ -116,9 +116,12 @@ std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::
   Traces traces;
   for (const fs::path& chunk : chunks_of(directory)) {
     for (const char* domain : {"ust", "kernel"}) {
-      std::error_code none;
-      for (const fs::directory_entry& entry : fs::recursive_directory_iterator(chunk / domain, none)) {
-        if (!entry.is_regular_file(none)) continue;
+      std::error_code error;
+      fs::recursive_directory_iterator iterator(chunk / domain, error);
+      for (; !error && iterator != fs::recursive_directory_iterator(); iterator.increment(error)) {
+        const fs::directory_entry& entry = *iterator;
+        std::error_code gone;
+        if (!entry.is_regular_file(gone)) continue;
         const std::optional<FileName> name = stream_of(entry.path(), channels_in_files);
         if (!name) continue;
         const fs::path trace = entry.path().parent_path();

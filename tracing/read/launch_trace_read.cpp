@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstdio>
+#include <exception>
 #include <map>
 #include <set>
 
@@ -196,5 +198,8 @@ int main(int argc, char** argv) {
     return kFailure;
   } catch (const tracing::TraceReadError& error) {
     return print_error(error);
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("launch trace read: error: {}\n", error.what()).c_str(), stderr);
+    return kFailure;
   }
 }

@@ -83,6 +83,39 @@ void put_in_order(std::vector<ctf::Packet>& packets) {
   packets.erase(std::unique(packets.begin(), packets.end(), same), packets.end());
 }
 
+// The stream files of a trace, in the order of their names. What can't be listed, because another program has removed
+// it, is noted in `problem`.
+std::vector<fs::path> stream_files(const fs::path& directory, std::string& problem) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::directory_iterator entry(directory, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    std::error_code gone;
+    if (entry->is_regular_file(gone) && name != "metadata" && !name.starts_with('.')) files.push_back(entry->path());
+  }
+  if (error && problem.empty()) problem = fmt::format("'{}': {}", directory.string(), error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Null, with the reason in `problem`, if the file can't be opened.
+std::unique_ptr<ctf::MappedFile> map_file(const fs::path& file, std::string& problem) {
+  try {
+    return std::make_unique<ctf::MappedFile>(file);
+  } catch (const std::system_error& error) {
+    if (problem.empty()) problem = fmt::format("'{}': {}", file.string(), error.code().message());
+    return nullptr;
+  }
+}
+
+// The path that messages and losses show.
+std::string shown_path(const fs::path& file) {
+  std::error_code gone;
+  const fs::path canonical = fs::canonical(file, gone);
+  return gone ? file.string() : canonical.string();
+}
+
 }  // namespace
 
 // Directories with the same identity, such as the chunks of a rotated session or several snapshots.
@@ -200,27 +233,17 @@ void DirectReader::read(TraceSink& sink) {
     };
     std::map<std::tuple<std::uint64_t, std::optional<std::uint64_t>, std::string>, Found> found;
     for (const fs::path& path : trace.directories) {
-      std::vector<fs::path> files;
-      for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-        const std::string name = entry.path().filename();
-        if (entry.is_regular_file() && name != "metadata" && !name.starts_with('.')) files.push_back(entry.path());
-      }
-      std::sort(files.begin(), files.end());
-      for (const fs::path& file : files) {
-        try {
-          trace.files.push_back(std::make_unique<ctf::MappedFile>(file));
-        } catch (const std::system_error& error) {
-          throw TraceReadError(
-              fmt::format("cannot read the trace '{}': '{}': {}", path.string(), file.string(), error.code().message()),
-              "check the permissions of the files below it");
-        }
+      for (const fs::path& file : stream_files(path, problem)) {
+        std::unique_ptr<ctf::MappedFile> mapped = map_file(file, problem);
+        if (!mapped) continue;
+        trace.files.push_back(std::move(mapped));
         ctf::PacketList list = find_packets(trace.declarations, *trace.files.back());
         if (!list.problem.empty() && problem.empty()) problem = fmt::format("'{}', {}", file.string(), list.problem);
         for (ctf::Packet& packet : list.packets) {
           // A stream without a number of its own is one file.
           const std::string name = packet.stream_instance_id ? std::string() : file.string();
           Found& stream = found[{packet.stream_id, packet.stream_instance_id, name}];
-          if (stream.name.empty()) stream.name = fs::canonical(file);
+          if (stream.name.empty()) stream.name = shown_path(file);
           stream.packets.push_back(std::move(packet));
         }
       }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/report/recorded_processes.hpp"
@@ -82,6 +84,9 @@ int main(int argc, char** argv) {
     return arguments.summary ? print_summary(arguments) : print_report(arguments);
   } catch (const tracing::TraceReadError& error) {
     print_error(error);
+    return kFailure;
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("launch report: error: {}\n", error.what()).c_str(), stderr);
     return kFailure;
   }
 }
