@@ -68,6 +68,17 @@ TEST_F(WaitSetConditions, WhatItIsGivenEachTimeIsFoundEachTime) {
   }
 }
 
+TEST_F(WaitSetConditions, AnotherWaitWithoutClearingWaitsForWhatWasLeft) {
+  b_.trigger();
+  EXPECT_THAT(left({}, RCL_RET_OK), ElementsAre(kNull, &b_.handle, kNull, kNull));
+  b_.trigger();
+  EXPECT_EQ(rcl_wait(&set_, kNoTime), RCL_RET_OK);
+  EXPECT_EQ(set_.guard_conditions[0], nullptr);
+  EXPECT_EQ(set_.guard_conditions[1], &b_.handle);
+  EXPECT_EQ(rcl_wait(&set_, kNoTime), RCL_RET_TIMEOUT);
+  rcl_reset_error();
+}
+
 TEST_F(WaitSetConditions, WhatIsAddedForOneWaitIsThereInThatWaitOnly) {
   c_.trigger();
   EXPECT_THAT(left({}, RCL_RET_TIMEOUT), ElementsAre(kNull, kNull, kNull, kNull));

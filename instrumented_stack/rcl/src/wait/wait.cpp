@@ -18,6 +18,9 @@ constexpr int64_t kForever = std::numeric_limits<int64_t>::max();
 rcl_ret_t time_until_first_timer(const rcl_wait_set_impl_t& impl, int64_t& time) {
   time = kForever;
   for (size_t i = 0; i < impl.timer_count; ++i) {
+    if (impl.timers[i] == nullptr) {
+      continue;
+    }
     int64_t until_next = 0;
     const rcl_ret_t result = rcl_timer_get_time_until_next_call(impl.timers[i], &until_next);
     if (result == RCL_RET_TIMER_CANCELED) {
@@ -31,11 +34,17 @@ rcl_ret_t time_until_first_timer(const rcl_wait_set_impl_t& impl, int64_t& time)
   return RCL_RET_OK;
 }
 
+// An entry is null if the wait before did not find it ready and the wait set was not cleared since.
+template <typename Entity>
+void* rmw_entity_or_null(const Entity* entity) {
+  return entity == nullptr ? nullptr : rmw_entity_of(entity);
+}
+
 template <typename Entity>
 void collect(const std::vector<const Entity*>& entities, size_t count, std::vector<void*>& rmw_entities) {
   rmw_entities.clear();
   for (size_t i = 0; i < count; ++i) {
-    rmw_entities.push_back(rmw_entity_of(entities[i]));
+    rmw_entities.push_back(rmw_entity_or_null(entities[i]));
   }
 }
 
@@ -43,7 +52,7 @@ void collect_rmw_entities(rcl_wait_set_impl_t& impl) {
   collect(impl.subscriptions, impl.subscription_count, impl.rmw_subscriptions);
   collect(impl.guard_conditions, impl.guard_condition_count, impl.rmw_guard_conditions);
   for (size_t i = 0; i < impl.timer_count; ++i) {
-    impl.rmw_guard_conditions.push_back(rmw_entity_of(impl.timers[i]));
+    impl.rmw_guard_conditions.push_back(rmw_entity_or_null(impl.timers[i]));
   }
   collect(impl.clients, impl.client_count, impl.rmw_clients);
   collect(impl.services, impl.service_count, impl.rmw_services);
@@ -72,6 +81,9 @@ void keep_ready(rcl_wait_set_impl_t& impl) {
 rcl_ret_t keep_ready_timers(rcl_wait_set_impl_t& impl, bool& any) {
   any = false;
   for (size_t i = 0; i < impl.timer_count; ++i) {
+    if (impl.timers[i] == nullptr) {
+      continue;
+    }
     bool is_ready = false;
     if (const rcl_ret_t result = rcl_timer_is_ready(impl.timers[i], &is_ready); result != RCL_RET_OK) {
       return result;
