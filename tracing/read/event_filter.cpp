@@ -90,11 +90,18 @@ bool EventFilter::accepts_process(const Event& event) const {
   });
 }
 
-bool EventFilter::accepts(const Event& event) {
+std::int64_t EventFilter::absolute(const TimeBound& bound, const Event& event) {
   if (!first_ns_) first_ns_ = event.timestamp_ns;
-  const auto absolute = [&](const TimeBound& bound) { return bound.since_first ? *first_ns_ + bound.ns : bound.ns; };
-  if (begin && event.timestamp_ns < absolute(*begin)) return false;
-  if (end && event.timestamp_ns >= absolute(*end)) return false;
+  return bound.since_first ? *first_ns_ + bound.ns : bound.ns;
+}
+
+bool EventFilter::is_behind(const Event& event) {
+  return end && event.timestamp_ns >= absolute(*end, event);
+}
+
+bool EventFilter::accepts(const Event& event) {
+  if (begin && event.timestamp_ns < absolute(*begin, event)) return false;
+  if (is_behind(event)) return false;
   if (!accepts_name(*event.event_class)) return false;
   if (!processes.empty() && !accepts_process(event)) return false;
   return std::all_of(expressions.begin(), expressions.end(),

@@ -36,6 +36,8 @@ class EventFilter {
 
   // Must be called for each event of the trace, in order.
   bool accepts(const Event& event);
+  // The event is at `end` or later. As all later events are, too, the reading may end here.
+  bool is_behind(const Event& event);
   // To be called before the events of another reading.
   void restart() {
     names_.clear();
@@ -43,6 +45,7 @@ class EventFilter {
   }
 
  private:
+  std::int64_t absolute(const TimeBound& bound, const Event& event);
   bool accepts_name(const EventClass& event_class);
   bool accepts_process(const Event& event) const;
 

@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 
+#include <cerrno>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -248,8 +249,12 @@ class CsvPrinter : public EventPrinter {
   }
 
   void print(const Loss& loss) override {
-    fmt::print(stderr, "launch trace read: warning: {} {} of {} were lost\n",
-               loss.count ? std::to_string(*loss.count) : "an unknown number of", lost_what(loss), stream_name(loss));
+    const std::string count = loss.count ? std::to_string(*loss.count) : "an unknown number of";
+    // fmt::print would throw where the standard error output is closed.
+    std::fputs(
+        fmt::format("launch trace read: warning: {} {} of {} were lost\n", count, lost_what(loss), stream_name(loss))
+            .c_str(),
+        stderr);
   }
 
  private:
@@ -280,15 +285,20 @@ class CsvPrinter : public EventPrinter {
 
 }  // namespace
 
+void write_out(std::FILE* out, std::string_view text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0) throw OutputClosed{errno};
+}
+
 void EventPrinter::end_line() {
   line_.push_back('\n');
   if (line_.size() >= kWriteAt) flush();
 }
 
 void EventPrinter::flush() {
-  const bool written = std::fwrite(line_.data(), 1, line_.size(), out_) == line_.size() && std::fflush(out_) == 0;
-  line_.clear();
-  if (!written) throw OutputClosed();
+  const std::string_view lines(line_.data(), line_.size());
+  line_.clear();  // frees nothing, and forgets the lines even if they can't be written
+  write_out(out_, lines);
 }
 
 std::unique_ptr<EventPrinter> make_text_printer(std::FILE* out) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tracing/reader/event.hpp"
@@ -14,7 +15,12 @@
 namespace tracing {
 
 // Thrown when the output can't be written: the reader of a pipe has gone, the disk is full.
-struct OutputClosed {};
+struct OutputClosed {
+  int error = 0;  // as in errno
+};
+
+// Writes the text and what `out` still holds. Throws OutputClosed.
+void write_out(std::FILE* out, std::string_view text);
 
 class EventPrinter {
  public:

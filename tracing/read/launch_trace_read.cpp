@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <map>
 #include <set>
@@ -35,9 +37,10 @@ class PrintingSink : public tracing::TraceSink {
       : filter_(arguments.filter), printer_(printer), left_(arguments.limit) {}
 
   void on_event(const tracing::Event& event) override {
+    if (filter_.is_behind(event)) throw tracing::EndOfReading();
     if (!filter_.accepts(event)) return;
-    if (left_ && (*left_)-- == 0) throw Enough();
     printer_.print(event);
+    if (left_ && --*left_ == 0) throw Enough();
   }
   // A loss is never left out: it may have hidden the event that the user looks for.
   void on_loss(const tracing::Loss& loss) override { printer_.print(loss); }
@@ -50,7 +53,8 @@ class PrintingSink : public tracing::TraceSink {
 
 class CountingSink : public tracing::TraceSink {
  public:
-  explicit CountingSink(tracing::EventFilter& filter) : filter_(filter) {}
+  explicit CountingSink(tracing::EventFilter& filter, std::optional<std::uint64_t> limit = std::nullopt)
+      : filter_(filter), left_(limit) {}
   std::map<std::string, std::uint64_t> counts() const {
     std::map<std::string, std::uint64_t> result;
     for (std::size_t id = 0; id < counts_.size(); ++id) {
@@ -64,15 +68,18 @@ class CountingSink : public tracing::TraceSink {
   std::set<std::string> fields;
 
   void on_event(const tracing::Event& event) override {
+    if (filter_.is_behind(event)) throw tracing::EndOfReading();
     if (!filter_.accepts(event)) return;
     const std::size_t id = event.event_class->id;
     if (id >= counts_.size()) {
       counts_.resize(id + 1);
       names_.resize(id + 1);
     }
-    if (counts_[id]++ > 0) return;
-    names_[id] = event.name();
-    fields.insert(event.event_class->fields.begin(), event.event_class->fields.end());
+    if (counts_[id]++ == 0) {
+      names_[id] = event.name();
+      fields.insert(event.event_class->fields.begin(), event.event_class->fields.end());
+    }
+    if (left_ && --*left_ == 0) throw Enough();
   }
   void on_loss(const tracing::Loss& loss) override {
     (loss.kind == tracing::Loss::Kind::kEvents ? lost_events : lost_packets) += loss.count.value_or(0);
@@ -81,20 +88,28 @@ class CountingSink : public tracing::TraceSink {
 
  private:
   tracing::EventFilter& filter_;
+  std::optional<std::uint64_t> left_;
   std::vector<std::uint64_t> counts_;  // by EventClass::id
   std::vector<std::string> names_;
 };
 
-int print_error(const tracing::TraceReadError& error) {
-  fmt::print(stderr, "launch trace read: error: {}\n", error.what());
-  if (!error.remedy().empty()) fmt::print(stderr, "    = help: {}\n", error.remedy());
+// Does not throw where the standard error output is closed, unlike fmt::print.
+int print_error(const std::string& message, const std::string& remedy = "") {
+  std::string text = fmt::format("launch trace read: error: {}\n", message);
+  if (!remedy.empty()) text += fmt::format("    = help: {}\n", remedy);
+  std::fputs(text.c_str(), stderr);
   return kFailure;
+}
+
+int print_error(const tracing::TraceReadError& error) {
+  return print_error(error.what(), error.remedy());
 }
 
 // Reads as much as possible and returns the exit code.
 int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
   try {
-    tracing::TraceReader(arguments.directories).read(sink);
+    tracing::TraceReader reader(arguments.directories);
+    if (arguments.limit != 0) reader.read(sink);
   } catch (const tracing::TraceReadError& error) {
     return print_error(error);
   } catch (const Enough&) {
@@ -109,23 +124,27 @@ int print_count(Arguments& arguments) {
   std::uint64_t total = 0;
   for (const auto& [name, count] : counter.counts()) total += count;
   const int width = std::max(5, static_cast<int>(std::to_string(total).size()));
-  for (const auto& [name, count] : counter.counts()) fmt::print("{:>{}} {}\n", count, width, name);
-  fmt::print("{:>{}} in all\n", total, width);
-  if (counter.lost_events > 0) fmt::print("{:>{}} events lost\n", counter.lost_events, width);
-  if (counter.lost_packets > 0) fmt::print("{:>{}} packets lost\n", counter.lost_packets, width);
-  if (counter.lost_unknown) fmt::print("{:>{}} events were lost before the trace begins\n", "some", width);
+  std::string text;
+  for (const auto& [name, count] : counter.counts()) text += fmt::format("{:>{}} {}\n", count, width, name);
+  text += fmt::format("{:>{}} in all\n", total, width);
+  if (counter.lost_events > 0) text += fmt::format("{:>{}} events lost\n", counter.lost_events, width);
+  if (counter.lost_packets > 0) text += fmt::format("{:>{}} packets lost\n", counter.lost_packets, width);
+  if (counter.lost_unknown) text += fmt::format("{:>{}} events were lost before the trace begins\n", "some", width);
+  tracing::write_out(stdout, text);
   return exit_code;
 }
 
 int print_events(Arguments& arguments) {
   std::unique_ptr<tracing::EventPrinter> printer;
   if (arguments.format == "csv") {
-    // The columns are known only after a reading of all events.
-    CountingSink fields(arguments.filter);
+    // The columns are known only after a reading of all events that will be printed.
+    CountingSink fields(arguments.filter, arguments.limit);
     try {
-      tracing::TraceReader(arguments.directories).read(fields);
+      tracing::TraceReader reader(arguments.directories);
+      if (arguments.limit != 0) reader.read(fields);
     } catch (const tracing::TraceReadError&) {
       // The second reading, which prints, reports the error.
+    } catch (const Enough&) {
     }
     arguments.filter.restart();
     printer = tracing::make_csv_printer(stdout, {fields.fields.begin(), fields.fields.end()});
@@ -194,12 +213,13 @@ int main(int argc, char** argv) {
   }
   try {
     return arguments.count ? print_count(arguments) : print_events(arguments);
-  } catch (const tracing::OutputClosed&) {
-    return kFailure;
+  } catch (const tracing::OutputClosed& closed) {
+    // A reader that has gone, as `head` does, has seen enough.
+    if (closed.error == EPIPE) return kFailure;
+    return print_error(fmt::format("cannot write the output: {}", std::strerror(closed.error)));
   } catch (const tracing::TraceReadError& error) {
     return print_error(error);
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("launch trace read: error: {}\n", error.what()).c_str(), stderr);
-    return kFailure;
+    return print_error(error.what());
   }
 }

@@ -267,20 +267,24 @@ void DirectReader::read(TraceSink& sink) {
     if (stream->item != ctf::StreamCursor::Item::kEnd) heap.push_back(stream.get());
   }
   std::make_heap(heap.begin(), heap.end(), later);
-  while (!heap.empty()) {
-    std::pop_heap(heap.begin(), heap.end(), later);
-    OpenStream* const earliest = heap.back();
-    const OpenStream* const next = heap.size() > 1 ? heap.front() : nullptr;
-    // As long as this stream stays the earliest.
-    do {
-      earliest->give(sink);
-      earliest->advance(problem);
-    } while (earliest->item != ctf::StreamCursor::Item::kEnd && (next == nullptr || later(next, earliest)));
-    if (earliest->item == ctf::StreamCursor::Item::kEnd) {
-      heap.pop_back();
-    } else {
-      std::push_heap(heap.begin(), heap.end(), later);
+  try {
+    while (!heap.empty()) {
+      std::pop_heap(heap.begin(), heap.end(), later);
+      OpenStream* const earliest = heap.back();
+      const OpenStream* const next = heap.size() > 1 ? heap.front() : nullptr;
+      // As long as this stream stays the earliest.
+      do {
+        earliest->give(sink);
+        earliest->advance(problem);
+      } while (earliest->item != ctf::StreamCursor::Item::kEnd && (next == nullptr || later(next, earliest)));
+      if (earliest->item == ctf::StreamCursor::Item::kEnd) {
+        heap.pop_back();
+      } else {
+        std::push_heap(heap.begin(), heap.end(), later);
+      }
     }
+  } catch (const EndOfReading&) {
+    // The sink needs no more.
   }
   if (!problem.empty()) {
     throw TraceReadError(fmt::format("the trace '{}' is damaged or ends early: {}", directory_.string(), problem),

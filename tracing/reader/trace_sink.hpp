@@ -6,7 +6,12 @@
 
 namespace tracing {
 
-// Receives the events and losses of a trace. An exception thrown here ends the reading and leaves TraceReader::read.
+// A sink throws it when it needs no more. TraceReader::read then returns as if the trace ended here. It still reports
+// the damage that it has found so far.
+struct EndOfReading {};
+
+// Receives the events and losses of a trace. Any other exception thrown here ends the reading and leaves
+// TraceReader::read.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <stdexcept>
 
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/report/recorded_processes.hpp"
@@ -27,10 +30,17 @@ void print_error(const tracing::TraceReadError& error) {
   if (!error.remedy().empty()) fmt::print(stderr, "    = help: {}\n", error.remedy());
 }
 
+// Throws when the text can't be written.
+void print_out(const std::string& text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  throw std::runtime_error(fmt::format("cannot write the output: {}", std::strerror(errno)));
+}
+
 int print_summary(const Arguments& arguments) {
   tracing::OverviewCounter counter;
   tracing::TraceReader(arguments.directory).read(counter);
-  fmt::print("{}\n", summary_line(counter.overview()));
+  print_out(summary_line(counter.overview()) + "\n");
   return kSuccess;
 }
 
@@ -38,7 +48,7 @@ int print_recorded(const Arguments& arguments) {
   tracing::RecordedProcessCounter counter;
   tracing::TraceReader reader(arguments.directory);
   reader.read(counter);
-  fmt::print("{}\n", counter.json());
+  print_out(counter.json() + "\n");
   return kSuccess;
 }
 
@@ -58,7 +68,7 @@ int print_report(const Arguments& arguments) {
     print_error(error);
     exit_code = kFailure;
   }
-  fmt::print("{}", arguments.json ? json_report(report) : text_report(report));
+  print_out(arguments.json ? json_report(report) : text_report(report));
   return exit_code;
 }
 
@@ -72,7 +82,9 @@ int main(int argc, char** argv) {
   app.add_flag("--summary", arguments.summary, "Print one line: events, processes, losses")->excludes(json);
   // For the verdict of a session, which compares this with the events that the processes have fired.
   app.add_flag("--recorded", arguments.recorded)->group("");
-  app.footer("Exit code: 0, 1 when the trace can't be read (to its end), 2 for wrong arguments.");
+  app.footer(
+      "Exit code: 0, 1 when the trace can't be read (to its end) or the output can't be written, 2 for wrong "
+      "arguments.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -58,6 +58,33 @@ TEST_F(LaunchTraceRead, ChoosesAndLimits) {
   EXPECT_THAT(result.out, HasSubstr(" ros2:rcl_subscription_init cpu 1 pong [72/72] "));
 }
 
+// The damage at the end of the last packet shows that the rest is not read.
+TEST_F(LaunchTraceRead, ReadsNoFurtherThanItMust) {
+  testing::TraceWriter late(path() / "late", {.identity = 3});
+  const std::int64_t far = 4'000'000'000'000'000'000;
+  const std::uint16_t id = late.declare("test:late", "integer { size = 32; align = 8; signed = 0; } wide;");
+  late.write_raw(0, far, testing::kPing, id, std::string(4, 1));
+  late.write_raw(0, far + 10, testing::kPing, id, std::string(4, 1));
+  late.write_raw(0, far + 20, testing::kPing, static_cast<std::uint16_t>(id + 77), "");  // an unknown event
+  late.finish();
+  const std::string trace = path() / "late";
+  EXPECT_EQ(read({trace}).exit_code, 1);
+  for (const char* format : {"text", "json", "csv"}) {
+    const std::size_t header = format == std::string("csv") ? 1 : 0;
+    const CommandResult limited = read({trace, "--limit", "1", "--format", format});
+    EXPECT_EQ(limited.exit_code, 0) << limited.err;
+    EXPECT_EQ(lines(limited.out), header + 1);
+    const CommandResult nothing = read({trace, "--limit", "0", "--format", format});
+    EXPECT_EQ(nothing.exit_code, 0) << nothing.err;
+    EXPECT_EQ(lines(nothing.out), header);
+    const CommandResult until = read({trace, "--to", "+0.00000001", "--format", format});
+    EXPECT_EQ(until.exit_code, 0) << until.err;
+    EXPECT_EQ(lines(until.out), header + 1);
+  }
+  EXPECT_EQ(read({trace, "--count", "--to", "+0.00000001"}).out, "    1 test:late\n    1 in all\n");
+  EXPECT_EQ(read({"/nonexistent", "--limit", "0"}).exit_code, 1);
+}
+
 TEST_F(LaunchTraceRead, CsvHasTheColumnsOfItsEvents) {
   const CommandResult result = read({path(), "--format", "csv", "--event", "ros2:callback_*"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -93,6 +120,20 @@ TEST_F(LaunchTraceRead, SaysWhatIsNoTrace) {
   EXPECT_EQ(result.err,
             "launch trace read: error: cannot read the trace '/nonexistent': no such directory\n"
             "    = help: give the directory that the launcher printed when it ended the session\n");
+}
+
+TEST_F(LaunchTraceRead, SaysThatTheOutputCannotBeWritten) {
+  const std::string command = "'" LAUNCH_TRACE_READ "' '" + path().string() + "' ";
+  for (const char* option : {"--count", "--format=text", "--format=csv"}) {
+    const CommandResult full = test_support::run_command({"sh", "-c", command + option + " > /dev/full"});
+    EXPECT_EQ(full.exit_code, 1) << option;
+    EXPECT_EQ(full.err, "launch trace read: error: cannot write the output: No space left on device\n") << option;
+    const CommandResult closed =
+        test_support::run_command({"sh", "-c", "{ sleep 0.1; " + command + option + "; echo $? >&2; } | true"});
+    EXPECT_EQ(closed.err, "1\n") << option;
+    const CommandResult mute = test_support::run_command({"sh", "-c", command + option + " > /dev/full 2>&-"});
+    EXPECT_EQ(mute.exit_code, 1) << option;
+  }
 }
 
 TEST_F(LaunchTraceRead, GivesWhatCanBeReadOfADamagedTrace) {
