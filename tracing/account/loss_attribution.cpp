@@ -99,7 +99,7 @@ std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& co
                          .cpu_seconds = static_cast<double>(process.cpu) / kNanosecondsPerSecond,
                          .events = recorded,
                          .callbacks = callbacks != process.events.end() ? callbacks->second : 0,
-                         .lost = 0});
+                         .lost = std::nullopt});
   }
   return processes;
 }
@@ -127,8 +127,8 @@ void attribute_losses(LossAccount& account, const std::vector<EventCounts>& coun
   }
   if (account.processes.empty()) return;
   const std::uint64_t total = userspace_losses(account);
-  account.attribution =
-      sum == total && !packets_are_missing(account) ? LossAttribution::kExact : LossAttribution::kEstimate;
+  const bool all_counted = account.damage.empty() && !packets_are_missing(account);
+  account.attribution = sum == total && all_counted ? LossAttribution::kExact : LossAttribution::kEstimate;
   account.unattributed = total - std::min(sum, total);
 }
 

@@ -29,7 +29,11 @@ LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses)
 }
 
 void LossesByProcess::look_into(const std::string& recording, const std::vector<Stream>& streams) {
-  if (losses_.complete()) losses_.attribution = LossAttribution::kExact;
+  if (!losses_.cut_short && losses_.damage.empty() && !needed()) {
+    losses_.attribution = LossAttribution::kExact;
+    for (ProcessAccount& process : losses_.processes) process.lost = 0;
+    return;
+  }
   if (!needed() || unknown_) return;
   try {
     RecordedProcesses recorded;

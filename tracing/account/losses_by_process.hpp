@@ -20,8 +20,8 @@ class LossesByProcess {
  public:
   LossesByProcess(const TraceConfig& config, LossAccount& losses);
 
-  // When the session has gone and its losses are counted (packet_losses.hpp). Reads the trace, which takes a second for
-  // a million events; only when something was lost.
+  // When the session has gone, its losses are counted (packet_losses.hpp), and its damage is known. Reads the trace,
+  // which takes a second for a million events; only when something was lost.
   void look_into(const std::string& recording, const std::vector<Stream>& streams);
 
  private:

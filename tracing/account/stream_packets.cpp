@@ -38,7 +38,8 @@ std::optional<FileName> split(const std::string& name) {
 }
 
 std::optional<FileName> stream_of(const fs::path& file, const std::set<std::string>& channels_in_files) {
-  if (file.has_extension() || file.parent_path().filename() == "index") return std::nullopt;
+  // The name of a channel may hold a dot.
+  if (file.parent_path().filename() == "index") return std::nullopt;
   std::optional<FileName> name = split(file.filename());
   if (!name) return std::nullopt;
   std::optional<FileName> of_numbered_file = split(name->channel);

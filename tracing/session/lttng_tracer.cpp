@@ -49,12 +49,13 @@ namespace tracing {
 namespace {
 
 // A verdict that can't be written, as on a full disk, is no reason to lose the account.
-void judge(LossAccount& losses, const std::vector<Stream>& streams, const std::string& name,
-           const std::string& directory, std::uint64_t stopped) {
+void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<Stream>& streams,
+           const std::string& name, const std::string& directory, std::uint64_t stopped) {
   explain_losses(losses, streams);
   const std::string no_room = why_no_room(directory);
   find_unwritten(losses, streams, stopped, !no_room.empty());
   losses.damage = describe_damage(losses, no_room, directory);
+  by_process.look_into(directory, streams);  // a damaged trace is not complete
   try {
     write_verdict(losses, name, directory);
   } catch (const TraceError& error) {
@@ -228,8 +229,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
   timer.finished("cost of events");
   if (readable) {
-    by_process.look_into(session->path, streams);
-    judge(losses, streams, name, session->path, stopped);
+    judge(losses, by_process, streams, name, session->path, stopped);
   }
   timer.finished("verdict");
   losses.steps = std::move(steps);

@@ -8,8 +8,10 @@
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/loss_attribution.hpp"
 #include "tracing/account/loss_text.hpp"
+#include "tracing/account/losses_by_process.hpp"
 #include "tracing/account/recorded_events.hpp"
 #include "tracing/account/stream_packets.hpp"
+#include "tracing/plan/trace_config.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace {
@@ -108,6 +110,36 @@ TEST(ProcessAccount, IsAnEstimateWherePacketsAreMissing) {
   losses.channels[0].lost_packets = 1;
   tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
   EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
+}
+
+TEST(ProcessAccount, IsAnEstimateWhereDataCouldNotBeWritten) {
+  LossAccount losses = account(250);
+  losses.damage = "the file system is full";
+  tracing::attribute_losses(losses, talker_and_listener(), kRosEvents, recorded(), {});
+  EXPECT_EQ(losses.attribution, LossAttribution::kEstimate);
+}
+
+TEST(ProcessAccount, ALossIsZeroOnlyWhereItIsKnown) {
+  tracing::TraceConfig config;
+  config.session_name = "session_that_nobody_made";
+  const auto look = [&config](const LossAccount& found) {
+    LossAccount losses;
+    tracing::LossesByProcess by_process(config, losses);
+    losses = found;
+    by_process.look_into("/nonexistent", {});
+    return losses;
+  };
+  LossAccount losses = account(0);
+  EXPECT_EQ(losses.processes[0].lost, std::nullopt) << "nobody has looked";
+  EXPECT_EQ(look(losses).processes[0].lost, 0u);
+  EXPECT_EQ(look(losses).attribution, LossAttribution::kExact);
+  losses.damage = "the file system is full";
+  EXPECT_EQ(look(losses).processes[0].lost, std::nullopt);
+  EXPECT_EQ(look(losses).attribution, LossAttribution::kUnknown);
+  losses.damage = "";
+  losses.cut_short = true;
+  EXPECT_EQ(look(losses).processes[0].lost, std::nullopt);
+  EXPECT_EQ(look(losses).attribution, LossAttribution::kUnknown);
 }
 
 TEST(ProcessAccount, CountsWhatFilesOfALimitedSizeHaveOverwritten) {

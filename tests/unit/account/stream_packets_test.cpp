@@ -65,6 +65,16 @@ TEST_F(StreamPackets, OfNumberedFilesBelongToOneStream) {
   EXPECT_EQ(of_another_name[1].channel, channel + "_0");
 }
 
+TEST_F(StreamPackets, OfAChannelWithADotInItsName) {
+  const fs::path trace = run / "ust/uid/0/64-bit";
+  write(trace, 0, 1);
+  fs::rename(trace / (tracing::read_streams(run).at(0).channel + "_0"), trace / "nav.fast_0");
+  const std::vector<Stream> streams = tracing::read_streams(run);
+  ASSERT_EQ(streams.size(), 1u);
+  EXPECT_EQ(streams[0].channel, "nav.fast");
+  EXPECT_EQ(streams[0].packets.size(), 1u);
+}
+
 TEST_F(StreamPackets, KnowTheProcessThatOwnsTheBuffers) {
   write(run / "ust/pid/talker-1-47-20261122-190204", 0, 1);
   write(run / "ust/pid/short/64-bit", 0, 1);
