@@ -12,6 +12,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "launcher/base/utf8.hpp"
+
 namespace tracing {
 namespace {
 
@@ -41,16 +43,9 @@ void append_quoted(Buffer& out, std::string_view text) {
     } else if (c < 0x80) {
       out.push_back(static_cast<char>(c));
     } else {
-      const std::size_t length = c >= 0xf0 && c < 0xf5 ? 4 : c >= 0xe0 && c < 0xf0 ? 3 : c >= 0xc2 && c < 0xe0 ? 2 : 1;
-      bool valid = length > 1 && i + length <= text.size();
-      for (std::size_t j = 1; valid && j < length; ++j)
-        valid = (static_cast<unsigned char>(text[i + j]) & 0xc0) == 0x80;
-      if (valid) {
-        append(out, text.substr(i, length));
-        i += length - 1;
-      } else {
-        append(out, "\xef\xbf\xbd");
-      }
+      const launch::CodePoint character = launch::decode_utf8(text.substr(i));
+      append(out, character.valid ? text.substr(i, character.size) : "\xef\xbf\xbd");
+      i += character.size - 1;
     }
   }
   out.push_back('"');
