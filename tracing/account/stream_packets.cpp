@@ -78,11 +78,10 @@ class Traces {
   std::map<fs::path, std::optional<ctf::TraceClass>> traces_;
 };
 
-void add_packets(const ctf::TraceClass& trace, const fs::path& file, std::vector<Packet>& packets) {
+void add_packets(const ctf::TraceClass& trace, const fs::path& file, const std::function<bool()>& give_up,
+                 std::vector<Packet>& packets) {
   try {
-    const ctf::MappedFile mapped(file);
-    for (const ctf::Packet& packet : ctf::find_packets(trace, mapped).packets) {
-      if (packet.begin + packet.size_bits / 8 > mapped.end()) continue;
+    for (const ctf::Packet& packet : ctf::find_packet_headers(trace, file, give_up).packets) {
       packets.push_back({.begin = packet.time_begin.value_or(0),
                          .end = packet.time_end.value_or(0),
                          .bytes = packet.content_bits / 8,
@@ -111,7 +110,8 @@ std::vector<fs::path> chunks_of(const fs::path& directory) {
 
 }  // namespace
 
-std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::string>& channels_in_files) {
+std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::string>& channels_in_files,
+                                 const std::function<bool()>& give_up) {
   // Domain, path of the trace below it, channel, processor.
   std::map<std::tuple<std::string, fs::path, std::string, std::string>, Found> found;
   Traces traces;
@@ -129,7 +129,7 @@ std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::
         Found& stream = found[{domain, trace.lexically_relative(chunk / domain), name->channel, name->cpu}];
         if (chunk != directory) stream.in_archives = true;
         if (const ctf::TraceClass* const metadata = traces.in(trace)) {
-          add_packets(*metadata, entry.path(), stream.packets);
+          add_packets(*metadata, entry.path(), give_up, stream.packets);
         }
       }
     }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -33,9 +34,10 @@ struct Stream {
 // The streams of the recording in `directory`, the path of its session or of a snapshot. A stream is the same through
 // all archives that `lttng rotate` made, and through the numbered files of a channel in `channels_in_files`, which
 // limits their size. A stream without readable packets is listed, too: on a full disk there may be no more of it.
-// Packets that are there in part are left out.
+// Packets that are there in part are left out. When `give_up` returns true, the rest of the packets is left out, too.
 std::vector<Stream> read_streams(const std::filesystem::path& directory,
-                                 const std::set<std::string>& channels_in_files = {});
+                                 const std::set<std::string>& channels_in_files = {},
+                                 const std::function<bool()>& give_up = {});
 
 // When the first packet of all streams begins; the greatest number when there is none.
 std::uint64_t first_time(const std::vector<Stream>& streams);

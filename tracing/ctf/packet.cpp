@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 #include "tracing/ctf/structure_decoder.hpp"
@@ -32,7 +33,43 @@ std::optional<std::uint64_t> number(const Field& structure, std::string_view nam
   return field->raw();
 }
 
-// The end of the header, in bits.
+bool sizes_contradict(const Packet& packet) {
+  return packet.size_bits < packet.content_bits || packet.content_bits < packet.events_bit ||
+         packet.size_bits % kByte != 0;
+}
+
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    struct stat status {};
+    if (file_ < 0 || fstat(file_, &status) != 0) {
+      const int error = errno;
+      if (file_ >= 0) close(file_);
+      throw std::system_error(error, std::generic_category(), path.string());
+    }
+    size_ = static_cast<std::size_t>(status.st_size);
+    posix_fadvise(file_, 0, 0, POSIX_FADV_RANDOM);  // what is between the headers is not needed
+  }
+  ~OpenFile() { close(file_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  std::size_t size() const { return size_; }
+  // How many bytes were read; 0 or less at the end and after an error.
+  ssize_t read(std::uint8_t* to, std::size_t count, std::size_t at) const {
+    ssize_t got = 0;
+    do {
+      got = pread(file_, to, count, static_cast<off_t>(at));
+    } while (got < 0 && errno == EINTR);
+    return got;
+  }
+
+ private:
+  int file_;
+  std::size_t size_ = 0;
+};
+
+// The end of the header, in bits. Where the packet does not tell its sizes, they stay as they are.
 std::uint64_t read_header(const TraceClass& trace, Packet& packet, std::uint64_t limit, FieldArena& arena) {
   std::uint64_t at = 0;
   std::vector<FieldScope> scopes;
@@ -48,7 +85,7 @@ std::uint64_t read_header(const TraceClass& trace, Packet& packet, std::uint64_t
   if (stream == trace.streams.end()) throw DamagedPacket(fmt::format("it has the unknown stream {}", packet.stream_id));
   if (!stream->second.packet_context) return at;
   const Field context = decode_structure(*stream->second.packet_context, packet.begin, at, limit, scopes, arena, at);
-  packet.content_bits = number(context, "content_size").value_or(limit);
+  packet.content_bits = number(context, "content_size").value_or(packet.content_bits);
   packet.size_bits = number(context, "packet_size").value_or(packet.content_bits);
   packet.time_begin = number(context, "timestamp_begin");
   packet.time_end = number(context, "timestamp_end");
@@ -106,8 +143,7 @@ PacketList find_packets(const TraceClass& trace, const MappedFile& file) {
       list.problem = fmt::format("the packet at byte {}: {}", at, damage.what());
       return list;
     }
-    if (packet.size_bits < packet.content_bits || packet.content_bits < packet.events_bit ||
-        packet.size_bits % kByte != 0) {
+    if (sizes_contradict(packet)) {
       list.problem = fmt::format("the packet at byte {}: its sizes contradict each other", at);
       return list;
     }
@@ -124,6 +160,50 @@ PacketList find_packets(const TraceClass& trace, const MappedFile& file) {
       file.forget(file.begin() + forgotten, file.begin() + at);
       forgotten = at;
     }
+  }
+  return list;
+}
+
+PacketList find_packet_headers(const TraceClass& trace, const std::filesystem::path& path,
+                               const std::function<bool()>& give_up) {
+  constexpr std::size_t kMostBytes = 4096;  // of a header
+  const OpenFile file(path);
+  PacketList list;
+  FieldArena arena;
+  std::vector<std::uint8_t> header(kMostBytes + sizeof(std::uint64_t));  // numbers are read as whole words
+  for (std::size_t at = 0; at < file.size();) {
+    if (give_up && give_up()) {
+      list.problem = "the reading was given up";
+      return list;
+    }
+    Packet packet;
+    packet.begin = header.data();
+    packet.content_bits = packet.size_bits = (file.size() - at) * kByte;
+    const std::uint64_t limit = packet.size_bits;
+    const ssize_t got = file.read(header.data(), std::min(kMostBytes, file.size() - at), at);
+    if (got <= 0) {
+      list.problem =
+          fmt::format("the packet at byte {}: {}", at, got < 0 ? std::strerror(errno) : "the file has ended");
+      return list;
+    }
+    arena.reset();
+    try {
+      packet.events_bit = read_header(trace, packet, static_cast<std::uint64_t>(got) * kByte, arena);
+    } catch (const DamagedPacket& damage) {
+      list.problem = fmt::format("the packet at byte {}: {}", at, damage.what());
+      return list;
+    }
+    packet.begin = nullptr;
+    if (sizes_contradict(packet)) {
+      list.problem = fmt::format("the packet at byte {}: its sizes contradict each other", at);
+      return list;
+    }
+    if (packet.size_bits > limit) {
+      list.problem = fmt::format("the packet at byte {} ends behind the end of the file", at);
+      return list;
+    }
+    list.packets.push_back(packet);
+    at += packet.size_bits / kByte;
   }
   return list;
 }

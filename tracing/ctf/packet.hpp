@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,5 +59,12 @@ struct PacketList {
   std::string problem;
 };
 PacketList find_packets(const TraceClass& trace, const MappedFile& file);
+
+// The same for a caller that needs no events. It reads only the first bytes of each packet and maps nothing: a file
+// that gets shorter meanwhile, or that fails to be read, is a problem of the list and no signal. A packet has no `file`
+// and no `begin`, and the one that ends behind the end of the file is left out. Stops when `give_up` returns true.
+// Throws std::system_error when the file can't be opened.
+PacketList find_packet_headers(const TraceClass& trace, const std::filesystem::path& path,
+                               const std::function<bool()>& give_up);
 
 }  // namespace tracing::ctf

@@ -64,12 +64,13 @@ void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<S
 }
 
 // The streams of a recording that has been written.
-std::vector<Stream> streams_of(const LossAccount& losses, const std::string& directory) {
+std::vector<Stream> streams_of(const LossAccount& losses, const std::string& directory,
+                               const std::function<bool()>& give_up) {
   std::set<std::string> in_files;
   for (const ChannelLoss& channel : losses.channels) {
     if (channel.tracefile_size != 0) in_files.insert(channel.channel);
   }
-  return read_streams(directory, in_files);
+  return read_streams(directory, in_files, give_up);
 }
 
 // Where the kernel recorder of a session runs: beside what is recorded, or beside the snapshots.
@@ -214,8 +215,14 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   const bool readable = local && !session->snapshot;
   std::vector<Stream> streams;
   if (readable) {
-    streams = streams_of(losses, session->path);
-    count_in_packets(losses, streams);
+    streams = streams_of(losses, session->path, give_up);
+    if (give_up && give_up()) {
+      // A part of the packets would give wrong sums and damage that is none.
+      streams.clear();
+      losses.cut_short = true;
+    } else {
+      count_in_packets(losses, streams);
+    }
   }
   if (lost_by_kernel && !session->snapshot) {
     losses.channels.push_back({.domain = "kernel",

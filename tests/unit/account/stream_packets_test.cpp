@@ -95,6 +95,13 @@ TEST_F(StreamPackets, OfFilesThatCannotBeReadAreNone) {
   EXPECT_TRUE(streams[0].packets.empty());
 }
 
+TEST_F(StreamPackets, AreReadUntilTheUserGivesUp) {
+  write(run / "ust/uid/0/64-bit", 0, 5);
+  int asked = 0;
+  const std::vector<Stream> streams = tracing::read_streams(run, {}, [&asked] { return ++asked > 3; });
+  EXPECT_EQ(streams.at(0).packets.size(), 3u);
+}
+
 TEST_F(StreamPackets, ThatAreThereInPartAreLeftOut) {
   write(run / "ust/uid/0/64-bit", 0, 2);
   const fs::path file = run / "ust/uid/0/64-bit" / (tracing::read_streams(run).at(0).channel + "_0");
