@@ -136,6 +136,18 @@ TEST_F(LaunchTraceRead, SaysThatTheOutputCannotBeWritten) {
   }
 }
 
+TEST_F(LaunchTraceRead, WritesOnlyUtf8AsJson) {
+  testing::TraceWriter writer(path() / "bytes", {.identity = 4});
+  const std::uint16_t id = writer.declare("test:text", "string _text;");
+  const std::string bytes = "\xc3\xa4 \xed\xa0\x80 \xf4\x90\x80\x80 \xe0\x80\xaf";
+  writer.write_raw(0, 1, testing::kPing, id, bytes + '\0');
+  writer.finish();
+  const std::string wrong = "\xef\xbf\xbd";  // U+FFFD, for each byte
+  EXPECT_THAT(read({path() / "bytes", "--format", "json"}).out,
+              HasSubstr("\"\xc3\xa4 " + wrong + wrong + wrong + " " + wrong + wrong + wrong + wrong + " " + wrong +
+                        wrong + wrong + "\""));
+}
+
 TEST_F(LaunchTraceRead, GivesWhatCanBeReadOfADamagedTrace) {
   const std::filesystem::path stream = path() / "trace" / "ros2_1";
   std::filesystem::resize_file(stream, std::filesystem::file_size(stream) - 5);
