@@ -13,7 +13,7 @@
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
-#include "launcher/cli/graph_command.hpp"
+#include "launcher/cli/graph/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/run_command.hpp"

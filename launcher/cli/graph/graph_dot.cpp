@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "launcher/cli/graph.hpp"
+#include "launcher/cli/graph/graph.hpp"
 
 namespace launch {
 

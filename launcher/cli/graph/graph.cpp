@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/graph.hpp"
+#include "launcher/cli/graph/graph.hpp"
 
 #include <fmt/format.h>
 

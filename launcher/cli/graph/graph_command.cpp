@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/graph_command.hpp"
+#include "launcher/cli/graph/graph_command.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/graph.hpp"
+#include "launcher/cli/graph/graph.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/visit/launch_plan.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "launcher/cli/graph.hpp"
+#include "launcher/cli/graph/graph.hpp"
 #include "launcher/cli/xml_text.hpp"
 
 namespace launch {
