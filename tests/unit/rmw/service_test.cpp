@@ -254,9 +254,11 @@ TEST_F(ServiceTest, NameAndTypeMustFit) {
 TEST_F(ServiceTest, WaitSetOutlivesAndIsOutlivedByWhatItWaitedFor) {
   rmw_wait_set_t* wait_set = rmw_create_wait_set(&serving_context_.handle, 2);
   for (int i = 0; i < 3; ++i) {
-    // A new service may have the address of the old one: it must be waited for all the same.
-    Service service(server_, "/add");
-    Client client(asker_, "/add");
+    // A new service may have the address of the old one: it must be waited for all the same. It has another name,
+    // because the client could find the old service, whose end takes a while to arrive, and send the request there.
+    const std::string name = "/add_" + std::to_string(i);
+    Service service(server_, name.c_str());
+    Client client(asker_, name.c_str());
     client.wait_for_service();
     void* entity = service.handle->data;
     rmw_services_t services{1, &entity};
