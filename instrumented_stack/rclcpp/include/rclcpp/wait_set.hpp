@@ -17,7 +17,7 @@
 
 namespace rclcpp {
 
-// A subscription, with what of it to wait for.
+// A subscription, and the parts of it to wait for.
 struct SubscriptionEntry {
   std::shared_ptr<SubscriptionBase> subscription;
   SubscriptionWaitSetMask mask;
@@ -31,7 +31,7 @@ struct SubscriptionEntry {
       : subscription(std::move(subscription_in)), mask(mask_in) {}
 };
 
-// A waitable that is waited for no longer than the entity that it belongs to lives.
+// A waitable, and the entity that it belongs to. The waitable leaves the wait set when that entity is destroyed.
 struct WaitableEntry {
   std::shared_ptr<Waitable> waitable;
   std::shared_ptr<void> associated_entity;
@@ -43,14 +43,14 @@ struct WaitableEntry {
 
 namespace detail {
 
-// What all wait sets can do.
+// The functions of all wait sets.
 template <typename WaitSetT>
 class WaitSetBase {
  public:
   using SubscriptionEntry = rclcpp::SubscriptionEntry;
   using WaitableEntry = rclcpp::WaitableEntry;
 
-  // Waits until something is ready or the time is over; negative: for ever. Throws exceptions::RCLError.
+  // Waits until an entity is ready or the time is over. A negative time waits for ever. Throws exceptions::RCLError.
   template <typename RepT = int64_t, typename PeriodT = std::milli>
   WaitResult<WaitSetT> wait(
       std::chrono::duration<RepT, PeriodT> time_to_wait = std::chrono::duration<RepT, PeriodT>(-1)) {
@@ -60,8 +60,8 @@ class WaitSetBase {
     return WaitResult<WaitSetT>(kind, static_cast<WaitSetT&>(*this), std::move(findings));
   }
 
-  // As the last wait has left it: what is not ready is null, the entities of each kind in the order in which they were
-  // added.
+  // The state after the last wait: an entry that is not ready is null. The entities of each kind stand in the order in
+  // which they were added.
   const rcl_wait_set_t& get_rcl_wait_set() const { return entities_.get_rcl_wait_set(); }
 
  protected:
@@ -71,7 +71,7 @@ class WaitSetBase {
   WaitSetEntities entities_;
 };
 
-// Wait sets whose entities may change. It refers to them weakly; destroyed ones are forgotten.
+// Wait sets whose entities may change. They hold weak references, and forget destroyed entities.
 template <typename WaitSetT, WaitSetEntities::Threads kThreads>
 class DynamicWaitSet : public WaitSetBase<WaitSetT> {
  public:
@@ -103,7 +103,8 @@ class DynamicWaitSet : public WaitSetBase<WaitSetT> {
     }
   }
 
-  // Throw std::invalid_argument for null, std::runtime_error for what is in a wait set already, or not in this one.
+  // All of these throw std::invalid_argument for null. Adding throws std::runtime_error if the entity is in any wait
+  // set already. Removing throws it if the entity is not in this one.
   void add_subscription(const std::shared_ptr<SubscriptionBase>& subscription,
                         const SubscriptionWaitSetMask& mask = {}) {
     this->entities_.add_subscription(subscription, mask);
@@ -130,7 +131,7 @@ class DynamicWaitSet : public WaitSetBase<WaitSetT> {
   }
   void remove_waitable(const std::shared_ptr<Waitable>& waitable) { this->entities_.remove_waitable(waitable); }
 
-  // Forgets what was destroyed; each wait() does it too.
+  // Removes the entities that were destroyed. Each wait() does it, too.
   void prune_deleted_entities() { this->entities_.prune_deleted_entities(); }
 };
 
@@ -142,14 +143,14 @@ class WaitSet final : public detail::DynamicWaitSet<WaitSet, detail::WaitSetEnti
   using DynamicWaitSet::DynamicWaitSet;
 };
 
-// Entities may be added and removed by any thread, also while one waits: it takes note at once.
+// Any thread may add and remove entities, also while another thread waits. The changes act on that wait at once.
 class ThreadSafeWaitSet final
     : public detail::DynamicWaitSet<ThreadSafeWaitSet, detail::WaitSetEntities::Threads::kMany> {
  public:
   using DynamicWaitSet::DynamicWaitSet;
 };
 
-// A wait set with entities that are given once, and owned.
+// A wait set whose entities are fixed. It owns them.
 template <size_t kSubscriptions, size_t kGuardConditions, size_t kTimers, size_t kClients, size_t kServices,
           size_t kWaitables>
 class StaticWaitSet final

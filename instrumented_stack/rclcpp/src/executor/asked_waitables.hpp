@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The waitables of an executor in one wait. Each brings rcl entities before the wait, and tells after it whether these
-// make it ready.
+// The waitables of an executor in one wait. Each waitable adds its rcl entities before the wait. After the wait it
+// tells whether these entities make it ready.
 //
-// For each wait: ask(), the wait, append_ready(), and release() in any case.
+// For each wait call ask(), wait, then call append_ready(). Call release() in any case.
 #pragma once
 
 #include <rcl/wait.h>
@@ -21,26 +21,26 @@
 
 namespace rclcpp {
 
-// For one thread at a time. The functions throw if rcl reports an error, and what waitables throw.
+// For one thread at a time. The functions throw if rcl reports an error, and pass on exceptions of waitables.
 class AskedWaitables {
  public:
   explicit AskedWaitables(const std::shared_ptr<rcl_context_t>& context);
   ~AskedWaitables();
   RCLCPP_DISABLE_COPY(AskedWaitables)
 
-  // Asks the waitables for their entities, except those of groups of which nothing may be taken. Registers the entities
-  // with `waiter` from position `first` on, in place of those that were registered there before.
+  // Asks the waitables for their entities, except the waitables of groups of which nothing may be taken. Registers the
+  // entities with `waiter` from position `first` on. Earlier registrations from `first` on are removed.
   void ask(const WaitedEntities& waited, rmw_fastrtps::Waiter& waiter, std::size_t first);
 
-  // Nanoseconds until the first timer that waitables brought is due; TimerQueue::kNever without one.
+  // Nanoseconds until the first timer of the waitables is due. TimerQueue::kNever if they have no timer.
   std::int64_t time_until_first_timer() const;
 
-  // With what ask() got. `next` and `end` enclose the positions, from the first one of ask() on, that the wait found
-  // ready.
+  // Appends the waitables that are ready. `next` and `end` enclose the positions that the wait has found ready, counted
+  // as in the waiter, from the `first` of ask() on.
   void append_ready(const WaitedEntities& waited, const std::size_t* next, const std::size_t* end,
                     std::vector<detail::ReadyEntity>& ready);
 
-  // Lets go of the waitables. It may be their last owner.
+  // Releases the waitables. This object may be their last owner.
   void release() { held_.clear(); }
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an executor serves: the nodes and groups that it was given, and the entities in them.
+// The nodes and callback groups that an executor serves, and their entities.
 //
-// The list of entities is rebuilt only after something has changed. When a user destroys an entity, the list lets go of
-// the rcl handle at once if no thread waits. Otherwise the change interrupts the wait, and the handle goes as soon as
-// the wait has returned. Waitables are owned while they are waited for.
+// The list of entities is rebuilt only after a change. When a user destroys an entity, the list releases the rcl handle
+// at once if no thread waits. Otherwise the change interrupts the wait, and the handle is released after the wait. The
+// list owns the waitables during a wait.
 #pragma once
 
 #include <atomic>
@@ -39,23 +39,25 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
 
   enum class Origin { kAny, kAddedByHand, kOfNodes };
   std::vector<CallbackGroup::WeakPtr> groups(Origin origin);
-  // The living entities of each group, in the order of groups().
+  // The entities of each group that exist now, in the order of groups().
   std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> entities();
 
-  // Waits until something is ready, interrupt() is called, or the time is over (negative: never). Appends what is
-  // ready. Groups that cannot be taken from are left out: interrupt() when they can be again. One thread at a time.
+  // Waits until an entity is ready, interrupt() is called, or the timeout is over. A negative timeout never ends.
+  // Appends the entities that are ready. Leaves out the groups of which nothing may be taken now: call interrupt() when
+  // one of them may be taken from again. For one thread at a time.
   void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
 
-  // How often nodes and groups were removed. What an earlier wait found may be theirs.
+  // How often nodes and groups were removed. When the count changes, the findings of earlier waits may belong to
+  // removed groups.
   size_t removals() const { return removals_; }
-  // Erases what is of no group that is served.
+  // Erases the entities whose groups are not served any more.
   void erase_unserved(std::vector<detail::ReadyEntity>& ready);
 
-  // Ends the wait that is going on, or else the next one.
+  // Ends the wait that is going on. If there is none, the next wait ends at once.
   void interrupt();
 
-  // Is called, under a lock, after a change of nodes, groups or entities and by interrupt(): for executors that do not
-  // wait() here. Empty: nothing.
+  // For executors that do not call wait(). `on_change` is called under a lock: after each change of nodes, groups or
+  // entities, and by interrupt(). An empty function ends the calls.
   void set_on_change(std::function<void()> on_change);
 
  private:
@@ -64,8 +66,8 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
     node_interfaces::NodeBaseInterface::WeakPtr node;
     bool added_by_hand;
   };
-  // Owners that a locked section met on its way. They may be the last ones, and destructors report back here: the
-  // caller lets go of them after the lock.
+  // Owners that a locked section has acquired. They may be the last owners, and the destructors call this class. So the
+  // caller releases them after the lock.
   struct Owners {
     std::vector<NodePtr> nodes;
     std::vector<CallbackGroup::SharedPtr> groups;
@@ -90,7 +92,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   std::function<void()> on_change_;
   bool changed_ = true;
   bool waiting_ = false;
-  ExecutorWait wait_;  // while waiting_, of the waiting thread alone
+  ExecutorWait wait_;  // only the waiting thread may use it while `waiting_` is true
 };
 
 }  // namespace rclcpp

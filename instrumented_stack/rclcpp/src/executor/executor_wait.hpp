@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an executor waits. rmw keeps the list of what is registered and answers with positions in it; here is what stands
-// at each position. Nothing is looked at but what is ready and what comes next: there may be thousands of entities that
-// have nothing to do.
+// The wait of an executor. The waiter of rmw has the list of registered entities and answers with positions in it. This
+// class knows the entity at each position. After a wait it looks only at entities that are ready and at the next
+// timers, since thousands of entities may be idle.
 #pragma once
 
 #include <rcl/context.h>
@@ -23,22 +23,22 @@ namespace rclcpp {
 // For one thread at a time.
 class ExecutorWait {
  public:
-  // `interrupt` ends a wait, the next one if none is going on.
+  // `interrupt` ends the wait that is going on. If there is none, the next wait ends at once.
   ExecutorWait(const std::shared_ptr<rcl_context_t>& context, const GuardCondition& interrupt);
 
-  // Waits for these from now on, and hands over what it waited for before.
+  // Replaces the entities of the following waits. Returns the former ones.
   WaitedEntities exchange(WaitedEntities waited);
 
-  // Waits until something is ready or the time is over (negative: never), and appends what is ready. Throws if rcl
-  // reports an error, and what waitables throw.
+  // Waits until an entity is ready or the timeout is over. A negative timeout never ends. Appends the entities that are
+  // ready. Throws if rcl reports an error, and passes on exceptions of waitables.
   void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
 
  private:
   void register_all();
   void wait_for_ready(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
 
-  // The positions are those of waited_.entities, then the interrupt, the guard conditions of the timers, and what
-  // waitables bring.
+  // The positions in the waiter: first `waited_.entities`, then the interrupt, the guard conditions of the timers, and
+  // the entities of the waitables.
   std::size_t interrupt_position() const { return waited_.entities.size(); }
   std::size_t first_of_waitables() const { return interrupt_position() + 1 + waited_.timers.size(); }
 
@@ -48,7 +48,7 @@ class ExecutorWait {
   rmw_fastrtps::Waiter waiter_;
   TimerQueue timers_;
   AskedWaitables waitables_;
-  // Of one wait:
+  // The results of one wait:
   std::vector<std::size_t> positions_;
   std::vector<std::size_t> due_;  // indices of timers
 };

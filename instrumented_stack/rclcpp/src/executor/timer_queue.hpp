@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timers of an executor by the time at which they are due, so that a wait looks at the next ones and not at all.
+// The timers of an executor, ordered by the time at which they are due. A wait looks only at the next timers.
 //
 // Call assign() with all timers, ask time_until_first() before a wait and append_due() after it. Call forget_times()
 // when the guard condition of a timer was triggered.
@@ -15,26 +15,28 @@
 
 namespace rclcpp {
 
-// There is a heap for each clock. The queue does not learn that a timer was called or cancelled: the entry of the timer
-// then tells too early a time, which is corrected when the entry comes first. A reset, or a jump of simulated time, can
-// make a timer due earlier than its entry tells. Both trigger the guard condition of the timer. For one thread at a
-// time. The functions throw if rcl reports an error.
+// There is a heap for each clock. The queue does not learn that a timer was called or cancelled. The entry of the timer
+// then tells too early a time, and is corrected when it comes first. A reset, or a jump of simulated time, can make a
+// timer due earlier than its entry tells. Both trigger the guard condition of the timer.
+//
+// For one thread at a time. The functions throw if rcl reports an error.
 class TimerQueue {
  public:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
   struct Timer {
     const rcl_timer_t* handle;
-    const std::atomic_bool* may_be_taken;  // while this is false, the timer counts as cancelled
+    const std::atomic_bool* may_be_taken;  // while it is false, the timer counts as cancelled
   };
 
-  // The timers must live until the next call of assign(), or of the destructor.
+  // Replaces the timers. They must live until the next call of assign(), or until the destructor.
   void assign(std::vector<Timer> timers);
 
-  // Times are read anew before the next answer.
+  // Lets the queue read the times anew before its next answer.
   void forget_times() { has_times_ = false; }
 
-  // Nanoseconds until the first timer is due by its clock; 0 or less if one is due already, `kNever` without a timer.
+  // Nanoseconds until the first timer is due by its clock. 0 or less if a timer is due already, `kNever` if there is no
+  // timer.
   std::int64_t time_until_first();
 
   // Appends the indices of the timers that are due, in ascending order.
@@ -42,11 +44,11 @@ class TimerQueue {
 
  private:
   struct Entry {
-    std::int64_t due;  // or earlier than that
+    std::int64_t due;  // the timer is due at this time or later
     std::size_t index;
   };
-  // Clocks that tell one time count as one: all steady clocks, and all clocks of system time. A clock of simulated time
-  // is one of system time while nothing simulates time. When that begins or ends, guard conditions are triggered.
+  // Clocks that tell one time count as one clock: all steady clocks, and all clocks of system time. A ROS clock tells
+  // system time while nothing simulates time. When a simulation begins or ends, guard conditions are triggered.
   struct OfClock {
     rcl_clock_type_t kind;
     rcl_clock_t* clock;
@@ -57,7 +59,7 @@ class TimerQueue {
   void read_times();
   OfClock& clock_of(const Timer& timer);
   void return_held_back(OfClock& of_clock);
-  // Corrects entries until the first one tells the truth and may be taken. Entries of cancelled timers leave.
+  // Corrects entries until the first one is right and its timer may be taken. Removes the entries of cancelled timers.
   void settle_first(OfClock& of_clock);
   bool may_be_taken(const Entry& entry) const { return timers_[entry.index].may_be_taken->load(); }
   // Corrects the entry. False if the timer is cancelled.

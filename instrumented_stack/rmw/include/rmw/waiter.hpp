@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wait of one thread for any number of entities: the one list of what is registered, and the answer which of it is
-// ready. rmw_wait() stands on it. An executor, which waits for the same entities again and again, uses it directly.
+// Lets one thread wait for any number of entities. rmw_wait() uses it. An executor waits for the same entities again
+// and again, and uses it directly.
 //
-// Register entities with add(), then call wait() as often as you like. A registered entity tells the waiter by itself
-// when something arrives, so idle entities are not polled, and a message costs one lock and one wake-up of the waiting
-// thread, however many entities are registered.
+// Register entities with add(), then call wait() as often as you like. A registered entity tells the waiter when
+// something arrives, so idle entities are not polled. A message costs one lock and one wake-up of the waiting thread,
+// however many entities are registered.
 #pragma once
 
 #include <atomic>
@@ -27,9 +27,11 @@ class Waiter {
   Waiter(const Waiter&) = delete;
   Waiter& operator=(const Waiter&) = delete;
 
-  // Registers an entity: `data` of an rmw subscription, service, client, event or guard condition. It gets the next
-  // position, counted from 0. While `*may_be_taken` is false the entity is not asked, and what arrives for it ends no
-  // wait; after a change to true, another entity must end the wait. Null: the entity is always asked.
+  // Registers an entity: `data` of an rmw subscription, service, client, event or guard condition. The entity gets the
+  // next position, counted from 0.
+  //
+  // While `*may_be_taken` is false, the entity is not asked, and its data end no wait. When the flag becomes true,
+  // another entity must end the wait that is going on. If the pointer is null, the entity is always asked.
   //
   // An entity may be destroyed between waits. Its registration must be removed before the next wait.
   void add(void* entity, const std::atomic_bool* may_be_taken = nullptr);
@@ -38,13 +40,14 @@ class Waiter {
   // Whether exactly these living entities are registered from position `first` on.
   bool has_from(std::size_t first, const std::vector<void*>& entities) const;
 
-  // Waits until an entity is ready or the time is over; 0 does not block, a negative time is no limit. `ready` gets the
-  // positions of all entities that are ready, in ascending order. Ready guard conditions are reset.
+  // Waits until an entity is ready or the timeout is over. A timeout of 0 does not block, a negative one never ends.
+  // `ready` gets the positions of all entities that are ready, in ascending order. Ready guard conditions are reset.
   //
-  // The first wait that does not block asks each entity. Only further waits make the entities tell the waiter.
+  // The first wait asks each entity. If it does not block, the entities do not learn of the waiter yet: a single poll
+  // is cheaper that way.
   void wait(std::chrono::nanoseconds timeout, std::vector<std::size_t>& ready);
 
-  // The entity at the position may be ready now. Any thread.
+  // Tells that the entity at the position may be ready now. Any thread may call it.
   void wake(std::size_t position);
 
  private:
@@ -55,7 +58,7 @@ class Waiter {
     Waitable* waitable;
     const std::atomic_bool* may_be_taken;
   };
-  // Positions of entities that may be ready, as long as they are few.
+  // The positions of the entities that may be ready, as long as they are few. Otherwise `all` is true.
   struct Candidates {
     void add(std::size_t position);
     void remove_from(std::size_t first);
@@ -66,19 +69,21 @@ class Waiter {
 
   void attach();
   bool sleep(const Deadline& deadline);
-  // With the mutex held: what has called wake() is to be asked.
+  // Adds the positions that wake() has collected to `to_ask_`. The mutex must be held.
   void receive_candidates();
   void ask_candidates(std::vector<std::size_t>& ready);
   void ask(std::size_t position, std::vector<std::size_t>& ready);
 
   std::vector<Registration> registrations_;
-  bool has_polled_ = false;  // what is registered, at least once
-  Candidates to_ask_;        // in the next wait
+  bool has_polled_ = false;  // a wait that did not block has asked all entities
+  Candidates to_ask_;        // the entities to ask in the next wait
   std::vector<std::size_t> asked_;
 
-  // The first registered entities, which call wake(). Null: the entity was destroyed. Under the lock of attachments.
+  // The first registered entities, which call wake(). An entity that was destroyed is null here. The lock of
+  // attachments guards the list.
   std::vector<Waitable*> attached_;
-  std::atomic<bool> is_stale_{false};  // one of them was destroyed: its address may be another entity's now
+  // An attached entity was destroyed. A new entity may have its address now.
+  std::atomic<bool> is_stale_{false};
 
   std::mutex mutex_;
   std::condition_variable condition_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a WaitSet waits for, and the waiting: the part that does not depend on the kind of wait set.
+// The entities of a wait set, and the wait for them: the part that all kinds of wait sets share.
 #pragma once
 
 #include <rcl/wait.h>
@@ -24,7 +24,7 @@
 
 namespace rclcpp::detail {
 
-// What a wait found ready. It owns, so that it stays.
+// The entities that a wait has found ready. It owns them, so that they exist as long as the result.
 struct WaitSetFindings {
   std::vector<std::shared_ptr<TimerBase>> timers;
   std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
@@ -33,13 +33,15 @@ struct WaitSetFindings {
   std::vector<std::shared_ptr<Waitable>> waitables;
 };
 
-// Entities are referred to weakly. Functions add and remove throw std::invalid_argument for null and
-// std::runtime_error for what a wait set has already, or this one does not have.
+// The class holds weak references to its entities.
+//
+// The functions that add and remove throw std::invalid_argument for null. Adding throws std::runtime_error if the
+// entity is in any wait set already. Removing throws it if the entity is not in this one.
 class WaitSetEntities {
  public:
   enum class Threads { kOne, kMany };
 
-  // With kMany, everything may be called beside wait(), which takes note at once.
+  // With kMany, other threads may call all functions during wait(). Their changes act on this wait at once.
   WaitSetEntities(const Context::SharedPtr& context, Threads threads);
   ~WaitSetEntities();
   RCLCPP_DISABLE_COPY(WaitSetEntities)
@@ -54,16 +56,17 @@ class WaitSetEntities {
   void remove_client(const std::shared_ptr<ClientBase>& client);
   void add_service(const std::shared_ptr<ServiceBase>& service);
   void remove_service(const std::shared_ptr<ServiceBase>& service);
-  // Waits no longer than `associated_entity`, if there is one, lives.
+  // If `associated_entity` is not null, the waitable leaves the wait set when that entity is destroyed.
   void add_waitable(const std::shared_ptr<Waitable>& waitable, const std::shared_ptr<void>& associated_entity);
   void remove_waitable(const std::shared_ptr<Waitable>& waitable);
-  // Forgets what was destroyed; each wait() does it too.
+  // Removes the entities that were destroyed. Each wait() does it, too.
   void prune_deleted_entities();
 
-  // Negative waits for ever. One thread at a time.
+  // A negative time waits for ever. For one thread at a time.
   WaitResultKind wait(std::chrono::nanoseconds time_to_wait, WaitSetFindings& findings);
 
-  // As the last wait has left it, the entities of each kind in the order in which they were added.
+  // The state after the last wait: an entry that is not ready is null. The entities of each kind stand in the order in
+  // which they were added.
   const rcl_wait_set_t& get_rcl_wait_set() const { return wait_set_; }
 
  private:
@@ -74,7 +77,7 @@ class WaitSetEntities {
     bool has_associated_entity;
     std::weak_ptr<void> associated_entity;
   };
-  // The entities during a wait.
+  // Owns the entities during a wait.
   struct Owned {
     WaitSetFindings entities;
     std::vector<std::shared_ptr<GuardCondition>> guard_conditions;
@@ -91,10 +94,10 @@ class WaitSetEntities {
   void find_ready(const Owned& owned, WaitSetFindings& findings) const;
 
   const std::shared_ptr<rcl_context_t> rcl_context_;
-  const std::unique_ptr<GuardCondition> interrupt_;  // for many threads
+  const std::unique_ptr<GuardCondition> interrupt_;  // null with Threads::kOne
   rcl_wait_set_t wait_set_;
 
-  std::mutex mutex_;  // of the lists
+  std::mutex mutex_;  // guards the following lists
   List<SubscriptionBase> subscriptions_;
   List<GuardCondition> guard_conditions_;
   List<TimerBase> timers_;
