@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The neutral tree that XML and YAML launch files are read into.
+// The tree that XML and YAML launch files are read into. It does not depend on the format: the XML and the YAML form of
+// one launch file give equal trees.
 //
-// Entities are plain data: what a tag or an attribute means is declared by the actions
-// (launcher/language/registry.hpp), which check the tree against their declaration. The XML and the YAML form of one
-// launch file give equal trees.
+// Entities are plain data. The actions declare what a tag or an attribute means (launcher/language/registry.hpp), and
+// check the tree against their declaration.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@ namespace launch {
 class Action;
 class Template;
 
-// One scalar. XML gives only kUntyped; YAML gives the types of YAML 1.1 as PyYAML's safe loader resolves them.
+// One scalar. Scalars of XML are always kUntyped. Scalars of YAML have the types of YAML 1.1 as PyYAML's safe loader
+// resolves them.
 struct Scalar {
   enum class Type { kUntyped, kString, kBool, kInt, kFloat, kNull, kOther /* a date, for instance */ };
 
   Type type = Type::kUntyped;
-  LocatedText text;  // for typed scalars the text as written
+  LocatedText text;  // as written in the file, also for typed scalars
   bool bool_value = false;
   std::int64_t int_value = 0;
   double float_value = 0.0;
-  // Given by Python launch files alone: the substitutions that a template would have been parsed to. `text` only
-  // describes them.
+  // Only Python launch files set this: the substitutions of the value. `text` only describes them.
   std::shared_ptr<const Template> made;
 };
 
@@ -55,19 +55,20 @@ struct Entity {
   SourceRange where;  // the tag name
   std::vector<Attribute> attributes;
   // Sub-actions and structured items in document order. In YAML, a key whose value is a list of mappings gives one
-  // child per item, named after the key; the key `children` (or a list as the action's value) gives the sub-actions.
+  // child for each item, and the children have the name of the key. The key `children`, or a list as the value of the
+  // action, gives the sub-actions.
   std::vector<Entity> children;
-  // True when the file had a place for sub-actions, even an empty one. Always true in XML.
+  // True if the file has a place for sub-actions, even an empty one. Always true in XML.
   bool has_children_list = true;
-  // True for an item of a YAML list that is named by its key, as `param: [{...}]`. XML does not tell: always false.
+  // True for an item of a YAML list under a key, as in `param: [{...}]`. Always false in XML, which does not tell.
   bool is_structured_item = false;
-  // Given by Python launch files alone: an action that no tag can say. The rest is empty then.
+  // Only Python launch files set this: an action that no tag can express. The other members are empty then.
   std::shared_ptr<const Action> made;
 
   const Attribute* find(std::string_view name) const;
 };
 
-// Human-readable name of a scalar's type as the messages use it: "str", "int", "bool", "float", "null", "date".
+// The name of a type in messages: "str", "int", "bool", "float", "null", "date".
 std::string_view type_name(Scalar::Type type);
 
 }  // namespace launch

@@ -23,7 +23,7 @@ bool same_scalar(const Scalar& left, const Scalar& right) {
     const bool untyped = left.type == Type::kUntyped || right.type == Type::kUntyped;
     return untyped || left.type == right.type;
   }
-  // The text of an XML file is coerced to the type that the YAML value has.
+  // The text of an XML file is coerced to the type of the YAML value.
   const Scalar a = left.type == Type::kUntyped ? yaml11_scalar(left.text) : left;
   const Scalar b = right.type == Type::kUntyped ? yaml11_scalar(right.text) : right;
   const auto number = [](const Scalar& scalar) -> std::optional<double> {
@@ -58,7 +58,7 @@ bool same_value(const Value& left, const Value& right) {
   if (left.list() != nullptr && right.list() != nullptr) {
     return same_list(*left.list(), *right.list());
   }
-  // A list of YAML, and a text of XML that holds a list.
+  // One is a list of YAML. The other may be a text of XML that holds a list.
   const Value& text = left.scalar() != nullptr ? left : right;
   const Value& list = left.scalar() != nullptr ? right : left;
   if (text.scalar()->type != Scalar::Type::kUntyped) {
@@ -72,7 +72,7 @@ bool same_value(const Value& left, const Value& right) {
   }
 }
 
-// The value of an attribute with its companion NAME-sep, if it has one, applied.
+// The value of an attribute. If the attribute has a companion NAME-sep, the value is split at this separator.
 Value separated(const Entity& entity, const Attribute& attribute) {
   const Attribute* companion = entity.find(attribute.name + std::string(kSeparatorSuffix));
   const Scalar* text = attribute.value.scalar();
@@ -114,8 +114,8 @@ bool same_attributes(const Entity& left, const Entity& right) {
          });
 }
 
-// YAML gives structured items sorted by name, so for names that are structured items there, only the order among
-// themselves counts.
+// YAML groups structured items by name. So if a name has structured items in YAML, only the order of the items of this
+// name counts.
 bool same_children(const Entity& left, const Entity& right) {
   std::set<std::string_view> structured;
   for (const Entity* entity : {&left, &right}) {

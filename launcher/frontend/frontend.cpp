@@ -9,7 +9,7 @@ namespace launch {
 
 namespace {
 
-// XML must begin with "<", and no YAML launch file can.
+// XML must begin with "<". No YAML launch file does.
 bool looks_like_xml(std::string_view text) {
   if (text.starts_with(kByteOrderMark)) {
     text.remove_prefix(kByteOrderMark.size());
@@ -22,7 +22,7 @@ bool looks_like_xml(std::string_view text) {
 
 Entity load_entity_tree(const std::shared_ptr<const SourceFile>& file) {
   const std::string_view path = file->path();
-  // The content decides, whatever the suffix; an empty file is reported in the format that its suffix promises.
+  // The content decides, not the suffix. Only for an empty file the suffix decides which error is reported.
   const bool blank = file->text().find_first_not_of(" \t\r\n") == std::string::npos;
   const bool xml_suffix = path.ends_with(".xml") || path.ends_with(".launch");
   return looks_like_xml(file->text()) || (blank && xml_suffix) ? parse_xml(file) : parse_yaml(file);

@@ -12,14 +12,15 @@ namespace launch {
 
 namespace {
 
-// Bytes at the beginning that are ASCII without control characters, eight by eight; there may be more.
+// A number of bytes at the beginning that are ASCII without control characters. More of them may follow, because only
+// whole groups of eight bytes are counted.
 std::size_t ordinary_prefix(std::string_view text) {
   constexpr std::uint64_t kHighBits = 0x8080808080808080;
   constexpr std::uint64_t kFirstPrintable = 0x2020202020202020;
   std::size_t size = 0;
   for (std::uint64_t eight = 0; size + sizeof eight <= text.size(); size += sizeof eight) {
     std::memcpy(&eight, text.data() + size, sizeof eight);
-    // The high bit of a byte is set when the byte is below 0x20, or has been set already.
+    // The high bit of a byte is set here if the byte is below 0x20 or above 0x7F.
     if (((eight | (eight - kFirstPrintable)) & kHighBits) != 0) {
       break;
     }
@@ -39,7 +40,7 @@ std::optional<Diagnostic> find_bad_character(const LocatedText& source) {
     if (i == text.size()) {
       break;
     }
-    if (text[i] >= 0x20 || text[i] == '\n') {  // ASCII, most of it
+    if (text[i] >= 0x20 || text[i] == '\n') {  // ASCII: char is signed
       ++i;
       continue;
     }

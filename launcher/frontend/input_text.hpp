@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both file formats demand of a text before it is parsed.
+// The check of a text that both file formats need before they parse it.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace launch {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-// The first character that neither XML nor YAML allows (a control character, bytes that are not UTF-8, a file in
-// UTF-16), as an error; nullopt when there is none.
+// An error for the first character that neither XML nor YAML allows: a control character, bytes that are not UTF-8, or
+// the byte order mark of UTF-16. Nullopt if there is none.
 std::optional<Diagnostic> find_bad_character(const LocatedText& text);
 
 }  // namespace launch

@@ -85,7 +85,8 @@ class MarkupReader : private XmlCursor {
     }
   }
 
-  // Goes behind the next `end`. False, with an error at the piece's first `size` bytes, when there is none.
+  // Moves behind the next `end`. If there is none, it adds an error at the first `size` bytes of the piece, and returns
+  // false.
   bool skip_to(std::string_view end, const char* what, std::size_t from, std::size_t size) {
     const std::size_t found = text.find(end, from);
     if (found == std::string_view::npos) {
@@ -208,7 +209,7 @@ class MarkupReader : private XmlCursor {
   }
 
   XmlNesting* const nesting_;
-  std::size_t depth_ = 0;  // right where the nesting is
+  std::size_t depth_ = 0;  // correct only if the tags nest correctly
 };
 
 }  // namespace

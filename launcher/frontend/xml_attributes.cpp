@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The attributes of a start tag.
+// Reads the attributes of a start tag.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ void unexpected_in_tag(XmlCursor& cursor, std::string_view tag, std::size_t tag_
                cursor.position, cursor.position + character.size, "expected an attribute, '>' or '/>'");
 }
 
-// After an error inside a tag: goes on behind it, so that the rest of the file is checked, too.
+// Moves behind the tag after an error in it, so that the rest of the file is checked, too.
 bool skip_tag(XmlCursor& cursor) {
   const std::size_t end = cursor.text.find_first_of("<>", cursor.position);
   cursor.position = std::min(end, cursor.text.size());
@@ -35,7 +35,7 @@ bool skip_tag(XmlCursor& cursor) {
   return cursor.text[cursor.position - 2] == '/';
 }
 
-// Finds "= value" and adds the attribute. False when the tag can't be read on.
+// Reads "= value" and adds the attribute. False if the rest of the tag can't be read.
 bool read_attribute(XmlCursor& cursor, std::string_view tag, std::size_t first_attribute, std::string_view name,
                     std::size_t begin) {
   const std::size_t name_end = cursor.position;

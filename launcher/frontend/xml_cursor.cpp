@@ -7,7 +7,7 @@ namespace launch {
 
 namespace {
 
-// A file that isn't XML at all would give an error for each of its characters.
+// Without a limit, a file that is not XML at all could give an error for each of its characters.
 constexpr std::size_t kMaximumErrors = 20;
 
 }  // namespace

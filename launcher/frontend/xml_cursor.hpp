@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A place in the text of an XML file, and what those parts share that look for its markup: blanks, names, errors.
+// A place in the text of an XML file. The functions that look for markup move it. They share its functions for blanks,
+// names and errors.
 #pragma once
 
 #include <memory>
@@ -36,29 +37,30 @@ struct XmlCursor {
   std::string_view rest() const { return text.substr(position); }
   bool at(std::string_view what) const { return rest().starts_with(what); }
 
-  // True when there was a blank.
+  // True if there was a blank.
   bool skip_blanks();
-  // Empty when no name stands here.
+  // Empty if no name stands at the cursor.
   std::string_view take_name();
 
-  // Adds an error. After too many the reading stops.
+  // Adds an error. Stops the reading after too many errors.
   void error(std::string message, std::size_t begin, std::size_t end, std::string help = {});
-  // Adds an error that leaves no sense in what follows, and stops the reading.
+  // Adds an error and stops the reading, because the following text can't be understood any more.
   void fatal(std::string message, std::size_t begin, std::size_t end, std::string help = {});
 
   XmlMarkup markup;
-  std::string_view text;  // of the file
+  std::string_view text;  // the whole file
   std::size_t position = 0;
   bool stopped = false;
 };
 
-// Reads <?xml ... ?>, which stands at the cursor. Goes on in a file made of this one when that is in ISO-8859-1.
-void read_xml_declaration(XmlCursor& cursor);
+// Reads <?xml ... ?>, which stands at the cursor. If the file is in ISO-8859-1, the cursor moves on in a copy of the
+// file in UTF-8.
+void read_xml_declaration(XmlCursor& cursor);  // xml_declaration.cpp
 
-// Finds the attributes of a start tag, up to its end; true when it ends with "/>". `tag_begin` is its "<".
+// Reads the attributes of a start tag and its end. True if the tag ends with "/>". `tag_begin` is the place of its "<".
 bool read_xml_attributes(XmlCursor& cursor, std::string_view tag, std::size_t tag_begin);  // xml_attributes.cpp
 
-// Every '&' in [begin, end) must begin a reference that XML knows.
+// Adds an error for each '&' in [begin, end) that begins no reference known to XML.
 void check_xml_references(XmlCursor& cursor, std::size_t begin, std::size_t end);  // xml_references.cpp
 
 }  // namespace launch

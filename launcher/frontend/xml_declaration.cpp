@@ -13,7 +13,7 @@ namespace launch {
 
 namespace {
 
-// Of versions and encoding names.
+// The characters of versions and of names of encodings.
 constexpr std::string_view kValueCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._:-";
 
 std::string lower(std::string_view text) {
@@ -23,7 +23,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// What stands before the cursor is ASCII.
+// Makes the cursor go on in a copy of the file in UTF-8. The file is in ISO-8859-1, and the text before the cursor is
+// ASCII.
 void go_on_in_utf8(XmlCursor& cursor) {
   std::string text(cursor.text.substr(0, cursor.position));
   for (const char byte : cursor.rest()) {
@@ -34,7 +35,7 @@ void go_on_in_utf8(XmlCursor& cursor) {
   cursor.text = cursor.markup.file->text();
 }
 
-// True for ISO-8859-1.
+// True if the encoding is ISO-8859-1. Adds an error if it is neither that nor UTF-8.
 bool read_encoding(XmlCursor& cursor, std::size_t begin, std::size_t end) {
   const std::string name = lower(cursor.text.substr(begin, end - begin));
   if (name == "iso-8859-1" || name == "latin-1" || name == "latin1") {
@@ -57,7 +58,7 @@ void read_xml_declaration(XmlCursor& cursor) {
     return;
   }
   cursor.position = begin + 5;
-  // Once each, in this order; only the version is required.
+  // Each may stand once, in this order. Only the version is required.
   constexpr std::array<std::string_view, 3> kNames = {"version", "encoding", "standalone"};
   std::size_t next = 0;
   bool is_latin1 = false;

@@ -32,7 +32,7 @@ std::size_t count_children(const tinyxml2::XMLElement& element) {
   return count;
 }
 
-// Makes entities of the elements, and gives them their places: both are in document order.
+// Makes entities of the elements of tinyxml2, and adds their places. Elements and places are both in document order.
 class XmlEntityBuilder {
  public:
   explicit XmlEntityBuilder(const XmlMarkup& markup) : markup_(markup) {}
@@ -55,7 +55,7 @@ class XmlEntityBuilder {
  private:
   SourceRange range(XmlSpan span) const { return {markup_.file, span.begin, span.end}; }
 
-  // The place that comes next must be that of this name.
+  // The next place. `name` must stand there.
   SourceRange next(const std::vector<XmlSpan>& places, std::size_t& index, std::string_view name) const {
     if (index == places.size() || markup_.view(places[index]) != name) {
       throw LaunchError(fmt::format("the XML parser reads '{}' where none was found", name), {markup_.file, 0, 0});
@@ -66,13 +66,13 @@ class XmlEntityBuilder {
   void add(Entity& entity, std::string_view name, std::string_view value) {
     const std::size_t index = next_attribute_;
     SourceRange name_where = next(markup_.attribute_names, next_attribute_, name);
-    // Namespace declarations are no attributes to a namespace-aware parser.
+    // Namespace declarations are not attributes.
     if (name == "xmlns" || name.starts_with("xmlns:")) {
       return;
     }
     SourceRange where = range(markup_.attribute_values[index]);
     Scalar scalar{.text = locate_xml_value(where, value)};
-    if (where.begin == where.end) {  // shown with its quotes
+    if (where.begin == where.end) {  // errors point at the quotes of an empty value
       --where.begin;
       ++where.end;
     }
@@ -84,21 +84,21 @@ class XmlEntityBuilder {
   std::size_t next_attribute_ = 0;
 };
 
-// The text of the file, without what tinyxml2 can't read.
+// The text of the file, with blanks in place of the parts that tinyxml2 can't read.
 std::string readable_text(const XmlMarkup& markup) {
   std::string text = markup.file->text();
   for (const XmlSpan& hidden : markup.hidden) {
     std::replace_if(
         text.begin() + hidden.begin, text.begin() + hidden.end, [](char c) { return c != '\n'; }, ' ');
   }
-  // "\n\r" is one line end to tinyxml2; in XML it is two.
+  // tinyxml2 takes "\n\r" for one line end. In XML it is two line ends.
   for (std::size_t at = text.find("\n\r"); at != std::string::npos; at = text.find("\n\r", at + 1)) {
     text[at + 1] = text.compare(at + 2, 1, "\n") == 0 ? '\r' : '\n';
   }
   return text;
 }
 
-// What is said where only tinyxml2 knows what is wrong.
+// The error if tinyxml2 refuses a file and no other check has found the cause.
 Diagnostic refusal(const tinyxml2::XMLDocument& document, const std::shared_ptr<const SourceFile>& file) {
   const auto line = static_cast<std::uint32_t>(std::max(document.ErrorLineNum(), 1));
   const std::string_view text = file->line(line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the tags and attributes of an XML file stand, and what is wrong with it.
+// The places of the tags and attributes of an XML file, and its errors.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,18 @@ struct XmlMarkup {
     return std::string_view(file->text()).substr(where.begin, where.end - where.begin);
   }
 
-  // In UTF-8: the file that was given, or one made of it when its declaration names another encoding.
+  // The given file, or a copy of it in UTF-8 if its declaration names another encoding.
   std::shared_ptr<const SourceFile> file;
-  // In document order: the names of all start tags, and the attributes of all of them.
+  // The names of all start tags, and their attributes. All are in document order.
   std::vector<XmlSpan> tags;
   std::vector<XmlSpan> attribute_names;
   std::vector<XmlSpan> attribute_values;  // without their quotes
-  // What tinyxml2 can't read: processing instructions, which it refuses inside the root, and a DOCTYPE, which it ends
-  // at its first '>'.
+  // The parts that tinyxml2 can't read: processing instructions, which it refuses inside the root, and a DOCTYPE, which
+  // it ends at the first '>'.
   std::vector<XmlSpan> hidden;
   bool has_doctype = false;
-  // The file could be one that tinyxml2 accepts although its nesting is wrong: it has text or tags outside the root,
-  // deep nesting, a DOCTYPE or names of the form "a:b".
+  // tinyxml2 may accept the file although its nesting is wrong. This can happen if the file has text or tags outside
+  // the root, deep nesting, a DOCTYPE or names of the form "a:b".
   bool is_doubtful = false;
   std::vector<Diagnostic> errors;
 };

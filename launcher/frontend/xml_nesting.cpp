@@ -89,7 +89,7 @@ void XmlNesting::never_closed(XmlCursor& cursor, const Open& element, std::strin
                element.begin + 1 + element.name.size(), std::move(help));
 }
 
-// A name like "a:b" needs xmlns:a on its element or on an enclosing one.
+// A name like "a:b" needs xmlns:a on its element or on an enclosing element.
 void XmlNesting::check_prefix(XmlCursor& cursor, const Open& element, XmlSpan where) const {
   const std::string_view name = cursor.markup.view(where);
   const std::size_t colon = name.find(':');

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Explains what is wrong with an XML file as a whole: tags that don't match, text outside the root element, namespace
-// prefixes that are not declared.
+// Finds the errors of an XML file as a whole: tags that don't match, text outside the root element, namespace prefixes
+// that are not declared.
 //
-// tinyxml2 knows how elements nest. This class is asked where it refuses a file, or accepts one that expat could
-// refuse.
+// tinyxml2 knows how elements nest. This class is used when tinyxml2 refuses a file, or when it accepts a file that
+// expat may refuse.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@
 
 namespace launch {
 
-// tinyxml2 stops at 100.
+// tinyxml2 refuses a depth of 100.
 inline constexpr std::size_t kMaximumXmlDepth = 90;
 
-// Gets the pieces of the file in their order; errors go to the cursor.
+// Call the functions for the pieces of the file in document order. They add their errors to the cursor.
 class XmlNesting {
  public:
   bool is_outside() const { return open_.empty(); }
@@ -27,7 +27,7 @@ class XmlNesting {
 
   void text_outside(XmlCursor& cursor, std::size_t begin, std::size_t end);
   void begin_start_tag(XmlCursor& cursor, XmlSpan name);
-  // Its attributes are those of the cursor's markup from `first_attribute` on; `closed` tells that it ends with "/>".
+  // The attributes of the tag begin at `first_attribute` in the markup of the cursor. `closed`: the tag ends with "/>".
   void end_start_tag(XmlCursor& cursor, std::size_t first_attribute, bool closed);
   void end_tag(XmlCursor& cursor, XmlSpan name);
   void finish(XmlCursor& cursor);
@@ -35,8 +35,8 @@ class XmlNesting {
  private:
   struct Open {
     std::string_view name;
-    std::size_t begin;                       // of the tag, its "<"
-    std::vector<std::string_view> prefixes;  // that it declares by xmlns:prefix
+    std::size_t begin;                       // the place of its "<"
+    std::vector<std::string_view> prefixes;  // declared by xmlns:prefix
   };
 
   static void never_closed(XmlCursor& cursor, const Open& element, std::string help);

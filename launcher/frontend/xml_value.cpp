@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kDecoded = "&\t\r\n";
 
-// How many bytes of the text, which begins with one of kDecoded, stand for one character.
+// `raw` begins with one of kDecoded. Returns how many of its bytes stand for one character.
 std::size_t size_of_decoded(std::string_view raw) {
   if (raw.front() == '&') {
     return raw.find(';') + 1;

@@ -8,8 +8,8 @@
 
 namespace launch {
 
-// `decoded` is what tinyxml2 makes of the value at `raw`: references resolved, line ends as "\n". White space that is
-// written as such becomes spaces, as XML demands (and tinyxml2 leaves out); "&#10;" stays a line end.
+// `decoded` is the value that tinyxml2 reads at `raw`, with references resolved and line ends as "\n". In the result,
+// each literal tab and line end is a space: XML demands it, and tinyxml2 does not do it. A "&#10;" stays a line end.
 LocatedText locate_xml_value(const SourceRange& raw, std::string_view decoded);
 
 }  // namespace launch

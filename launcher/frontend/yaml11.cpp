@@ -56,7 +56,7 @@ class Reader {
       text_.remove_prefix(1);
     }
   }
-  // The longest run of characters of the set.
+  // Takes the longest run of characters of the set.
   std::string_view take_any(std::string_view set) {
     const std::string_view run = text_.substr(0, text_.find_first_not_of(set));
     text_.remove_prefix(run.size());
@@ -146,7 +146,7 @@ bool is_int(std::string_view text) {
   return take_decimal(reader) && (reader.at_end() || (take_sexagesimal_tail(reader) && reader.at_end()));
 }
 
-// YYYY-MM-DD, or with a time of day behind it.
+// YYYY-MM-DD. A time of day may follow.
 bool is_timestamp(std::string_view text) {
   const auto number = [](Reader& reader, std::size_t least, std::size_t most) {
     const std::size_t size = reader.take_any(kDigits).size();
@@ -192,7 +192,7 @@ std::string without_underscores(std::string_view text) {
   return result;
 }
 
-// The parts of a base-60 number, or the one part of any other.
+// The parts of a base-60 number. Any other number is one part.
 std::vector<std::string> colon_parts(std::string_view text) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
@@ -205,7 +205,7 @@ std::vector<std::string> colon_parts(std::string_view text) {
   return parts;
 }
 
-// Nullopt when it doesn't fit into 64 bits, or has no digit ("0x_").
+// Nullopt if the number does not fit into 64 bits, or has no digit ("0x_").
 std::optional<std::int64_t> int_value(std::string_view text) {
   std::string digits = without_underscores(text);
   bool negative = false;
@@ -261,11 +261,12 @@ bool is_letter_or_digit(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// True for the usual words, numbers and templates, in which YAML finds no indicator: they are plain scalars that stand
-// for themselves, so no parser needs to look at them. False says nothing.
+// True for usual words, numbers and templates. They have no indicator of YAML, so each is a plain scalar with this
+// text, and no parser is needed. If the result is false, the text may be a plain scalar all the same.
 bool is_surely_plain(std::string_view text) {
   constexpr std::string_view kBegins = "_/$";
-  constexpr std::string_view kSigns = "+-.";  // of numbers, but not of "- item", "---" and "..."
+  // They begin numbers. They also begin "- item", "---" and "...", so a letter or digit must follow.
+  constexpr std::string_view kSigns = "+-.";
   constexpr std::string_view kInside = " _-./+$()=;~'\"\\,<>";
   if (text.empty() || text.back() == ' ') {
     return false;
@@ -292,11 +293,11 @@ Value to_value(const YamlNode& node) {
   return {std::move(items), node.where};
 }
 
-// Whether numbers and dates begin so.
+// Whether the text begins like a number or a date.
 bool may_be_number(std::string_view text) {
   return !text.empty() && (is_digit(text.front()) || text.front() == '+' || text.front() == '-' || text.front() == '.');
 }
-// Whether a text begins as the words do that stand for booleans and null, and is no longer than they are.
+// Whether the text begins like one of the words for booleans and null, and is not longer than these words.
 bool may_be_word(std::string_view text) {
   constexpr auto pair = [](int first, int second) { return first * 256 + second; };
   if (text.size() < 2) {
@@ -336,7 +337,7 @@ void set_yaml11_type(Scalar& scalar) {
   } else if (is_one_of(text, std::array<std::string_view, 5>{"", "~", "null", "Null", "NULL"})) {
     scalar.type = Scalar::Type::kNull;
   } else if (!may_be_number(text)) {
-    // a short text
+    // a string
   } else if (is_float(text)) {
     scalar.type = Scalar::Type::kFloat;
     scalar.float_value = float_value(text);

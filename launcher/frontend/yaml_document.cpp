@@ -20,21 +20,21 @@ namespace {
 
 // Aliases of aliases can make a short text stand for a huge tree.
 constexpr std::size_t kMaximumNodes = 1'000'000;
-// As deep as yaml-cpp lets brackets nest; aliases of deep nodes inside deep nodes must not go beyond it.
+// The depth up to which yaml-cpp lets brackets nest. Aliases of deep nodes inside deep nodes must not nest deeper.
 constexpr std::size_t kMaximumDepth = 500;
 
-constexpr std::size_t kUsualKeys = 4;  // of a mapping: what is reserved
+constexpr std::size_t kUsualKeys = 4;  // a mapping reserves space for them
 
 constexpr std::string_view kStandardTag = "tag:yaml.org,2002:";
 
-// Builds the tree from the events, each node in its place: moving nodes costs more than building them.
+// Builds the tree from the events. Each node is built in its place, because moving a node costs more than building it.
 class TreeBuilder {
  public:
   TreeBuilder(const LocatedText& source, const YamlEvents& events, std::vector<Diagnostic>& errors,
               const YamlListReader& list)
       : source_(source), events_(events), errors_(errors), list_reader_(list) {}
 
-  // As far as the events go.
+  // After a syntax error the events, and so the tree, end there.
   YamlNode build() {
     if (events_.list.empty()) {
       root_.where = source_.range(0, 0);
@@ -49,14 +49,14 @@ class TreeBuilder {
   struct Anchored {
     YamlNode node;
     std::size_t size;
-    std::size_t height;  // levels below it
+    std::size_t height;  // levels below the node
   };
 
   bool at_end() const { return next_ == events_.list.size() || events_.list[next_].kind == YamlEvent::Kind::kEnd; }
   void skip_end() { next_ += next_ == events_.list.size() ? 0 : 1; }
 
-  // `key` is the one whose value the node is, if that is in a mapping without brackets; `is_list` tells that the list
-  // reader wants its items.
+  // If the node is a value in a mapping without brackets, `key` is its key. If `is_list`, the list reader takes the
+  // items of the node.
   void node(YamlNode& node, const YamlNode* key = nullptr, bool is_list = false) {
     const YamlEvent& event = events_.list[next_++];
     const std::size_t nodes_before = nodes_++;
@@ -85,12 +85,12 @@ class TreeBuilder {
     deepest_ = std::max(deepest_, deepest_before);
     if (event.anchor != 0 && event.kind != YamlEvent::Kind::kAlias) {
       const std::size_t size = nodes_ - nodes_before;
-      count(size, event);  // the copy that aliases are made from
+      count(size, event);  // for the copy in `anchors_`
       anchors_[event.anchor] = {node, size, height};
     }
   }
 
-  // Notes nodes that are copied.
+  // Counts nodes that are copied.
   void count(std::size_t nodes, const YamlEvent& event) {
     nodes_ += nodes;
     if (nodes_ > kMaximumNodes) {
@@ -115,7 +115,7 @@ class TreeBuilder {
     check_colon(key);
   }
 
-  // yaml-cpp takes a line without a colon for a key without a value.
+  // yaml-cpp takes a line without a colon for a key without a value. Here it is an error.
   void check_colon(const YamlNode* key) const {
     if (key == nullptr || key->kind != YamlNode::Kind::kScalar) {
       return;
@@ -209,13 +209,13 @@ class TreeBuilder {
   const YamlEvents& events_;
   std::vector<Diagnostic>& errors_;
   const YamlListReader& list_reader_;
-  std::size_t next_ = 0;  // event
+  std::size_t next_ = 0;  // the next event
   YamlNode root_;
   std::map<std::size_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
   std::size_t depth_ = 0;    // of the node that is being built
-  std::size_t deepest_ = 0;  // of the nodes of the innermost node that is being built
-  // The scalar read last: the key, when the value of a key follows.
+  std::size_t deepest_ = 0;  // the greatest depth in the innermost node that is being built
+  // The place of the last scalar. If the value of a key follows, it is the place of the key.
   std::size_t scalar_begin_ = 0;
   std::size_t scalar_end_ = 0;
 };
@@ -227,7 +227,7 @@ YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors, c
     throw YamlSyntaxError(std::vector<Diagnostic>{std::move(*bad)});
   }
   const YamlStream stream = read_yaml_events(source);
-  // What the tree finds at fault stands before the place where yaml-cpp gave up.
+  // An error that is found here comes first in the file, before the place where yaml-cpp gave up.
   YamlNode root = TreeBuilder(source, stream.document, errors, list).build();
   if (stream.error) {
     throw YamlSyntaxError(std::vector<Diagnostic>{*stream.error});

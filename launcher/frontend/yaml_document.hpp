@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads YAML text into a plain tree, as PyYAML's safe loader does: YAML 1.1 types, aliases and merge keys resolved.
+// Reads YAML text into a plain tree. As in PyYAML's safe loader, scalars have the types of YAML 1.1, and aliases and
+// merge keys are resolved.
 #pragma once
 
 #include <functional>
@@ -11,16 +12,16 @@
 
 namespace launch {
 
-// The list that is the value of the document's first key, when that key is `key`. Each item is handed over as soon as
-// it is read, may be taken apart, and makes room for the next, so that a long list costs the memory of one item. In the
-// document the list is then empty.
+// Takes the items of the list that is the value of the document's first key, if this key is `key`. Each item is handed
+// over as soon as it is read, and may be moved from. The memory of one item suffices for a long list. In the document
+// the list is then empty.
 struct YamlListReader {
   std::string_view key;
   std::function<void(YamlNode& item)> take;
 };
 
-// Throws LaunchError for a syntax error; what was handed over before does not count then. Other faults (duplicate keys)
-// are added to `errors`.
+// Throws LaunchError for a syntax error. The items that were handed over before must be dropped then. Other errors, for
+// instance duplicate keys, are added to `errors`.
 YamlNode read_yaml(const LocatedText& source, std::vector<Diagnostic>& errors, const YamlListReader& list = {});
 
 }  // namespace launch

@@ -18,7 +18,7 @@ namespace {
 
 using EventKind = YamlEvent::Kind;
 
-// The text as a stream, not copied.
+// Reads a text as a stream without a copy.
 class TextBuffer : public std::streambuf {
  public:
   explicit TextBuffer(const std::string& text) {
@@ -27,7 +27,7 @@ class TextBuffer : public std::streambuf {
   }
 };
 
-// yaml-cpp's positions don't count a byte order mark.
+// The positions of yaml-cpp do not count a byte order mark.
 std::size_t place_of(const YAML::Mark& mark, const std::string& text) {
   const std::size_t offset = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   return std::min(static_cast<std::size_t>(std::max(mark.pos, 0)) + offset, text.size());
@@ -79,7 +79,7 @@ class Recorder : public YAML::EventHandler {
   YamlEvents& events_;
 };
 
-// Where the innermost '[' or '{' that is still open stands.
+// The place of the innermost '[' or '{' that is still open.
 std::optional<std::size_t> open_bracket(const YamlEvents& events) {
   std::size_t closed = 0;
   for (auto event = events.list.rbegin(); event != events.list.rend(); ++event) {

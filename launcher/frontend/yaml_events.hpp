@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What yaml-cpp reads in a text: its events, one after the other.
+// The events that yaml-cpp finds in a text, in order.
 //
-// They are kept and made a tree afterwards. Building the tree while yaml-cpp reads takes twice the time, because the
-// code of both does not fit into a processor's first cache.
+// All events are stored, and the tree is built afterwards. To build the tree while yaml-cpp reads takes twice the time,
+// because the code of both does not fit into the first-level cache of a processor.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,13 @@ struct YamlEvent {
   enum class Kind : std::uint8_t { kNull, kScalar, kAlias, kSequence, kMapping, kEnd /* of the collection */ };
 
   Kind kind = Kind::kNull;
-  bool is_flow = false;    // of a collection: in brackets
-  bool is_plain = false;   // of a scalar: without quotes or tag
+  bool is_flow = false;    // a collection in brackets
+  bool is_plain = false;   // a scalar without quotes or tag
   std::uint32_t at = 0;    // byte of the source where the node begins
-  std::uint32_t text = 0;  // of a scalar: where its text begins in YamlEvents::texts
-  std::uint32_t tag = 0;   // where its tag begins there: behind its text
+  std::uint32_t text = 0;  // where the text of a scalar begins in YamlEvents::texts
+  std::uint32_t tag = 0;   // where its tag begins in `texts`, which is the end of the text
   std::uint32_t tag_end = 0;
-  std::size_t anchor = 0;  // that the node has or, for an alias, refers to; 0 for none
+  std::size_t anchor = 0;  // the anchor of the node, or of the node that an alias refers to; 0: none
 };
 
 struct YamlEvents {
@@ -44,8 +44,8 @@ struct YamlEvents {
 
 struct YamlStream {
   YamlEvents document;
-  YamlEvents second_document;  // which a launch file may not have
-  // Why yaml-cpp gave up behind the last event.
+  YamlEvents second_document;  // an error in a launch file
+  // The reason why yaml-cpp gave up after the last event.
   std::optional<Diagnostic> error;
 };
 

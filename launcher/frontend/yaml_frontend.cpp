@@ -14,12 +14,12 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-// Turns the YAML tree into entities. Goes on after an error, so that all of them are found.
+// Turns the YAML tree into entities. It goes on after an error, so that it finds all errors.
 class YamlEntityBuilder {
  public:
   std::vector<Diagnostic> take_errors() { return std::move(errors_); }
 
-  // Takes the texts out of the document. `children` are those that were made before, of a list that was handed over.
+  // Moves the texts out of the document. `children` are the entities of the list whose items were handed over before.
   Entity root(YamlNode& document, std::vector<Entity> children) {
     Entity entity;
     if (document.kind != Kind::kMapping) {
@@ -81,13 +81,13 @@ class YamlEntityBuilder {
     errors_.push_back({Severity::kError, std::move(message), where, std::move(help)});
   }
 
-  // Nothing below a wrong root is judged.
+  // Reports the root alone, because errors below a wrong root mean nothing.
   void wrong_root(std::string message, const SourceRange& where, std::string help = {}) {
     errors_.clear();
     error(std::move(message), where, std::move(help));
   }
 
-  // Tags and attribute names are texts; `on:` would be a boolean.
+  // Tags and attribute names are strings. `on` is a boolean in YAML 1.1.
   static bool is_name(const YamlNode& key) {
     return key.kind == Kind::kScalar && key.scalar.type == Scalar::Type::kString;
   }
@@ -116,7 +116,7 @@ class YamlEntityBuilder {
     return "write `- ACTION: {...}`";
   }
 
-  // The usual cause is attributes that are not indented below their action.
+  // Reports an item with several keys. Its attributes are probably not indented below its action.
   void several_keys(const YamlNode& item) {
     const YamlEntry& first = item.entries[0];
     const YamlEntry& second = item.entries[1];
@@ -143,7 +143,7 @@ class YamlEntityBuilder {
     result.push_back(std::move(entity));
   }
 
-  // The content of an entity: its attributes, or the list of its sub-actions.
+  // `content` is a mapping of attributes, or the list of sub-actions.
   void fill(Entity& entity, const YamlNode& key, YamlNode& content) {
     if (content.kind == Kind::kSequence) {
       entity.has_children_list = true;
@@ -193,7 +193,7 @@ class YamlEntityBuilder {
     }
   }
 
-  // A list of mappings: one child for each, named after the key.
+  // Makes a child of each mapping of the list. The children have the name of the key.
   void structured_items(Entity& entity, const YamlNode& key, YamlNode& list) {
     entity.children.reserve(entity.children.size() + list.items.size());
     for (YamlNode& item : list.items) {

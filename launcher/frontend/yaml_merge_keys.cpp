@@ -24,7 +24,7 @@ bool is_merge_key(const YamlNode& key) {
   return key.kind == Kind::kScalar && key.is_plain && text_of(key) == "<<";
 }
 
-// No merge key, no key twice: nothing is left to do.
+// True if the mapping has no merge key and no key twice. False means only that a closer look is needed.
 bool is_resolved(const YamlNode& mapping) {
   constexpr std::size_t kFew = 16;
   const std::vector<YamlEntry>& entries = mapping.entries;

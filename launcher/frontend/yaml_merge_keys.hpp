@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mapping of YAML 1.1 comes to: merge keys resolved, no key twice.
+// Resolves the merge keys of YAML 1.1 mappings, and finds keys that are given twice.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace launch {
 
-// Replaces each entry `<<: MAPPING` by the entries of that mapping. Keys of the mapping itself win over merged ones,
-// earlier merged mappings over later ones. A key that is given twice is an error, which yaml-cpp and PyYAML let pass.
+// Replaces each entry `<<: MAPPING` by the entries of MAPPING. Keys of the mapping itself take precedence over merged
+// keys. Earlier merged mappings take precedence over later ones. A key that is given twice is an error here, although
+// yaml-cpp and PyYAML accept it.
 void resolve_merge_keys(YamlNode& mapping, std::vector<Diagnostic>& errors);
 
 }  // namespace launch

@@ -16,10 +16,10 @@ struct YamlNode {
   enum class Kind { kScalar, kSequence, kMapping };
 
   Kind kind = Kind::kScalar;
-  Scalar scalar;                   // of a kScalar
-  std::vector<YamlNode> items;     // of a kSequence
-  std::vector<YamlEntry> entries;  // of a kMapping, keys are unique
-  SourceRange where;               // a scalar's text; the first character of a sequence or mapping
+  Scalar scalar;                   // of kScalar
+  std::vector<YamlNode> items;     // of kSequence
+  std::vector<YamlEntry> entries;  // of kMapping, with unique keys
+  SourceRange where;               // the text of a scalar, or the first character of a sequence or mapping
   bool is_plain = false;           // a scalar without quotes or tag
 
   bool is_null() const { return kind == Kind::kScalar && scalar.type == Scalar::Type::kNull; }
@@ -30,7 +30,7 @@ struct YamlEntry {
   YamlNode value;
 };
 
-// "a list", "a mapping", "str 'text'", "null": what a message calls the node.
+// The name of the node in messages: "a list", "a mapping", "str 'text'", "nothing".
 std::string describe(const YamlNode& node);
 
 }  // namespace launch

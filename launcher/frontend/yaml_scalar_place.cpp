@@ -16,8 +16,8 @@ bool is_break(char c) {
   return c == '\n' || c == '\r';
 }
 
-// Walks through the source and the decoded text side by side. Where they differ in a way that it doesn't know, it
-// stops; the rest of the text then stands at the place reached.
+// Walks through the source and the decoded text side by side. It stops at a difference that it does not know. The rest
+// of the text then gets the place where it has stopped.
 class ScalarLocator {
  public:
   ScalarLocator(const LocatedText& source, std::size_t begin, std::string_view decoded)
@@ -51,7 +51,7 @@ class ScalarLocator {
   // The next `size` bytes of the decoded text stand for the next `raw_size` bytes of the source.
   void take(std::size_t size, std::size_t raw_size) {
     const SourceRange range = source_.range(position_, raw_size);
-    if (size == raw_size && range.end - range.begin != size) {  // an entity of XML in it: each byte for itself
+    if (size == raw_size && range.end - range.begin != size) {  // it has an XML entity: locate each byte alone
       for (std::size_t i = 0; i < size; ++i) {
         const SourceRange byte = source_.range(position_ + i, 1);
         result_.append(rest_.substr(i, 1), byte.begin, byte.end);
@@ -74,7 +74,7 @@ class ScalarLocator {
     }
   }
 
-  // Plain (quote is '\0') and quoted scalars, in which lines are folded.
+  // Plain scalars (quote is '\0') and quoted scalars. Their lines are folded.
   void flow(char quote) {
     while (!rest_.empty() && position_ < raw_.size()) {
       const char c = peek();
@@ -94,7 +94,7 @@ class ScalarLocator {
     }
   }
 
-  // After a quoted text: nothing follows but blanks, no closing quote.
+  // Call this after a quoted text. True if only blanks follow, so that the closing quote is missing.
   bool reaches_end() {
     while (is_blank(peek()) || is_break(peek()) || (peek() == '\\' && is_break(peek(1)))) {
       ++position_;
@@ -102,7 +102,7 @@ class ScalarLocator {
     return position_ >= raw_.size();
   }
 
-  // A run of equal bytes, up to what could need decoding.
+  // Takes a run of equal bytes, up to a byte that may need decoding.
   void take_equal() {
     std::size_t size = 1;
     while (size < rest_.size() && peek(size) == rest_[size] && !is_blank(rest_[size]) && !is_break(rest_[size]) &&
@@ -112,7 +112,8 @@ class ScalarLocator {
     take(size, size);
   }
 
-  // Blanks, which stand for themselves on one line; with line breaks they become one space, or all breaks but one.
+  // Takes blanks. On one line they are kept. One line break becomes a space. Of several line breaks, all but one
+  // remain.
   bool fold() {
     std::size_t raw_size = 0;
     std::size_t breaks = 0;
@@ -131,7 +132,7 @@ class ScalarLocator {
 
   void escape() {
     const char kind = peek(1);
-    if (is_break(kind)) {  // the line goes on, nothing stands for the break and the indentation
+    if (is_break(kind)) {  // the line goes on: the break and the indentation have no decoded text
       ++position_;
       while (is_blank(peek()) || is_break(peek())) {
         ++position_;
@@ -142,7 +143,7 @@ class ScalarLocator {
     take(decode_utf8(rest_).size, std::min(raw_size, raw_.size() - position_));
   }
 
-  // Literal and folded block scalars: lines without their indentation.
+  // Literal and folded block scalars. The indentation of their lines has no decoded text.
   void block(bool folded) {
     const std::size_t header_end = std::min(raw_.find('\n', position_), raw_.size());
     position_ = std::min(header_end + 1, raw_.size());
@@ -166,7 +167,7 @@ class ScalarLocator {
       if (!rest_.empty() && (rest_.front() == '\n' || (folded && rest_.front() == ' '))) {
         take(1, 1);
       } else {
-        ++position_;  // folded away before an empty line, or clipped at the end
+        ++position_;  // this break has no decoded text: an empty line follows, or it was clipped at the end
       }
     }
   }
@@ -178,7 +179,7 @@ class ScalarLocator {
   LocatedText result_;
 };
 
-// Whether the text stands there as it is, as most do: plain and on one line.
+// Whether the scalar is plain and on one line, so that source and decoded text are equal. Most scalars are.
 bool is_verbatim(std::string_view raw, std::string_view decoded) {
   const char first = raw.empty() ? '"' : raw.front();
   return first != '"' && first != '\'' && first != '|' && first != '>' && first != '!' && first != '&' &&
@@ -190,7 +191,7 @@ bool is_verbatim(std::string_view raw, std::string_view decoded) {
 YamlScalarPlace locate_yaml_scalar(const LocatedText& source, std::size_t begin, std::string_view decoded) {
   if (is_verbatim(std::string_view(source.text()).substr(begin), decoded)) {
     const SourceRange range = source.range(begin, decoded.size());
-    if (range.end - range.begin == decoded.size()) {  // no entity of XML in it
+    if (range.end - range.begin == decoded.size()) {  // it has no XML entity
       return {LocatedText(std::string(decoded), range), begin + decoded.size()};
     }
   }

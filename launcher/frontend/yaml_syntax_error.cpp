@@ -12,7 +12,8 @@ namespace launch {
 
 namespace {
 
-// A tab in the indentation of the line at `at`, or of the line before: the cause of most errors there.
+// The place of a tab in the indentation of the line at `at`, or of the line before. Such a tab is the usual cause of an
+// error at `at`.
 std::optional<std::size_t> find_indenting_tab(std::string_view text, std::size_t at) {
   for (int lines = 0; lines < 2; ++lines) {
     const std::size_t line_begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
@@ -29,11 +30,11 @@ std::optional<std::size_t> find_indenting_tab(std::string_view text, std::size_t
   return std::nullopt;
 }
 
-// The line before the one that begins at `line_begin`, when it should be an entry of a mapping and lacks its ':'. The
-// parser then takes both lines for one text, and complains about the ':' of the second.
+// The line above `line_begin`, if it should be an entry of a mapping and its ':' is missing. The parser then takes this
+// line and the next one for one text, and reports the ':' of the next line.
 std::optional<SourceRange> find_line_without_colon(const LocatedText& source, std::size_t line_begin) {
   const std::string_view text = source.text();
-  // Bytes [first, last) of the next line above `end` that is not blank; list dashes count as indentation.
+  // The next line above `end` that is not blank. Its content is [first, last). List dashes count as indentation.
   struct Line {
     std::size_t begin, first, last;
   };
@@ -54,13 +55,13 @@ std::optional<SourceRange> find_line_without_colon(const LocatedText& source, st
     return std::nullopt;
   }
   const std::optional<Line> above = line_above(line->begin);
-  // Deeper than a line with a value: the second line of that value.
+  // A line that is indented deeper than a line with a value is the second line of that value.
   const bool continues = above && has_colon(*above) && text[above->last - 1] != ':' &&
                          line->first - line->begin > above->first - above->begin;
   return continues ? std::nullopt : std::optional(source.range(line->first, line->last - line->first));
 }
 
-// What is wrong at byte `at`, in the words of a launch file. yaml-cpp tells which rule was broken, not why.
+// The error at byte `at`, in terms of launch files. yaml-cpp tells only which rule was broken.
 Diagnostic explain_rule(const std::string& rule, std::size_t at, const LocatedText& source,
                         const std::optional<std::size_t>& open_bracket) {
   using namespace YAML::ErrorMsg;

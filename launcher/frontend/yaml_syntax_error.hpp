@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says in the words of a launch file what is wrong with YAML that can't be parsed.
+// Explains the errors of YAML that can't be parsed, in terms of launch files.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace launch {
 
-// `rule` is what yaml-cpp says (YAML::ErrorMsg), `at` the byte of `source` where it says so, `open_bracket` the place
-// of the innermost '[' or '{' that is still open there.
+// `rule` is the message of yaml-cpp (YAML::ErrorMsg). `at` is its place, a byte of `source`. `open_bracket` is the
+// place of the innermost '[' or '{' that is still open at `at`.
 Diagnostic explain_yaml_error(const std::string& rule, std::size_t at, const LocatedText& source,
                               const std::optional<std::size_t>& open_bracket);
 
