@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "launcher/base/monotonic_clock.hpp"
@@ -208,10 +210,12 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
       kernel_failure = error.what();
     }
   }
-  destroy_session(name, give_up);
-  timer.finished("destroy");
-  EventWatch::clean_up(name);                                    // of a launcher that was killed
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
+  std::error_code unreadable;
+  const bool rotated = local && std::filesystem::exists(session->path + "/archives", unreadable);
+  rotated ? destroy_rotated_session(name, give_up) : destroy_session(name, give_up);
+  timer.finished("destroy");
+  EventWatch::clean_up(name);  // of a launcher that was killed
   const bool readable = local && !session->snapshot;
   std::vector<Stream> streams;
   if (readable) {

@@ -2,10 +2,12 @@
 #include "tracing/session/session_end.hpp"
 
 #include <fmt/core.h>
+#include <lttng/destruction-handle.h>
 #include <lttng/lttng.h>
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include "tracing/account/loss_counters.hpp"
@@ -34,6 +36,9 @@ class Polling {
   static constexpr milliseconds kLongest{10};
   steady_clock::time_point begin_ = steady_clock::now();
 };
+
+// How often a wait for LTTng asks whether to give up.
+constexpr milliseconds kGiveUpInterval{50};
 
 void stop(const std::string& name) {
   // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
@@ -68,6 +73,23 @@ void destroy_session(const std::string& name, const std::function<bool()>& give_
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
     if (give_up && give_up()) break;
   }
+}
+
+void destroy_rotated_session(const std::string& name, const std::function<bool()>& give_up) {
+  const std::string doing = fmt::format("destroy trace session '{}'", name);
+  lttng_destruction_handle* destruction = nullptr;
+  lttng_error_code result = lttng_destroy_session_ext(name.c_str(), &destruction);
+  if (result != LTTNG_OK) throw lttng_error(result, doing);
+  const std::unique_ptr<lttng_destruction_handle, void (*)(lttng_destruction_handle*)> owner(
+      destruction, lttng_destruction_handle_destroy);
+  lttng_destruction_handle_status status = LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT;
+  while (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT && !(give_up && give_up())) {
+    status = lttng_destruction_handle_wait_for_completion(destruction, kGiveUpInterval.count());
+  }
+  if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT) return;
+  result = LTTNG_ERR_NO_SESSIOND;  // the connection broke
+  if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_COMPLETED) lttng_destruction_handle_get_result(destruction, &result);
+  if (result != LTTNG_OK) throw lttng_error(result, doing);
 }
 
 }  // namespace tracing

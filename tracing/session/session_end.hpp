@@ -18,4 +18,8 @@ LossAccount stop_and_account(const std::string& lttng_session_name, const std::f
 // Returns when nothing is left of the session, or give_up says so. Throws TraceError.
 void destroy_session(const std::string& lttng_session_name, const std::function<bool()>& give_up);
 
+// The same for a session that was rotated: LTTng moves its last files to the archive half a second after the session
+// has gone from the list. Returns when the files are there, or give_up says so. Throws TraceError.
+void destroy_rotated_session(const std::string& lttng_session_name, const std::function<bool()>& give_up);
+
 }  // namespace tracing

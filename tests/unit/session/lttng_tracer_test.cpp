@@ -89,6 +89,33 @@ TEST_F(LttngTracer, TraceIsCompleteOnDiskEveryTimeFinishReturns) {
   EXPECT_EQ(listed_sessions(), "");
 }
 
+// LTTng moves the last part of a rotated session some time after it has destroyed the session.
+TEST_F(LttngTracer, RotatedTraceStaysWhereItIsOnceFinishHasReturned) {
+  const auto directories_of = [](const std::string& trace) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(trace)) {
+      if (entry.is_directory()) names.push_back(entry.path().filename());
+    }
+    return names;
+  };
+  constexpr int kRuns = 5;
+  for (int run = 0; run < kRuns; ++run) {
+    const TraceConfig config = config_named("run" + std::to_string(run));
+    tracer->start(config);
+    TracedApp app(20, 50);
+    const auto rotated = run_command({"lttng", "rotate", config.session_name});
+    ASSERT_EQ(rotated.exit_code, 0) << rotated.err;
+    app.fire_again();
+    app.end();
+    tracer->finish(config, never);
+    EXPECT_EQ(directories_of(config.trace_directory()), std::vector<std::string>{"archives"}) << "run " << run;
+    const ReadTrace trace = read_trace(config.trace_directory());
+    ASSERT_EQ(trace.complaints, "") << "run " << run;
+    ASSERT_EQ(trace.events, (std::map<std::string, int>{{"ros2:rcl_init", 1}, {"ros2:rclcpp_callback_register", 40}}))
+        << "run " << run;
+  }
+}
+
 TEST_F(LttngTracer, AppendedTraceIsReadTogetherWithTheEarlierOnes) {
   TraceConfig config = config_named("again");
   config.append_trace = true;

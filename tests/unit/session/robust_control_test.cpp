@@ -221,7 +221,7 @@ TEST_F(RobustControl, FiveHundredProcessesAreAllRecorded) {
                                                               TRACED_APP + " 1 10 >/dev/null & done; wait"},
                                                  // However busy the machine is: this is about the daemon's descriptors.
                                                  .environment = {{"LTTNG_UST_REGISTER_TIMEOUT", "-1"}}},
-                                                std::chrono::seconds(60));
+                                                std::chrono::seconds(300));
   const LossAccount losses = tracer->finish(many, never);
   EXPECT_EQ(losses.discarded_events(), 0u);
   EXPECT_EQ(read_trace(many.trace_directory()).events["ros2:rcl_init"], kProcesses);
