@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <reset>: forgets the launch configurations, but for those to keep.
+// <reset>: forgets all launch configurations except the entries of `keep`.
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

@@ -183,7 +183,7 @@ void TraceScope::look_around_later(EventLoop& loop, const Tell& tell) {
   });
 }
 
-// Called on the loop's thread. The session daemon takes a millisecond for what is registered here.
+// Called on the thread of the loop. The session daemon takes a millisecond for these registrations.
 void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
   flight_recorder_ =
       std::make_unique<tracing::FlightRecorder>(config_, [&loop, tell](const tracing::TakenSnapshot& taken) {

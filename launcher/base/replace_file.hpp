@@ -13,8 +13,8 @@
 
 namespace launch {
 
-// Puts a file with this text at `path`, in place of a file or a link that is there. Its directory must exist. The mode
-// is 0666 less the umask. Throws std::system_error; what was at `path` is then as it was.
+// Puts a file with this text at `path`. The new file replaces a file or a link. The directory must exist. The mode is
+// 0666 less the umask. If it throws std::system_error, `path` is unchanged.
 void replace_file(const std::string& path, std::string_view text);
 // The same for the file `name` in an open directory.
 void replace_file(const UniqueFd& directory, const std::string& name, std::string_view text);

@@ -74,8 +74,8 @@ class LocatedText {
 
  private:
   // Decoded bytes from `decoded` on come from the file's bytes from `raw` on, up to the next anchor. `verbatim` is
-  // false where one decoded run stands for a longer or shorter raw run (an entity, an escape). Without anchors all of
-  // the text is verbatim.
+  // false if the raw bytes are more or fewer than the decoded bytes, as for an entity or an escape. Without anchors
+  // the whole text is verbatim.
   struct Anchor {
     std::uint32_t decoded;
     std::uint32_t raw_begin;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch FILE`: loads a launch file and runs it, or prints what it asks for.
+// `launch FILE`: loads a launch file, and runs it or prints its plan or arguments.
 #pragma once
 
 #include "launcher/cli/command_line.hpp"

@@ -19,8 +19,8 @@ class OutputPattern {
   static constexpr std::size_t kSearchedLength = 4096;
 
   OutputPattern() = default;  // every line
-  // `expression` is an ECMAScript regular expression that is searched for in each line; empty: every line. `stream` is
-  // "stdout", "stderr" or "both". Throws LaunchError at the place of the one that is wrong.
+  // `expression` is an ECMAScript regular expression that is searched for in each line. An empty expression matches
+  // every line. `stream` is "stdout", "stderr" or "both". Throws LaunchError at the place of the wrong argument.
   OutputPattern(const std::string& expression, const SourceRange& expression_where, const std::string& stream,
                 const SourceRange& stream_where);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the launcher knows of launch files: a declaration for each action, and a loader for each kind of file that is a
+// The language of launch files: a declaration for each action, and a loader for each kind of launch file that is a
 // program.
 //
 // The declaration of an action is its tag, its attributes and items with their types, a line of help, and how to make

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says what happens to processes, in the words of ROS 2 launch.
+// The messages about events of processes, with the texts of ROS 2 launch.
 #pragma once
 
 #include "launcher/process/output_router.hpp"

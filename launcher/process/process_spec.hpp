@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What to run, fully evaluated; what runs; how it ended. Three types, because they live for different times.
+// Three types with different lifetimes: a command that is fully evaluated, a running process, and the end of a process.
 #pragma once
 
 #include <sys/resource.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a plan can't tell, because it depends on a function of a launch file.
 //
-// A plan calls the functions that make a description, but not those that wait for an event or a timer: they do
-// something in the running system. The plan names them instead, and names the actions after them that can't be visited
-// without what they would have done.
+// A plan calls the functions that make a description. It does not call functions that wait for an event or a timer,
+// because they act on the running system. The plan names these functions instead. It also names the later actions that
+// can't be visited without their effects.
 #pragma once
 
 #include <string>

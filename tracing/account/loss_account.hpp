@@ -72,11 +72,11 @@ struct ChannelLoss {
   std::uint64_t advised_subbuffer_count = 0;
 };
 
-// How far it is known which process the lost events are of.
+// How exactly the lost events are attributed to processes.
 enum class LossAttribution {
   kExact,     // the processes lost as much as the channels
   kEstimate,  // they lost more (another session recorded at other times) or less (other programs do not count), or
-              // packets are missing, whose events nobody counted
+              // packets are missing, whose events were not counted
   kUnknown
 };
 
@@ -85,7 +85,7 @@ struct LossAccount {
   std::uint64_t lost_packets() const;
   // Everything that was recorded is in the trace, and nothing was lost.
   bool complete() const;
-  // Something was lost that nobody asked to be overwritten or removed.
+  // Something was lost although the user did not ask to overwrite or remove it.
   bool has_losses() const;
 
   std::vector<ChannelLoss> channels;

@@ -105,7 +105,8 @@ void OverheadGuard::watch() {
         told_({.rate = rate, .share = static_cast<double>(rate) * ns_per_event_ / 1e9});
       }
     }
-    // What was fired while LTTng was switching events off says nothing about what comes.
+    // The count starts anew, because events that fired while LTTng was switching events off tell nothing about the new
+    // rate.
     before = runtime_events(counters.read());
     began = Clock::now();
     lock.lock();

@@ -10,8 +10,8 @@
 
 namespace tracing {
 
-// Of one stream. Losses in it are those that every reader of CTF finds: a packet's total of discarded events less that
-// of the packet before it, and gaps between sequence numbers.
+// The losses of one stream, as every reader of CTF finds them: the total of discarded events in a packet less the total
+// in the packet before it, and gaps between sequence numbers.
 struct PacketLosses {
   std::uint64_t discarded_events = 0;  // also of the first packet, if it is the stream's first of all
   std::uint64_t lost_packets = 0;
@@ -20,8 +20,9 @@ struct PacketLosses {
 };
 PacketLosses losses_of(const Stream& stream);
 
-// Replaces the session daemon's counts of each channel with those of its packets. A channel without a packet keeps the
-// daemon's. What the daemon counts beyond the packets is added: it never got into one.
+// Replaces the session daemon's counts of each channel with the counts of its packets. A channel without a packet keeps
+// the counts of the daemon. If the daemon has counted more than the packets, the difference is added: these losses were
+// never written into a packet.
 //
 // The daemon alone would be wrong: it forgets processes that have ended with buffers of their own, and it does not see
 // what files of a limited size have overwritten.

@@ -28,7 +28,7 @@ std::vector<std::string> exclusions_of(lttng_event& rule) {
 
 bool RecordedEvents::Rule::takes(const std::string& event) const {
   const auto matches = [&event](const std::string& name) { return fnmatch(name.c_str(), event.c_str(), 0) == 0; };
-  // Exclusions are given without the provider, and LTTng takes them for those of the pattern's.
+  // Exclusions are given without a provider. LTTng applies them to the provider of the pattern.
   const std::string provider = event.substr(0, event.find(':') + 1);
   return matches(pattern) && std::none_of(exclusions.begin(), exclusions.end(), [&](const std::string& name) {
            return matches(name) || matches(provider + name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a trace is complete, and if not: what is missing, and which buffers would have held it.
+// Whether a trace is complete. If it is not: what is missing, and which buffers would have been large enough.
 #pragma once
 
 #include <filesystem>

@@ -7,9 +7,9 @@
 
 namespace tracing {
 
-// Candidates for the last of the words after `launch trace`, which is perhaps empty or begun: verbs, options, names of
-// sessions, of events that can be recorded now, and of context fields. Sorted; not yet narrowed to what is begun.
-// Starts no session daemon; without one it knows the events of ROS 2 alone.
+// Candidates for the last of the words after `launch trace`: verbs, options, names of sessions, of events that can be
+// recorded now, and of context fields. They are sorted. The beginning of the last word does not filter them yet. The
+// function starts no session daemon. Without a daemon it knows only the events of ROS 2.
 std::vector<std::string> trace_completions(const std::vector<std::string>& words);
 
 }  // namespace tracing

@@ -36,8 +36,9 @@ bool daemon_answers() {
   return lttng_session_daemon_alive() == 1;
 }
 
-// Root's daemon lives in the global run directory, whatever LTTNG_HOME says. Everybody else has one of their own; the
-// members of group `tracing` are served by root's daemon where one runs, and the other file does not exist then.
+// Root's daemon has its file in the global run directory, whatever LTTNG_HOME says. Each other user has a daemon of
+// their own. If root's daemon runs, it serves the members of group `tracing`, and the file of their own daemon does not
+// exist.
 std::string pid_file_of_daemon() {
   if (geteuid() == 0) return "/run/lttng/lttng-sessiond.pid";
   const char* const given = std::getenv("LTTNG_HOME");

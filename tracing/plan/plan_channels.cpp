@@ -76,7 +76,7 @@ std::uint64_t usable_subbuffer_count(std::uint64_t given, std::vector<std::strin
   return usable;
 }
 
-// The events of the main userspace channel: without those default events that another channel takes by name or pattern.
+// The events of the main userspace channel. Default events that another channel takes by name or pattern are left out.
 std::vector<std::string> main_events(const TraceConfig& config) {
   if (config.events_ust != default_ros_events() || config.channels.empty()) return config.events_ust;
   std::vector<std::string> left = config.events_ust;
@@ -190,7 +190,7 @@ void check_channel_name(const std::string& name, const std::set<std::string>& ta
   if (taken.contains(name)) throw TraceError(fmt::format("there are two channels '{}'", name), "give one another name");
 }
 
-// Rounds what LTTng would refuse, and refuses what it would misunderstand.
+// Rounds values that LTTng would refuse, and refuses values that LTTng would misunderstand.
 void make_usable(ChannelPlan& plan, const TraceConfig& config, std::vector<std::string>& warnings) {
   plan.subbuffer_size = usable_subbuffer_size(plan.subbuffer_size, plan.domain, warnings);
   plan.subbuffer_count = usable_subbuffer_count(plan.subbuffer_count, warnings);

@@ -130,7 +130,7 @@ bool EventWatch::tell_next() {
   lttng_notification* received = nullptr;
   const auto status = lttng_notification_channel_get_next_notification(channel_.get(), &received);
   const Owned<lttng_notification> notification(received, &lttng_notification_destroy);
-  // Notifications that come too fast are dropped; those that arrive report the event.
+  // LTTng drops notifications that come too fast. The notifications that arrive suffice to report the event.
   if (status == LTTNG_NOTIFICATION_CHANNEL_STATUS_NOTIFICATIONS_DROPPED) return true;
   if (status != LTTNG_NOTIFICATION_CHANNEL_STATUS_OK) return false;
   const char* name = nullptr;

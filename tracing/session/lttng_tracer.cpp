@@ -75,7 +75,7 @@ std::vector<Stream> streams_of(const LossAccount& losses, const std::string& dir
   return read_streams(directory, in_files, give_up);
 }
 
-// Where the kernel recorder of a session runs: beside what is recorded, or beside the snapshots.
+// The directory of the kernel recorder of a session. It is beside the recorded trace or beside the snapshots.
 std::string recorder_directory(const std::string& name) {
   if (const auto snapshots = snapshot_directory(name)) return *snapshots;
   const std::optional<SessionSummary> session = find_session(name);

@@ -34,7 +34,8 @@ long number_of(const fs::path& snapshot) {
   return number;
 }
 
-// After LTTng's, into the newest snapshot: it holds what comes before the reason for both.
+// Takes a snapshot with LTTng, then adds the buffers of the kernel recorder to it. Both parts hold the events before
+// the reason for the snapshot.
 void record(const std::string& name, bool clear) {
   check_lttng(lttng_snapshot_record(name.c_str(), nullptr, 0), fmt::format("record a snapshot of session '{}'", name));
   const std::optional<fs::path> directory = snapshot_directory(name);

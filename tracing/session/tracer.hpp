@@ -46,8 +46,9 @@ class Tracer {
   virtual TraceableEvents traceable_events() = 0;
   // Warnings of running programs that no session can record (unreachable_processes.hpp).
   virtual std::vector<std::string> unreachable_processes() = 0;
-  // Writes the session's configuration, not what it recorded, as SESSION.lttng into the directory; and creates the
-  // session again from there, recording if it was. An empty directory is LTTng's own for the user.
+  // save() writes the configuration of the session as SESSION.lttng into the directory, without its events. load()
+  // creates the session again from there, and records if the saved session was recording. An empty directory stands for
+  // LTTng's directory of the user.
   virtual void save(const std::string& lttng_session_name, const std::string& directory) = 0;
   virtual void load(const std::string& lttng_session_name, const std::string& directory) = 0;
 };

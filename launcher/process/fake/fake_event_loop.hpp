@@ -32,8 +32,8 @@ class FakeEventLoop final : public EventLoop {
   // real signal would have ended the process.
   void deliver_signal(int signal);
 
-  // Runs what is pending, then jumps to the next timer, until quit(). Throws std::logic_error when nothing is left that
-  // could ever happen, where a real loop would wait for ever.
+  // Runs pending callbacks, then jumps to the next timer, until quit(). Throws std::logic_error if nothing can happen
+  // any more. A real loop would wait for ever then.
   void run() override;
   void quit() override { quit_ = true; }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface between the launcher and liblaunch_python.so: plain data one way, two small interfaces.
+// The interface between the launcher and liblaunch_python.so: plain data to the launcher, and two small interfaces.
 //
-// The module runs Python and turns the objects that a launch file builds into the entities below, each with the place
-// at which it was made. The launcher decides what they mean, as for XML and YAML. What only Python can do (a function,
-// a substitution of the user's) stays an Object, which the launcher asks while it visits. One thread only.
+// The module runs Python. It turns the objects of a launch file into the entities below, each with the place where the
+// file makes it. The launcher decides what they mean, as for XML and YAML. Functions and substitutions of the user can
+// run only in Python. They stay Objects, which the launcher calls during the visit. Only one thread may use this.
 #pragma once
 
 #include <cstdint>
@@ -80,8 +80,8 @@ class Host {
   virtual std::string perform(const Text& text, Variables& configurations) = 0;
   // "debug", "info", "warning", "error", "critical".
   virtual void message(const std::string& level, const std::string& logger, const std::string& text) = 0;
-  // Keeps what a scope restores (all of it, or the environment alone) and puts it back, as a stack. Both throw outside
-  // a visit; pop() throws when nothing is kept.
+  // push() saves all that a scope restores, or only the environment. pop() restores it. Both work as a stack, and throw
+  // outside a visit. pop() throws if nothing is saved.
   virtual void push(bool environment) = 0;
   virtual void pop(bool environment) = 0;
   // Visits the actions now.

@@ -68,7 +68,7 @@ struct SetValue {
   }
 };
 
-// The last parameter of a name is the one that is sent: a container would refuse a name that comes twice.
+// Only the last parameter of each name is sent, because a container would refuse a name that comes twice.
 std::vector<rcl_interfaces::msg::Parameter> messages_of(const std::vector<NamedParameter>& parameters) {
   std::vector<rcl_interfaces::msg::Parameter> messages;
   for (const NamedParameter& parameter : parameters) {

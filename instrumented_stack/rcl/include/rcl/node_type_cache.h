@@ -12,8 +12,8 @@ extern "C" {
 /// The types of the current publishers, subscriptions, services, clients and actions of a node. The node describes
 /// these types to others. All functions may be called from any thread.
 
-/// Counts one more user of the type. `description` may be null if only the name of the type is known; then nothing is
-/// counted.
+/// Counts one more user of the type. `description` may be null if only the name of the type is known. Then the call has
+/// no effect.
 rcl_ret_t rcl_node_type_cache_register_type(const rcl_node_t* node, const rosidl_type_description_t* description);
 
 /// Counts one user less. Returns RCL_RET_ERROR if there was none.

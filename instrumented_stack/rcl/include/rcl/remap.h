@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applies remap rules. The first rule that matches wins; `local_arguments` (those of the node) come before
-// `global_arguments` (those of the process). Either may be null. The output is null if no rule matched; else free it
-// with the allocator.
+// Applies remap rules. The first rule that matches is applied. `local_arguments` of the node come before
+// `global_arguments` of the process. Either may be null. The output is null if no rule matches. Otherwise free it with
+// the allocator.
 #pragma once
 
 #include "rcl/allocator.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wait sets: what is in them.
+// The content of wait sets.
 #include <algorithm>
 #include <vector>
 

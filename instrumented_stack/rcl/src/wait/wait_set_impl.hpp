@@ -26,7 +26,7 @@ struct rcl_wait_set_impl_s {
   size_t client_count = 0;
   size_t service_count = 0;
   size_t event_count = 0;
-  // What rmw waits for: the same entities, and the guard conditions of the timers behind the others.
+  // The entities in rmw, for rmw_wait(). The guard conditions of the timers stand behind the other guard conditions.
   std::vector<void*> rmw_subscriptions;
   std::vector<void*> rmw_guard_conditions;
   std::vector<void*> rmw_clients;

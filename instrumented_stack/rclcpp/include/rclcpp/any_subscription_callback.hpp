@@ -36,8 +36,8 @@ class AnySubscriptionCallbackBase {
   // Whether the callback does not change the message. Then it may be shared with other subscriptions.
   bool use_take_shared_method() const { return use_take_shared_; }
 
-  // Runs the callback. `message` is a ROS message, or a SerializedMessage if the callback takes that. Nobody else may
-  // own it, because it may be moved from.
+  // Runs the callback. `message` is a ROS message, or a SerializedMessage if the callback takes one. It must have no
+  // other owner, because it may be moved from.
   virtual void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) = 0;
 
   void trace_registration() const { symbol_.trace_registration(this); }

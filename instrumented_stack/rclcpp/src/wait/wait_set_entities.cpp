@@ -42,7 +42,7 @@ void release_all(const std::vector<std::weak_ptr<EntityT>>& list) {
   }
 }
 
-// Owns the living ones and forgets the others.
+// Takes ownership of the entities that exist, and removes the other ones from the list.
 template <typename EntityT>
 void own_living(std::vector<std::weak_ptr<EntityT>>& list, std::vector<std::shared_ptr<EntityT>>& owned) {
   list.erase(std::remove_if(list.begin(), list.end(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds statuses of DDS to those of rmw. The changes of DDS count since the last call, those of rmw since the status was
-// last taken.
+// Adds statuses of DDS to statuses of rmw. DDS counts changes since the last call. rmw counts changes since the user
+// last took the status.
 #pragma once
 
 #include <fastdds/dds/core/status/IncompatibleQosStatus.hpp>

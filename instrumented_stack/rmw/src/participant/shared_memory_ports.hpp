@@ -8,12 +8,12 @@
 namespace rmw_fastrtps {
 
 // Gives a participant random ports in shared memory if `qos` leaves the choice to Fast DDS. Fast DDS chooses the rest
-// as usual; the UDP ports are the well-known ones. `prefix` is that of any participant of this host.
+// as usual, and the UDP ports are the well-known ports. `prefix` is the prefix of any participant of this host.
 //
 // Fast DDS numbers shared memory ports like UDP ports. So a process that replaces a killed one gets the same ports. It
 // unlinks its predecessor's ports and makes new ones. But release 2.9 does not tell processes that have the old memory
-// mapped (its pull request 4728 does). They go on writing there until a watchdog finds that nobody reads. That delayed
-// discovery by 3 to 5 s and lost best-effort messages.
+// mapped (its pull request 4728 does). They go on writing there until a watchdog finds that no process reads. This
+// delayed discovery by 3 to 5 s and lost best-effort messages.
 void choose_shared_memory_ports(std::uint32_t domain_id, const eprosima::fastrtps::rtps::GuidPrefix_t& prefix,
                                 eprosima::fastdds::dds::DomainParticipantQos& qos);
 

@@ -59,7 +59,7 @@ _OWN = ('launch', 'launch_ros', 'launch_xml', 'launch_yaml', 'ament_index_python
 
 
 def _unknown_name(error):
-    """(module, name) when a package of the launcher lacks a name that was asked for; else None."""
+    """(module, name) if a package of the launcher lacks a name that was imported, otherwise None."""
     if isinstance(error, ImportError) and not isinstance(error, ModuleNotFoundError):
         found = re.match(r"cannot import name '([^']*)' from '([^']*)'", str(error))
         module, name = (found[2], found[1]) if found else (None, None)

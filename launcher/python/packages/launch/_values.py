@@ -133,7 +133,7 @@ def items(values, what, most=_MOST_PARTS):
 
 
 def mapping(value, what):
-    """The items of a mapping; none of None and of what is empty."""
+    """The items of a mapping. None and empty values have no items."""
     if not value:
         return ()
     if not isinstance(value, Mapping):

@@ -22,7 +22,7 @@ def _values(context):
 
 
 class _Call(Action):
-    """Calls a function with the event that is being handled; what it returns is visited."""
+    """Calls a function with the event that is being handled, and visits the actions that it returns."""
 
     def __init__(self, function, make_event):
         super().__init__()
