@@ -122,7 +122,7 @@ std::string state_of(const std::optional<Template>& given, Scope& scope) {
 }
 
 ActionPtr make_on_state_transition(const Fields& fields) {
-  const Template node = fields.text("node");
+  const Template& node = fields.text("node");
   const std::optional<Template> start = fields.optional_text("start_state");
   const std::optional<Template> goal = fields.optional_text("goal_state");
   for (const std::optional<Template>& state : {start, goal}) {

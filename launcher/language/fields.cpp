@@ -78,6 +78,8 @@ void NumberField::require_not_negative() {
   }
 }
 
+Fields::Fields(SourceRange where) : where_(std::move(where)) {}
+
 const Fields::Entry* Fields::find(std::string_view attribute) const {
   const auto found =
       std::find_if(attributes_.begin(), attributes_.end(), [&](const Entry& entry) { return entry.name == attribute; });

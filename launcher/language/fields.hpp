@@ -48,7 +48,7 @@ class Fields {
  public:
   using Parsed = std::variant<Template, std::string, std::vector<Template>, BooleanField, NumberField, Value>;
 
-  explicit Fields(SourceRange where) : where_(std::move(where)) {}
+  explicit Fields(SourceRange where);
 
   const SourceRange& where() const { return where_; }
   // The place of an attribute's value, or of the tag when the attribute isn't given.
