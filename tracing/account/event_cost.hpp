@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs a traced thread to record one event, as it was measured on this machine and is remembered.
+// The time that a traced thread spends to record one event. It is measured on this machine, and kept in a file.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a trace lacks, and what recording it has cost: the account that the end of a session gives.
+// The events that a trace lacks, and the cost of recording it. A session makes this account at its end.
 #pragma once
 
 #include <cstdint>

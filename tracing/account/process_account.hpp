@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one process contributed to a session, and what tracing has cost it.
+// The events that one process contributed to a session, and the cost of tracing for this process.
 #pragma once
 
 #include <cstdint>

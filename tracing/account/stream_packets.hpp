@@ -12,7 +12,7 @@
 
 namespace tracing {
 
-// One sub-buffer's worth of events of one processor, as it was written.
+// The events of one sub-buffer of one processor, as written to the trace.
 struct Packet {
   std::uint64_t begin = 0;  // trace clock, ns
   std::uint64_t end = 0;

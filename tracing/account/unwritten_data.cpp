@@ -103,7 +103,7 @@ std::string describe_damage(const LossAccount& account, const std::string& no_ro
   }
   // As of a session that was paused: when it should have been written to is not known.
   if (no_room.empty()) return {};
-  return fmt::format("{}: events are missing, nobody knows how many; {}", no_room, kRemedy);
+  return fmt::format("{}: events are missing, their number is unknown; {}", no_room, kRemedy);
 }
 
 }  // namespace tracing

@@ -24,8 +24,8 @@ void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, st
 // Why a file in `directory` can't grow, as a sentence: "the file system of DIRECTORY is full". "" when it can.
 std::string why_no_room(const std::filesystem::path& directory);
 
-// A sentence that says what the trace lacks without a count, and what to do. "" when nothing is missing. `no_room` is
-// the result of why_no_room().
+// A sentence that tells which events are missing without a count, and the remedy. "" if nothing is missing. `no_room`
+// is the result of why_no_room().
 std::string describe_damage(const LossAccount& account, const std::string& no_room,
                             const std::filesystem::path& directory);
 

@@ -17,11 +17,10 @@ inline constexpr const char* kVerdictFile = "verdict.json";
 // Adds to each channel of `account` where its events were lost and, if some were, the buffers that would have held
 // them, from the streams of its recording. count_in_packets() comes before.
 //
-// The rule: while events are lost the buffers of a processor are full. What they would have had to take more than they
-// have is the longest unbroken run of losses, in events, at kBytesPerLostEvent each. Twice the sum of both, in
-// kAdvisedSubbuffers sub-buffers of a power of two, is advised. Longer overload than that can't be buffered away:
-// beyond kLargestAdvice nothing is advised. A channel in files of a limited size gets no larger sub-buffers than these,
-// but more of them.
+// The rule: while events are lost, the buffers of a processor are full. They lacked room for the longest unbroken run
+// of losses, at kBytesPerLostEvent for each event. The advice is twice the sum of the present size and this room, in
+// kAdvisedSubbuffers sub-buffers of a power of two. Beyond kLargestAdvice there is no advice, because buffers can't
+// help against such an overload. A channel in files of a limited size gets more sub-buffers, but not larger ones.
 void explain_losses(LossAccount& account, const std::vector<Stream>& streams);
 
 inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 with the three contexts has 60 to 110

@@ -7,8 +7,8 @@
 // trace has the ends (`ros2_ext`), a handle has no object from an end to the next init event.
 //
 // The init events of living objects come again when another session starts (a state dump). Repeated events change
-// nothing. An endpoint has a gid, which tells whether it is the same one. Another object counts as the same when it is
-// announced with the same facts at the same address, unless its end was recorded.
+// nothing. An endpoint is recognised by its gid. Any other object is recognised by its address and the facts in its
+// init event, unless its end was recorded.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LTTng's kernel modules can record, and what would go wrong with them. Each function throws TraceError.
+// Checks of LTTng's kernel modules: the events that they can record, and known faults. Each function throws TraceError.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMountPoint = "/sys/kernel/tracing";
 constexpr const char* kOldMountPoint = "/sys/kernel/debug/tracing";
-constexpr const char* kPrivilege = "run as root: the kernel's tracer is nobody else's";
+constexpr const char* kPrivilege = "run as root: only root may use the kernel's tracer";
 constexpr const char* kReadAtPercent = "10";  // a reader is woken when this part of the buffer is filled
 
 bool is_tracefs(const fs::path& directory) {

@@ -145,7 +145,7 @@ pid_t read_pid(const std::string& pid_file) {
 
 void check_not_stopped(pid_t pid, const ProcessStat& process) {
   if (process.name != kDaemon || process.state != 'T') return;
-  throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and answers nobody", pid),
+  throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and does not answer", pid),
                    fmt::format("continue it with `kill -CONT {}`", pid));
 }
 

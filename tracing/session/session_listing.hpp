@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the session daemon knows: the sessions that exist, one of them in detail, and what can be recorded now.
+// Lists what the session daemon knows: all sessions, one session in detail, and the events that can be recorded now.
 #pragma once
 
 #include <optional>

@@ -78,7 +78,7 @@ TEST(UnwrittenData, IsNotLookedForWhereTheEndOfTheSessionIsNotKnown) {
   EXPECT_TRUE(hurried.channels[0].unwritten.empty());
   EXPECT_EQ(tracing::describe_damage(hurried, "", "/traces/run"), "");
   EXPECT_EQ(tracing::describe_damage(hurried, "the file system of /traces/run is full", "/traces/run"),
-            "the file system of /traces/run is full: events are missing, nobody knows how many; make room there, or "
+            "the file system of /traces/run is full: events are missing, their number is unknown; make room there, or "
             "choose another base-path");
 }
 

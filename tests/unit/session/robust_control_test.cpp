@@ -135,7 +135,7 @@ TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndDoesNotBlock) {
   ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);
   EXPECT_EQ(error_of([this] { tracer->finish(config(), never); }),
             "the LTTng session daemon (process " + std::to_string(pid) +
-                ") is stopped and answers nobody\ncontinue it with `kill -CONT " + std::to_string(pid) + "`");
+                ") is stopped and does not answer\ncontinue it with `kill -CONT " + std::to_string(pid) + "`");
   kill(pid, SIGCONT);
   tracer->finish(config(), never);
   app.end();

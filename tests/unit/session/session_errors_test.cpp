@@ -106,7 +106,7 @@ TEST_F(LttngTracer, StoppedDaemonIsAnErrorAndDoesNotBlock) {
   kill(pid, SIGSTOP);
   ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);  // it is an orphan now, so it is a child of the sandbox
   EXPECT_EQ(start_error(config_named("run")), "the LTTng session daemon (process " + std::to_string(pid) +
-                                                  ") is stopped and answers nobody\ncontinue it with `kill -CONT " +
+                                                  ") is stopped and does not answer\ncontinue it with `kill -CONT " +
                                                   std::to_string(pid) + "`");
   kill(pid, SIGCONT);
 }
