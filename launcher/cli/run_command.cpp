@@ -70,7 +70,8 @@ void print_timing(const std::vector<TimedStep>& steps) {
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, TimedStep load, LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
-  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM}) {
+  // nohup(1) ignores SIGHUP, which stays so.
+  for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
     ::signal(signal, SIG_DFL);
   }
   ::signal(SIGPIPE, SIG_IGN);

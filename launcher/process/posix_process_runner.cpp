@@ -196,7 +196,7 @@ void PosixProcessRunner::signal_group(const Process& process, int signal) {
   if (::kill(-process.pid, signal) != 0 && errno != ESRCH && errno != EPERM) {
     fail("cannot send a signal");
   }
-  if (signal == SIGTERM) {
+  if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGQUIT) {
     // A stopped group (reading the terminal from the background stops it) would not see the signal.
     ::kill(-process.pid, SIGCONT);
   }

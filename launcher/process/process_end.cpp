@@ -28,6 +28,12 @@ void Supervision::terminate(Supervised& process) {
   send(process, SIGTERM, SIGINT, process.spec.sigterm_timeout);
 }
 
+void Supervision::terminate_now(Supervised& process) {
+  process.state = ProcessState::kTerminating;
+  start_timer(process, process.spec.sigkill_timeout);
+  send(process, SIGTERM, 0, Duration{0});
+}
+
 void Supervision::kill_at_last(Supervised& process) {
   process.state = ProcessState::kKilling;
   process.timer.reset();

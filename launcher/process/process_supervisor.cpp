@@ -25,14 +25,14 @@ using Event = SupervisionEvent;
 
 // clang-format off
 const std::array<std::array<Supervision::Handler, Supervision::kEvents>, Supervision::kStates> Supervision::kTable{{
-  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kKill                       kStop                       kRestart
-  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore},
-  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart},
-  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now},
-  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive},
+  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kTerminate                     kKill                       kStop                       kRestart
+  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore},
+  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart},
+  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now},
+  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::ignore,          &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive},
 }};
 // clang-format on
 
@@ -252,11 +252,33 @@ void ProcessSupervisor::restart(ProcessId id) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kRestart);
 }
 
+Duration ProcessSupervisor::terminate_all() {
+  Duration longest{0};
+  for (std::size_t i = 0; i < impl_->processes.size(); ++i) {
+    Supervised& process = *impl_->processes[i];
+    impl_->handle(process, Event::kTerminate);
+    if (process.state == ProcessState::kTerminating) {
+      longest = std::max(longest, process.spec.sigkill_timeout);
+    }
+  }
+  return longest;
+}
+
 void ProcessSupervisor::kill_all() {
   // Loops by index, because an observer may start a process.
   for (std::size_t i = 0; i < impl_->processes.size(); ++i) {
     impl_->handle(*impl_->processes[i], Event::kKill);
   }
+}
+
+std::vector<std::string> ProcessSupervisor::alive() const {
+  std::vector<std::string> labels;
+  for (const auto& process : impl_->processes) {
+    if (process->unreaped && process->state != ProcessState::kDone) {
+      labels.push_back(process->label);
+    }
+  }
+  return labels;
 }
 
 std::size_t ProcessSupervisor::active() const {

@@ -74,9 +74,15 @@ class ProcessSupervisor {
   // of its respawn policy are counted anew. Ignored after shutdown().
   void restart(ProcessId id);
 
+  // After shutdown(): sends SIGTERM now to each process that has only got SIGINT so far. Returns the longest time until
+  // one of the processes that are left gets SIGKILL.
+  Duration terminate_all();
+
   // Sends SIGKILL to everything that is alive, now. Respawns go on unless shutdown() was called before.
   void kill_all();
 
+  // The labels of the processes that run, and of those whose descendants hold their output open.
+  std::vector<std::string> alive() const;
   // Processes that are not yet kDone.
   std::size_t active() const;
   ProcessState state(ProcessId id) const;

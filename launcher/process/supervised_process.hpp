@@ -18,7 +18,18 @@
 
 namespace launch {
 
-enum class SupervisionEvent { kStart, kExit, kOutputClosed, kTimeout, kSignal, kShutdown, kKill, kStop, kRestart };
+enum class SupervisionEvent {
+  kStart,
+  kExit,
+  kOutputClosed,
+  kTimeout,
+  kSignal,
+  kShutdown,
+  kTerminate,
+  kKill,
+  kStop,
+  kRestart
+};
 
 // What was asked for during a run. At the end of the run it counts before the respawn policy.
 enum class SupervisionRequest { kNone, kStop, kRestart };
@@ -56,7 +67,7 @@ struct Supervised {
 struct Supervision {
   using Event = SupervisionEvent;
   using Request = SupervisionRequest;
-  static constexpr std::size_t kEvents = 9;
+  static constexpr std::size_t kEvents = 10;
   static constexpr std::size_t kStates = 7;
   using Handler = void (Supervision::*)(Supervised&);
   struct Pending {
@@ -78,6 +89,7 @@ struct Supervision {
   void spawn(Supervised& process);
   void interrupt(Supervised& process);
   void terminate(Supervised& process);
+  void terminate_now(Supervised& process);
   void kill_at_last(Supervised& process);
   void kill_now(Supervised& process);
   void send_requested(Supervised& process);

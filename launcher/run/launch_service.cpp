@@ -5,8 +5,13 @@
 #include <signal.h>
 #include <string.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "launcher/base/monotonic_clock.hpp"
 #include "launcher/visit/farewell_check.hpp"
@@ -16,6 +21,27 @@ namespace launch {
 namespace {
 
 constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
+
+// Signals that follow sooner are the same wish: a terminal that is closed sends SIGHUP twice, timeout(1) signals its
+// command and then the group of the command.
+constexpr Duration kSameSignal = std::chrono::seconds(1);
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+// "a-1, b-2 and 3 more"
+std::string list(const std::vector<std::string>& labels) {
+  constexpr std::size_t kListed = 5;
+  const std::size_t listed = std::min(labels.size(), kListed);
+  std::string text =
+      fmt::format("{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(listed), ", "));
+  if (listed < labels.size()) {
+    text += fmt::format(" and {} more", labels.size() - listed);
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -66,8 +92,10 @@ LaunchService::~LaunchService() {
 }
 
 int LaunchService::run(const LaunchDescription& description) {
-  const EventLoop::SourcePtr signals =
-      loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) { on_signal(signal); });
+  const auto act = [this](int signal) { on_signal(signal); };
+  // `nohup launch` goes on when its terminal is closed.
+  const EventLoop::SourcePtr signals = is_ignored(SIGHUP) ? loop_.on_signal({SIGINT, SIGTERM, SIGQUIT}, act)
+                                                          : loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, act);
   loop_.post([this, &description] {
     const Duration before = loop_.now();
     traverse({description.file, 0, 0}, [&] {
@@ -82,20 +110,36 @@ int LaunchService::run(const LaunchDescription& description) {
 // The events in the course of the launch.
 
 void LaunchService::on_signal(int signal) {
+  if (interrupted_at_ && loop_.now() - *interrupted_at_ < kSameSignal) {
+    return;
+  }
   const std::string name = signal == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal));
-  if (++signals_ == 1) {
+  if (!std::exchange(interrupted_at_, loop_.now())) {
     context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {}", name));
     shutdown(name);
     return;
   }
-  context_.message(LogLevel::kWarning, "launch",
-                   fmt::format("user interrupted with {} again, killing what is left", name));
-  farewell_.end();
-  supervisor_.kill_all();
+  const auto say = [&](const std::string& text) {
+    context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {} again, {}", name, text));
+  };
   timers_.clear();
   coroutines_.abandon();
   ros_tasks_.shutdown();
-  scopes_.hurry();
+  if (phase_ == Phase::kFarewell) {
+    say("ending the actions of on_shutdown");
+    farewell_.end();
+  } else if (const std::vector<std::string> left = supervisor_.alive(); left.empty()) {
+    say("ending at once");
+    scopes_.hurry();
+  } else if (!std::exchange(terminated_, true)) {
+    const Duration until_kill = supervisor_.terminate_all();
+    say(fmt::format("sent SIGTERM to {}; SIGKILL follows in {:g} s, or with a third signal", list(left),
+                    std::chrono::duration<double>(until_kill).count()));
+  } else {
+    say("killing " + list(left));
+    supervisor_.kill_all();
+    scopes_.hurry();
+  }
   check_finished();
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,7 +57,8 @@ class LaunchService {
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 1 after an error of the
   // launch itself, such as a process that could not be started. Otherwise it is the exit code of the `required` process
   // that has ended the launch, 128+N when signal N ended it, else 0. The exit codes of other processes don't count.
-  // SIGINT, SIGTERM, SIGHUP and SIGQUIT shut down; a second one kills what is left and ends at once.
+  // SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM to what is
+  // left, a third one SIGKILL. A signal less than a second after another one does not count.
   int run(const LaunchDescription& description);
 
   // How long the steps up to the last start and those after the last exit took, in order.
@@ -104,7 +106,8 @@ class LaunchService {
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;
-  int signals_ = 0;
+  std::optional<Duration> interrupted_at_;  // the last signal that counted
+  bool terminated_ = false;                 // a second signal has sent SIGTERM
   int exit_code_ = 0;
   bool check_posted_ = false;
 

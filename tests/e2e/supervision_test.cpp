@@ -50,7 +50,7 @@ TEST_F(Supervision, ANodeThatIgnoresSigintIsTerminatedThenKilled) {
   EXPECT_THAT(result.out, HasSubstr("exit code -9"));
 }
 
-TEST_F(Supervision, TwoCtrlCsEndAtOnceAndStillDestroyTheSession) {
+TEST_F(Supervision, MoreCtrlCsTerminateThenKillAndStillDestroyTheSession) {
   const std::string file = write(R"xml(
     <trace session-name="hurry"/>
     <executable name="stubborn" shell="true" output="screen" sigterm_timeout="1000"
@@ -59,12 +59,66 @@ TEST_F(Supervision, TwoCtrlCsEndAtOnceAndStillDestroyTheSession) {
   ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
   run.send_signal(SIGINT);
   ASSERT_TRUE(run.wait_for_output("sending signal 'SIGINT'"));
-  run.send_signal(SIGINT);
+  // A signal does not count for a second after the last one.
+  const auto press_until = [&run](const std::string& text) {
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries; ++i) {
+      run.send_signal(SIGINT);
+      if (run.wait_for_output(text, std::chrono::milliseconds(300))) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(
+      press_until("(SIGINT) again, sent SIGTERM to stubborn-1; SIGKILL follows in 5 s, or with a third signal"));
+  EXPECT_TRUE(press_until("user interrupted with ctrl-c (SIGINT) again, killing stubborn-1"));
   const CommandResult result = run.wait();
   EXPECT_FALSE(result.timed_out);
-  EXPECT_THAT(result.out, HasSubstr("again, killing what is left"));
   const CommandResult sessions = run_command({"lttng", "list"});
   EXPECT_THAT(sessions.out + sessions.err, HasSubstr("Currently no available recording session"));
+}
+
+// timeout(1) signals its command and then the group of the command; a terminal that is closed sends SIGHUP twice.
+TEST_F(Supervision, ASignalThatComesTwiceLeavesProcessesTheirTime) {
+  const std::string file = write(R"xml(
+    <executable name="careful" shell="true" output="screen" sigterm_timeout="1000"
+                cmd="end() { sleep 0.3; echo cleaned up; exit; }; trap end INT; echo ready; while :; do read x; done"/>)xml");
+  for (const int signal : {SIGHUP, SIGTERM}) {
+    RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+    ASSERT_TRUE(run.wait_for_output("[careful-1] ready")) << run.out() << run.err();
+    run.send_signal(signal);
+    run.send_signal(signal);
+    ASSERT_TRUE(run.wait_for_output("sending signal 'SIGINT'"));
+    run.send_signal(signal);
+    const CommandResult result = run.wait();
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, HasSubstr("[careful-1] cleaned up"));
+    EXPECT_THAT(result.out, Not(HasSubstr("again")));
+  }
+}
+
+TEST_F(Supervision, WithNohupTheLaunchOutlivesItsTerminal) {
+  const std::string file =
+      write(R"xml(<executable name="waiter" shell="true" output="screen" cmd="echo ready; exec cat"/>)xml");
+  RunningCommand run({.argv = {"nohup", LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[waiter-1] ready"));
+  run.send_signal(SIGHUP);
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, Not(HasSubstr("SIGHUP")));
+  EXPECT_THAT(result.out, HasSubstr("user interrupted with ctrl-c (SIGINT)"));
+}
+
+TEST_F(Supervision, AStoppedProcessGoesOnToEnd) {
+  const std::string file = write(R"xml(
+    <executable name="stopped" shell="true" output="screen" sigterm_timeout="1000"
+                cmd="end() { echo interrupted; exit; }; trap end INT; echo ready; kill -STOP $$; while :; do read x; done"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[stopped-1] ready"));
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("[stopped-1] interrupted"));
 }
 
 TEST_F(Supervision, ACrashIsReportedWithItsLineAndTheRestGoesOn) {

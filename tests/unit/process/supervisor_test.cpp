@@ -158,6 +158,26 @@ TEST_F(Supervisor, InterruptsAProcessThatAnObserverStartedBeforeItShutDown) {
                           "1.0 b-2 exited -2, expected", "1.0 b-2 done"}));
 }
 
+TEST_F(Supervisor, TerminateAllIsForProcessesThatHaveOnlyGotSigint) {
+  runner.default_script({.ignores = {SIGINT, SIGTERM}});
+  ProcessSpec slow = spec("a");
+  slow.sigterm_timeout = 1s;
+  slow.sigkill_timeout = 7s;
+  supervisor->start(slow);
+  supervisor->start(spec("b"));
+  supervisor->shutdown();
+  loop.advance(2s);
+  EXPECT_EQ(supervisor->alive(), (Lines{"a-1", "b-2"}));
+  lines.clear();
+  EXPECT_EQ(supervisor->terminate_all(), 7s);
+  EXPECT_EQ(lines, (Lines{"2.0 b-2 SIGTERM"}));
+  loop.advance(20s);
+  EXPECT_EQ(lines, (Lines{"2.0 b-2 SIGTERM", "7.0 b-2 SIGKILL after SIGTERM and 5 s", "7.0 b-2 exited -9, expected",
+                          "7.0 b-2 done", "8.0 a-1 SIGKILL after SIGTERM and 7 s", "8.0 a-1 exited -9, expected",
+                          "8.0 a-1 done"}));
+  EXPECT_TRUE(supervisor->alive().empty());
+}
+
 TEST_F(Supervisor, KillAllEndsWhateverRunsInAnyState) {
   runner.default_script({.ignores = {SIGINT, SIGTERM}});
   supervisor->start(spec("a"));

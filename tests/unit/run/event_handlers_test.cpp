@@ -137,6 +137,10 @@ TEST_F(EventHandlersTest, OnShutdownIsOverWithASecondSignal) {
   const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
   EXPECT_EQ(run(R"xml(<executable cmd="motor"/><on_shutdown><executable cmd="park"/></on_shutdown>)xml"), 0);
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
+                          "[launch] user interrupted with ctrl-c (SIGINT) again, ending the actions of on_shutdown"));
+  EXPECT_EQ(runner_.signals().at(0).signal, SIGINT);
   EXPECT_EQ(loop_.now(), 2s);
 }
 

@@ -89,16 +89,46 @@ TEST_F(LaunchServiceTest, ExitCodesOfProcessesDontCount) {
   EXPECT_EQ(run(R"xml(<executable cmd="a"/>)xml"), 0);
 }
 
-TEST_F(LaunchServiceTest, ASignalShutsDownAndASecondKillsAndHurries) {
+TEST_F(LaunchServiceTest, ASecondSignalTerminatesAndAThirdKillsAndHurries) {
   runner_.default_script({.ignores = {SIGINT, SIGTERM}});
   const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
+  const auto third = loop_.after(3s, [this] { loop_.deliver_signal(SIGTERM); });
   EXPECT_EQ(run(R"xml(<scope name="x"/><executable cmd="stubborn"/>)xml"), 0);
   EXPECT_THAT(journal_,
               ElementsAre("begin x", "begun x", "start stubborn-1", "exit stubborn-1", "end x in a hurry", "ended x"));
   EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
-                                     "[launch] user interrupted with ctrl-c (SIGINT) again, killing what is left"));
-  EXPECT_LT(loop_.now(), 3s);
+                                     "[launch] user interrupted with ctrl-c (SIGINT) again, sent SIGTERM to "
+                                     "stubborn-1; SIGKILL follows in 5 s, or with a third signal",
+                                     "[launch] user interrupted with SIGTERM again, killing stubborn-1"));
+  std::vector<int> sent;
+  for (const auto& signal : runner_.signals()) sent.push_back(signal.signal);
+  EXPECT_THAT(sent, ElementsAre(SIGINT, SIGTERM, SIGKILL, SIGKILL)) << "the last one is for its descendants";
+  EXPECT_LT(loop_.now(), 4s);
+}
+
+TEST_F(LaunchServiceTest, SignalsWithinASecondAreOne) {
+  runner_.default_script({.ignores = {SIGINT, SIGTERM}});
+  const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGHUP); });
+  const auto same = loop_.after(1900ms, [this] { loop_.deliver_signal(SIGHUP); });
+  const auto another = loop_.after(1950ms, [this] { loop_.deliver_signal(SIGINT); });
+  EXPECT_EQ(run(R"xml(<executable cmd="stubborn"/>)xml"), 0);
+  EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with SIGHUP"));
+  EXPECT_EQ(loop_.now(), 11s) << "SIGTERM and SIGKILL came after their timeouts";
+}
+
+TEST_F(LaunchServiceTest, ASecondSignalTerminatesOnlyProcessesThatAreLeft) {
+  runner_.default_script({.ignores = {SIGINT}});
+  runner_.script("quick", {{}});
+  const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
+  const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
+  EXPECT_EQ(run(R"xml(<executable cmd="quick"/><executable cmd="a"/><executable cmd="b"/><executable cmd="c"/>
+                   <executable cmd="d"/><executable cmd="e"/><executable cmd="f"/>)xml"),
+            0);
+  EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
+                                     "[launch] user interrupted with ctrl-c (SIGINT) again, sent SIGTERM to a-2, b-3, "
+                                     "c-4, d-5, e-6 and 1 more; SIGKILL follows in 5 s, or with a third signal"));
+  EXPECT_EQ(loop_.now(), 2s);
 }
 
 TEST_F(LaunchServiceTest, ASecondSignalWaitsForNoTimer) {
@@ -107,6 +137,8 @@ TEST_F(LaunchServiceTest, ASecondSignalWaitsForNoTimer) {
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
   EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="3600" cancel_on_shutdown="false"/>)xml"), 0);
   EXPECT_LT(loop_.now(), 3s);
+  EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
+                                     "[launch] user interrupted with ctrl-c (SIGINT) again, ending at once"));
 }
 
 TEST_F(LaunchServiceTest, ASignalWhileAScopeBeginsStartsNothingAndEndsIt) {
