@@ -105,7 +105,6 @@ TEST_F(WaiterTest, TellsPositionsInAscendingOrder) {
   entities_[5]->arrive();
   entities_[12]->arrive();
   EXPECT_THAT(wait(kForever), ElementsAre(5, 12, 30));
-  // This many are not listed one by one.
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < entities_.size(); ++i) {
     entities_[entities_.size() - 1 - i]->arrive();
@@ -137,6 +136,41 @@ TEST_F(WaiterTest, WhatMayNotBeTakenEndsNoWaitAndIsFoundLater) {
   EXPECT_EQ(held_back.asked, 1);
   may_be_taken = true;
   EXPECT_THAT(wait(), ElementsAre(1));
+  waiter_.remove_from(0);
+}
+
+TEST_F(WaiterTest, AsksNoneOfTheOthersWhileManyAreHeldBack) {
+  constexpr std::size_t kOthers = 100;
+  constexpr std::size_t kHeldBack = 40;
+  std::atomic_bool may_be_taken{true};
+  add(kOthers);
+  std::vector<std::unique_ptr<Entity>> held_back;
+  std::vector<std::size_t> positions;
+  for (std::size_t i = 0; i < kHeldBack; ++i) {
+    held_back.push_back(std::make_unique<Entity>());
+    waiter_.add(as_data(held_back.back().get()), &may_be_taken);
+    positions.push_back(kOthers + i);
+  }
+  EXPECT_THAT(wait(nanoseconds(1)), IsEmpty());
+  may_be_taken = false;
+  for (const auto& entity : held_back) {
+    entity->arrive();
+    entity->arrive();
+  }
+  EXPECT_THAT(wait(), IsEmpty());
+  EXPECT_THAT(wait(), IsEmpty());
+  EXPECT_THAT(asked(), Each(1));
+  entities_[7]->arrive();
+  EXPECT_THAT(wait(kForever), ElementsAre(7));
+  entities_[7]->ready = false;
+  may_be_taken = true;
+  EXPECT_EQ(wait(kForever), positions);
+  for (std::size_t i = 0; i < entities_.size(); ++i) {
+    EXPECT_EQ(entities_[i]->asked, i == 7 ? 3 : 1) << i;
+  }
+  for (const auto& entity : held_back) {
+    EXPECT_EQ(entity->asked, 2);
+  }
   waiter_.remove_from(0);
 }
 

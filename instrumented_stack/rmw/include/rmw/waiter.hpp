@@ -39,6 +39,8 @@ class Waiter {
   void remove_from(std::size_t first);
   // Whether exactly these living entities are registered from position `first` on.
   bool has_from(std::size_t first, const std::vector<void*>& entities) const;
+  // Whether it is sure that every registered entity lives: one that was not waited for yet can have gone unnoticed.
+  bool has_only_living() const;
 
   // Waits until an entity is ready or the timeout is over. A timeout of 0 does not block, a negative one never ends.
   // `ready` gets the positions of all entities that are ready, in ascending order. Ready guard conditions are reset.
@@ -58,13 +60,15 @@ class Waiter {
     Waitable* waitable;
     const std::atomic_bool* may_be_taken;
   };
-  // The positions of the entities that may be ready, as long as they are few. Otherwise `all` is true.
+  // The positions of the entities that may be ready. Each is listed once.
   struct Candidates {
+    // For the positions below `size`.
+    void resize(std::size_t size);
     void add(std::size_t position);
-    void remove_from(std::size_t first);
+    void clear();
 
-    std::vector<std::size_t> few;
-    bool all = false;
+    std::vector<std::size_t> positions;
+    std::vector<bool> is_listed;  // by position
   };
 
   void attach();
@@ -72,12 +76,12 @@ class Waiter {
   // Adds the positions that wake() has collected to `to_ask_`. The mutex must be held.
   void receive_candidates();
   void ask_candidates(std::vector<std::size_t>& ready);
-  void ask(std::size_t position, std::vector<std::size_t>& ready);
+  // Whether the entity is to be asked again in the next wait.
+  bool ask(std::size_t position, std::vector<std::size_t>& ready);
 
   std::vector<Registration> registrations_;
   bool has_polled_ = false;  // a wait that did not block has asked all entities
   Candidates to_ask_;        // the entities to ask in the next wait
-  std::vector<std::size_t> asked_;
 
   // The first registered entities, which call wake(). An entity that was destroyed is null here. The lock of
   // attachments guards the list.
@@ -88,7 +92,7 @@ class Waiter {
   std::mutex mutex_;
   std::condition_variable condition_;
   bool woken_ = false;
-  Candidates woken_by_;
+  Candidates woken_by_;  // has room for all that are attached
 };
 
 }  // namespace rmw_fastrtps

@@ -9,9 +9,6 @@
 namespace rmw_fastrtps {
 namespace {
 
-// More candidates are not listed one by one.
-constexpr std::size_t kManyCandidates = 16;
-
 // No deadline is computed for a longer wait.
 constexpr std::chrono::nanoseconds kForever = std::chrono::hours(24 * 365 * 30);
 
@@ -22,8 +19,10 @@ Waiter::~Waiter() {
 }
 
 void Waiter::add(void* entity, const std::atomic_bool* may_be_taken) {
-  to_ask_.add(registrations_.size());
+  const std::size_t position = registrations_.size();
   registrations_.push_back({static_cast<Waitable*>(entity), may_be_taken});
+  to_ask_.resize(registrations_.size());
+  to_ask_.add(position);
 }
 
 void Waiter::remove_from(std::size_t first) {
@@ -43,9 +42,9 @@ void Waiter::remove_from(std::size_t first) {
   }
   registrations_.resize(first);
   has_polled_ = has_polled_ && first > 0;
-  to_ask_.remove_from(first);
+  to_ask_.resize(first);
   const std::lock_guard lock(mutex_);
-  woken_by_.remove_from(first);
+  woken_by_.resize(std::min(first, woken_by_.is_listed.size()));
 }
 
 bool Waiter::has_from(std::size_t first, const std::vector<void*>& entities) const {
@@ -54,13 +53,19 @@ bool Waiter::has_from(std::size_t first, const std::vector<void*>& entities) con
                     [](const void* entity, const Registration& known) { return entity == known.waitable; });
 }
 
+bool Waiter::has_only_living() const {
+  return attached_.size() == registrations_.size() && !is_stale_.load(std::memory_order_acquire);
+}
+
 [[gnu::hot]] void Waiter::wait(std::chrono::nanoseconds timeout, std::vector<std::size_t>& ready) {
   ready.clear();
   const bool may_block = timeout != std::chrono::nanoseconds::zero();
   if (attached_.size() < registrations_.size()) {
     if (!may_block && !std::exchange(has_polled_, true)) {
       for (std::size_t i = 0; i < registrations_.size(); ++i) {
-        ask(i, ready);
+        if (ask(i, ready)) {
+          to_ask_.add(i);
+        }
       }
       return;
     }
@@ -82,6 +87,10 @@ bool Waiter::has_from(std::size_t first, const std::vector<void*>& entities) con
 }
 
 void Waiter::attach() {
+  {
+    const std::lock_guard lock(mutex_);
+    woken_by_.resize(registrations_.size());
+  }
   const std::lock_guard lock(attachments());
   for (std::size_t i = attached_.size(); i < registrations_.size(); ++i) {
     attached_.push_back(registrations_[i].waitable);
@@ -103,56 +112,65 @@ void Waiter::attach() {
 
 void Waiter::receive_candidates() {
   woken_ = false;
-  for (const std::size_t position : woken_by_.few) {
+  for (const std::size_t position : woken_by_.positions) {
     to_ask_.add(position);
   }
-  woken_by_.few.clear();
-  to_ask_.all = std::exchange(woken_by_.all, false) || to_ask_.all;
+  woken_by_.clear();
 }
 
 // Not under the lock: DDS calls wake() under locks of its own, which is_ready() takes too.
 [[gnu::hot]] void Waiter::ask_candidates(std::vector<std::size_t>& ready) {
-  asked_.swap(to_ask_.few);
-  to_ask_.few.clear();
-  if (std::exchange(to_ask_.all, false)) {
-    for (std::size_t i = 0; i < registrations_.size(); ++i) {
-      ask(i, ready);
+  std::vector<std::size_t>& positions = to_ask_.positions;
+  std::size_t kept = 0;
+  for (const std::size_t position : positions) {
+    if (ask(position, ready)) {
+      positions[kept++] = position;
+    } else {
+      to_ask_.is_listed[position] = false;
     }
-    return;
   }
-  for (const std::size_t position : asked_) {
-    ask(position, ready);
-  }
+  positions.resize(kept);
   if (ready.size() > 1) {
     std::sort(ready.begin(), ready.end());
   }
 }
 
-[[gnu::hot]] void Waiter::ask(std::size_t position, std::vector<std::size_t>& ready) {
+[[gnu::hot]] bool Waiter::ask(std::size_t position, std::vector<std::size_t>& ready) {
   const auto& [waitable, may_be_taken] = registrations_[position];
-  if (may_be_taken != nullptr && !may_be_taken->load(std::memory_order_acquire)) {
-    to_ask_.add(position);
-  } else if (waitable->is_ready()) {
-    ready.push_back(position);
-    to_ask_.add(position);  // an entity that is still ready does not call wake() again
+  // Sequentially consistent, as the change to true is: whoever changes it looks afterwards for somebody to wake.
+  if (may_be_taken != nullptr && !may_be_taken->load()) {
+    return true;
+  }
+  if (!waitable->is_ready()) {
+    return false;
+  }
+  ready.push_back(position);
+  return true;  // an entity that is still ready does not call wake() again
+}
+
+void Waiter::Candidates::resize(std::size_t size) {
+  if (size < is_listed.size()) {
+    std::erase_if(positions, [size](std::size_t position) { return position >= size; });
+  }
+  is_listed.resize(size);
+  // wake() must not allocate. At least twice as much each time: entities are registered one by one.
+  if (positions.capacity() < size) {
+    positions.reserve(std::max(size, 2 * positions.capacity()));
   }
 }
 
 [[gnu::hot]] void Waiter::Candidates::add(std::size_t position) {
-  if (all || std::find(few.begin(), few.end(), position) != few.end()) {
-    return;
-  }
-  if (few.size() == kManyCandidates) {
-    few.clear();
-    all = true;
-  } else {
-    few.push_back(position);
+  if (!is_listed[position]) {
+    is_listed[position] = true;
+    positions.push_back(position);
   }
 }
 
-void Waiter::Candidates::remove_from(std::size_t first) {
-  std::erase_if(few, [first](std::size_t position) { return position >= first; });
-  all = all && first > 0;
+[[gnu::hot]] void Waiter::Candidates::clear() {
+  for (const std::size_t position : positions) {
+    is_listed[position] = false;
+  }
+  positions.clear();
 }
 
 [[gnu::hot]] void Waiter::wake(std::size_t position) {
