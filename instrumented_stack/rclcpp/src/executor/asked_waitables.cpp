@@ -2,6 +2,7 @@
 #include "executor/asked_waitables.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <rcl/rmw_entity.hpp>
 #include <type_traits>
 #include <utility>
@@ -15,24 +16,6 @@ namespace rclcpp {
 using detail::require_ok;
 
 namespace {
-
-// Calls `visit` with a reference to each entry that is not null, always in the same order.
-template <typename VisitT>
-void for_each_entry(const rcl_wait_set_t& wait_set, VisitT visit) {
-  const auto visit_kind = [&visit](auto** entries, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (entries[i] != nullptr) {
-        visit(entries[i]);
-      }
-    }
-  };
-  visit_kind(wait_set.subscriptions, wait_set.size_of_subscriptions);
-  visit_kind(wait_set.services, wait_set.size_of_services);
-  visit_kind(wait_set.clients, wait_set.size_of_clients);
-  visit_kind(wait_set.events, wait_set.size_of_events);
-  visit_kind(wait_set.guard_conditions, wait_set.size_of_guard_conditions);
-  visit_kind(wait_set.timers, wait_set.size_of_timers);
-}
 
 bool is_due(const rcl_timer_t* timer) {
   bool is_ready = false;
@@ -56,32 +39,44 @@ AskedWaitables::~AskedWaitables() {
 }
 
 [[gnu::hot]] void AskedWaitables::ask(const WaitedEntities& waited, rmw_fastrtps::Waiter& waiter, std::size_t first) {
+  if (waited.waitables.empty()) {
+    return;
+  }
   first_ = first;
-  rmw_entities_.clear();
-  if (!waited.waitables.empty()) {
-    Sizes sizes;
-    for (const auto& [weak, group] : waited.waitables) {
-      Waitable::SharedPtr waitable = *waited.groups[group].may_be_taken ? weak.lock() : nullptr;
-      if (!waitable) {
-        continue;
-      }
-      sizes.timers += waitable->get_number_of_ready_timers();
-      sizes.subscriptions += waitable->get_number_of_ready_subscriptions();
-      sizes.services += waitable->get_number_of_ready_services();
-      sizes.clients += waitable->get_number_of_ready_clients();
-      sizes.events += waitable->get_number_of_ready_events();
-      sizes.guard_conditions += waitable->get_number_of_ready_guard_conditions();
-      held_.push_back({std::move(waitable), group});
-    }
-    fill_wait_set(sizes);
-    for_each_entry(wait_set_, [this](const auto* entry) { rmw_entities_.push_back(rcl::rmw_entity_of(entry)); });
+  hold(waited);
+  if (find_positions(waiter)) {
+    return;
   }
-  if (!waiter.has_from(first, rmw_entities_)) {
-    waiter.remove_from(first);
-    for (void* entity : rmw_entities_) {
-      waiter.add(entity);
-    }
+  waiter.remove_from(first);
+  registrations_ = wanted_;
+  positions_.clear();
+  for (const auto& [rmw_entity, waitable] : registrations_) {
+    positions_.push_back(first + positions_.size());
+    waiter.add(rmw_entity, &is_held_[waitable]);
   }
+}
+
+void AskedWaitables::hold(const WaitedEntities& waited) {
+  if (is_held_.size() != waited.waitables.size()) {
+    is_held_ = std::vector<std::atomic_bool>(waited.waitables.size());
+  }
+  Sizes sizes;
+  for (std::size_t index = 0; index < waited.waitables.size(); ++index) {
+    const auto& [weak, group] = waited.waitables[index];
+    Waitable::SharedPtr waitable = *waited.groups[group].may_be_taken ? weak.lock() : nullptr;
+    is_held_[index] = waitable != nullptr;
+    if (!waitable) {
+      continue;
+    }
+    sizes.timers += waitable->get_number_of_ready_timers();
+    sizes.subscriptions += waitable->get_number_of_ready_subscriptions();
+    sizes.services += waitable->get_number_of_ready_services();
+    sizes.clients += waitable->get_number_of_ready_clients();
+    sizes.events += waitable->get_number_of_ready_events();
+    sizes.guard_conditions += waitable->get_number_of_ready_guard_conditions();
+    held_.push_back({std::move(waitable), index});
+  }
+  fill_wait_set(sizes);
 }
 
 void AskedWaitables::fill_wait_set(const Sizes& sizes) {
@@ -93,9 +88,45 @@ void AskedWaitables::fill_wait_set(const Sizes& sizes) {
                "couldn't resize the wait set");
     sizes_ = sizes;
   }
-  for (const Held& held : held_) {
-    held.waitable->add_to_wait_set(wait_set_);
+  entries_.clear();
+  wanted_.clear();
+  Sizes next;
+  for (const auto& [waitable, index] : held_) {
+    waitable->add_to_wait_set(wait_set_);
+    list_entries(index, next);
   }
+}
+
+void AskedWaitables::list_entries(std::size_t waitable, Sizes& next) {
+  const auto list = [&](auto** entries, std::size_t count, std::size_t& at) {
+    for (; at < count && entries[at] != nullptr; ++at) {
+      entries_.emplace_back(&entries[at]);
+      wanted_.push_back({rcl::rmw_entity_of(entries[at]), waitable});
+    }
+  };
+  list(wait_set_.subscriptions, wait_set_.size_of_subscriptions, next.subscriptions);
+  list(wait_set_.services, wait_set_.size_of_services, next.services);
+  list(wait_set_.clients, wait_set_.size_of_clients, next.clients);
+  list(wait_set_.events, wait_set_.size_of_events, next.events);
+  list(wait_set_.guard_conditions, wait_set_.size_of_guard_conditions, next.guard_conditions);
+  list(wait_set_.timers, wait_set_.size_of_timers, next.timers);
+}
+
+bool AskedWaitables::find_positions(const rmw_fastrtps::Waiter& waiter) {
+  if (!waiter.has_only_living()) {
+    return false;
+  }
+  positions_.clear();
+  for (std::size_t i = 0; i < registrations_.size(); ++i) {
+    if (!is_held_[registrations_[i].waitable]) {
+      continue;
+    }
+    if (positions_.size() == wanted_.size() || registrations_[i] != wanted_[positions_.size()]) {
+      return false;
+    }
+    positions_.push_back(first_ + i);
+  }
+  return positions_.size() == wanted_.size();
 }
 
 std::int64_t AskedWaitables::time_until_first_timer() const {
@@ -117,28 +148,39 @@ std::int64_t AskedWaitables::time_until_first_timer() const {
   return time;
 }
 
-void AskedWaitables::append_ready(const WaitedEntities& waited, const std::size_t* next, const std::size_t* end,
+void AskedWaitables::append_ready(const WaitedEntities& waited, const std::size_t* begin, const std::size_t* end,
                                   std::vector<detail::ReadyEntity>& ready) {
   if (held_.empty()) {
     return;
   }
   // Waitables find the entries null of what is not ready.
-  std::size_t position = first_;
-  for_each_entry(wait_set_, [&]<typename EntityT>(const EntityT*& entry) {
-    bool is_ready = next != end && *next == position;
-    next += is_ready ? 1 : 0;
-    ++position;
-    if constexpr (std::is_same_v<EntityT, rcl_timer_t>) {
-      is_ready = is_due(entry);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    std::visit(
+        [&]<typename EntityT>(const EntityT** entry) {
+          bool is_ready = false;
+          if constexpr (std::is_same_v<EntityT, rcl_timer_t>) {
+            is_ready = is_due(*entry);
+          } else {
+            is_ready = std::binary_search(begin, end, positions_[i]);
+          }
+          if (!is_ready) {
+            *entry = nullptr;
+          }
+        },
+        entries_[i]);
+  }
+  std::exception_ptr failure;
+  for (const auto& [waitable, index] : held_) {
+    try {
+      if (waitable->is_ready(wait_set_)) {
+        ready.push_back({Waitable::WeakPtr(waitable), waited.groups[waited.waitables[index].group].group});
+      }
+    } catch (...) {
+      failure = failure ? failure : std::current_exception();
     }
-    if (!is_ready) {
-      entry = nullptr;
-    }
-  });
-  for (const Held& held : held_) {
-    if (held.waitable->is_ready(wait_set_)) {
-      ready.push_back({Waitable::WeakPtr(held.waitable), waited.groups[held.group].group});
-    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
   }
 }
 

@@ -35,6 +35,7 @@ void ExecutorWait::register_all() {
     return waited_.groups[entity.group].may_be_taken.get();
   };
   waiter_.remove_from(0);
+  waitables_.forget_registrations();
   for (const WaitedEntities::Entity& entity : waited_.entities) {
     waiter_.add(entity.rmw_entity, may_be_taken(entity));
   }

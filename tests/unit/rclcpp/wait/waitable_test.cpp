@@ -37,6 +37,21 @@ class Counter : public rclcpp::Waitable {
   int taken_ = 0;
 };
 
+// Throws when it is asked while it is triggered.
+class Thrower : public Counter {
+ public:
+  explicit Thrower(const char* message) : message_(message) {}
+  bool is_ready(const rcl_wait_set_t& wait_set) override {
+    if (Counter::is_ready(wait_set)) {
+      throw std::runtime_error(message_);
+    }
+    return false;
+  }
+
+ private:
+  const char* message_;
+};
+
 class WaitableTest : public RosTest {
  protected:
   WaitableTest() { executor_.add_node(node_); }
@@ -91,6 +106,35 @@ TEST_F(WaitableTest, DiesWithItsOwner) {
   executor_.spin_some();
   waitable.reset();
   EXPECT_TRUE(weak.expired());
+}
+
+TEST_F(WaitableTest, RunsThoughAnotherOneThrewWhenTheSameWaitAskedIt) {
+  const auto before = std::make_shared<Counter>();
+  const auto first_thrower = std::make_shared<Thrower>("first");
+  const auto between = std::make_shared<Counter>();
+  const auto second_thrower = std::make_shared<Thrower>("second");
+  const auto after = std::make_shared<Counter>();
+  for (const auto& waitable :
+       std::vector<std::shared_ptr<Counter>>{before, first_thrower, between, second_thrower, after}) {
+    node_->get_node_waitables_interface()->add_waitable(waitable, nullptr);
+    waitable->trigger();
+  }
+  int ticks = 0;
+  const auto timer = node_->create_wall_timer(std::chrono::milliseconds(0), [&ticks](rclcpp::TimerBase& self) {
+    ++ticks;
+    self.cancel();
+  });
+  try {
+    executor_.spin_once(kPatience);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "first");
+  }
+  executor_.spin_all(std::chrono::nanoseconds(0));
+  EXPECT_EQ(ticks, 1);
+  for (const auto& counter : {before, between, after}) {
+    EXPECT_THAT(counter->executed, testing::ElementsAre(1));
+  }
 }
 
 TEST_F(WaitableTest, BelongsToAGroupOfItsNode) {
