@@ -112,6 +112,48 @@ void EventsExecutor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
   }
 }
 
+void EventsExecutor::remove_node(const NodePtr& node, bool notify) {
+  remove_and_disconnect([&] { Executor::remove_node(node, notify); });
+}
+
+void EventsExecutor::remove_callback_group(const CallbackGroup::SharedPtr& group, bool notify) {
+  remove_and_disconnect([&] { Executor::remove_callback_group(group, notify); });
+}
+
+template <typename RemoveT>
+void EventsExecutor::remove_and_disconnect(RemoveT remove) {
+  std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> before;  // released without the lock
+  const std::lock_guard lock(connections_mutex_);
+  before = entities_->entities();
+  remove();
+  const std::vector<CallbackGroup::WeakPtr> after = get_all_callback_groups();
+  const auto disconnect = [this](const auto& served, const auto& entities, auto stop) {
+    for (const auto& entity : entities) {
+      if (served.count(entity.get()) != 0) {
+        stop(entity);
+        disconnected_.push_back(entity.get());
+      }
+    }
+  };
+  const auto remove_timer = [this](const TimerBase::SharedPtr& timer) { timers_.remove_timer(timer); };
+  for (const auto& [group, entities] : before) {
+    if (std::any_of(after.begin(), after.end(), [&removed = group](const CallbackGroup::WeakPtr& weak) {
+          return !weak.owner_before(removed) && !removed.owner_before(weak);
+        })) {
+      continue;
+    }
+    disconnect(subscriptions_, entities.subscriptions,
+               [](const auto& entity) { entity->clear_on_new_message_callback(); });
+    disconnect(services_, entities.services, [](const auto& entity) { entity->clear_on_new_request_callback(); });
+    disconnect(clients_, entities.clients, [](const auto& entity) { entity->clear_on_new_response_callback(); });
+    disconnect(waitables_, entities.waitables, [](const auto& entity) { entity->clear_on_ready_callback(); });
+    disconnect(timers_served_, entities.timers, remove_timer);
+    for (const Waitable::SharedPtr& waitable : entities.waitables) {
+      disconnect(timers_served_, waitable->get_timers(), remove_timer);
+    }
+  }
+}
+
 bool EventsExecutor::execute_next(nanoseconds timeout, bool& was_wake_up) {
   was_wake_up = false;
   const nanoseconds until_timer = timers_thread_runs_ ? nanoseconds::max() : timers_.get_head_timeout();
@@ -137,6 +179,9 @@ void EventsExecutor::execute_event(const ExecutorEvent& event) {
     return;
   }
   for (size_t i = 0; i < event.num_events; ++i) {
+    if (entities_->removals() != removals_seen_) {
+      refresh();  // the event may be of what has left
+    }
     switch (event.type) {
       case SUBSCRIPTION_EVENT:
         if (const auto subscription = find_in(subscriptions_, event.entity_key)) {
@@ -181,7 +226,18 @@ void EventsExecutor::refresh() {
   Served<ClientBase> clients;
   Served<Waitable> waitables;
   Served<TimerBase> timers;
-  const auto groups = entities_->entities();
+  std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> groups;  // released without the lock
+  const std::lock_guard lock(connections_mutex_);
+  for (const void* key : disconnected_) {
+    subscriptions_.erase(key);
+    services_.erase(key);
+    clients_.erase(key);
+    waitables_.erase(key);
+    timers_served_.erase(key);
+  }
+  disconnected_.clear();
+  removals_seen_ = entities_->removals();
+  groups = entities_->entities();
   for (const auto& [group, entities] : groups) {
     add_to(subscriptions, entities.subscriptions);
     add_to(services, entities.services);

@@ -5,9 +5,12 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "rclcpp/executor.hpp"
 #include "rclcpp/experimental/executors/events_executor/events_queue.hpp"
@@ -30,6 +33,11 @@ class EventsExecutor : public rclcpp::Executor {
 
   void spin() override;
 
+  // What leaves is disconnected from this executor when they return: the next executor may connect it then.
+  using Executor::remove_node;
+  void remove_node(const NodePtr& node, bool notify = true) override;
+  void remove_callback_group(const CallbackGroup::SharedPtr& group, bool notify = true) override;
+
  protected:
   void spin_once_impl(std::chrono::nanoseconds timeout) override;
   void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive) override;
@@ -43,6 +51,9 @@ class EventsExecutor : public rclcpp::Executor {
   bool is_wake_up(const ExecutorEvent& event) const { return event.entity_key == this; }
   // Connects new entities to the queue and disconnects removed ones.
   void refresh();
+  // Calls `remove`, and disconnects the entities of groups that are not served any more. Any thread.
+  template <typename RemoveT>
+  void remove_and_disconnect(RemoveT remove);
   template <typename EntityT, typename StartT, typename StopT>
   void update(Served<EntityT>& served, Served<EntityT> found, StartT start, StopT stop);
   void enqueue(const void* entity, ExecutorEventType type, size_t count, int waitable_data = 0);
@@ -54,9 +65,14 @@ class EventsExecutor : public rclcpp::Executor {
   const bool execute_timers_separate_thread_;
   std::atomic_bool wake_up_queued_{false};
   TimersManager timers_;
+  // Held while entities are connected or disconnected.
+  std::mutex connections_mutex_;
+  std::vector<const void*> disconnected_;  // since the last refresh(), of what is served below
   // Used only by the spinning thread.
   bool timers_thread_runs_ = false;
   bool timer_was_last_ = false;
+  size_t removals_seen_ = 0;
+  // Changed by the spinning thread with the mutex held.
   Served<SubscriptionBase> subscriptions_;
   Served<ServiceBase> services_;
   Served<ClientBase> clients_;
