@@ -22,7 +22,7 @@ struct AnyExecutable {
 
   void release_group() {
     if (callback_group) {
-      callback_group->can_be_taken_from() = true;
+      callback_group->give_back();
       callback_group.reset();
     }
   }

@@ -40,6 +40,8 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   std::atomic_bool& get_associated_with_executor_atomic() { return associated_with_executor_; }
   // False while a callback of a mutually exclusive group runs or is about to run. Executors set it.
   std::atomic_bool& can_be_taken_from() { return *can_be_taken_from_; }
+  // Sets the flag after a callback, and tells the executor that got the group during the callback.
+  void give_back();
   // The same flag, for code that may outlive the group.
   std::shared_ptr<const std::atomic_bool> shared_can_be_taken_from() const { return can_be_taken_from_; }
 
@@ -90,8 +92,15 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
                         const std::function<void(const std::shared_ptr<TimerBase>&)>& timer_function,
                         const std::function<void(const std::shared_ptr<Waitable>&)>& waitable_function) const;
 
-  // Sets the function that is called after an entity was added or destroyed, and when the group is destroyed. Executors
-  // use it. It is called without a lock held.
+  // A waitable of the group that an executor found ready, and did not execute before the group left the executor. The
+  // trigger is used up, so the next executor must execute the waitable without finding it ready.
+  void leave_ready(const std::weak_ptr<Waitable>& waitable);
+  // Hands over what was left.
+  std::vector<std::weak_ptr<Waitable>> take_left_ready();
+
+  // Sets the function that is called when an executor must look at the group again: after an entity was added or
+  // destroyed, after leave_ready(), when the group is destroyed, and when the callback has ended that ran during
+  // set_on_change(). Executors use it. It is called without a lock held.
   void set_on_change(std::function<void()> on_change);
 
   // Entities call it when they are destroyed.
@@ -117,6 +126,7 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   const bool automatically_add_to_executor_with_node_;
   std::atomic_bool associated_with_executor_{false};
   const std::shared_ptr<std::atomic_bool> can_be_taken_from_ = std::make_shared<std::atomic_bool>(true);
+  std::atomic_bool is_awaited_{false};  // by an executor that got the group while it could not be taken from
 
   mutable std::mutex mutex_;
   std::vector<std::weak_ptr<SubscriptionBase>> subscriptions_;
@@ -124,6 +134,7 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   std::vector<std::weak_ptr<ServiceBase>> services_;
   std::vector<std::weak_ptr<ClientBase>> clients_;
   std::vector<std::weak_ptr<Waitable>> waitables_;
+  std::vector<std::weak_ptr<Waitable>> left_ready_;
   std::function<void()> on_change_;
 };
 

@@ -110,12 +110,15 @@ class Executor {
 
  private:
   FutureReturnCode spin_until(const std::function<bool()>& complete, std::chrono::nanoseconds timeout);
+  // Forgets what was found ready and is of no group that is served.
+  void erase_unserved();
 
   // The entities that the last wait found. The first next_ready_ of them are used up. This costs O(1) per callback for
   // any number of entities, and no allocation once it has grown.
   std::vector<detail::ReadyEntity> ready_;
   size_t next_ready_ = 0;
-  // Waitables that were found ready while their group was busy. Other entities will be found ready again.
+  // Waitables that were found ready while their group was busy, or by the former executor of their group. Other
+  // entities will be found ready again.
   std::vector<detail::ReadyEntity> postponed_;
   size_t removals_seen_ = 0;  // removals of nodes and groups; later ones make ready_ stale
   OnShutdownCallbackHandle shutdown_callback_;

@@ -2,9 +2,9 @@
 // The waitables of an executor in one wait. Each waitable adds its rcl entities before the wait. After the wait it
 // tells whether these entities make it ready.
 //
-// For each wait call ask(), wait, then call append_ready(). Call release() in any case. A waitable of a busy group stays
-// registered as it was, so that the end of each callback costs no new registration. The wait does not touch such a
-// waitable, because its callback may destroy the registered entities.
+// For each wait call ask(), wait, then call append_ready(). Call release() in any case. A waitable of a busy group
+// stays registered as it was, so that the end of each callback costs no new registration. The wait does not touch such
+// a waitable, because its callback may destroy the registered entities.
 #pragma once
 
 #include <rcl/wait.h>
@@ -42,9 +42,9 @@ class AskedWaitables {
   // Nanoseconds until the first timer of the waitables is due. TimerQueue::kNever if they have no timer.
   std::int64_t time_until_first_timer() const;
 
-  // Appends the waitables that are ready. `begin` and `end` enclose the positions that the wait has found ready, counted
-  // as in the waiter, from the `first` of ask() on. When a waitable throws, the others are asked nevertheless, since
-  // their triggers are used up. The first exception is thrown at the end.
+  // Appends the waitables that are ready. `begin` and `end` enclose the positions that the wait has found ready,
+  // counted as in the waiter, from the `first` of ask() on. When a waitable throws, the others are asked nevertheless,
+  // since their triggers are used up. The first exception is thrown at the end.
   void append_ready(const WaitedEntities& waited, const std::size_t* begin, const std::size_t* end,
                     std::vector<detail::ReadyEntity>& ready);
 

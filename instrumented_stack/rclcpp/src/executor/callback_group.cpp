@@ -68,9 +68,11 @@ void CallbackGroup::add_waitable(const std::shared_ptr<Waitable>& waitable) {
 void CallbackGroup::remove_waitable(const std::shared_ptr<Waitable>& waitable) noexcept {
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(waitables_, [&waitable](const std::weak_ptr<Waitable>& weak) {
+    const auto is_removed = [&waitable](const std::weak_ptr<Waitable>& weak) {
       return !weak.owner_before(waitable) && !waitable.owner_before(weak);
-    });
+    };
+    std::erase_if(waitables_, is_removed);
+    std::erase_if(left_ready_, is_removed);
   }
   notify();
 }
@@ -111,8 +113,39 @@ void CallbackGroup::collect_all_ptrs(
 }
 
 void CallbackGroup::set_on_change(std::function<void()> on_change) {
+  {
+    const std::lock_guard lock(mutex_);
+    on_change_ = std::move(on_change);
+  }
+  if (!*can_be_taken_from_) {
+    is_awaited_ = true;
+  }
+}
+
+// Either this finds the group awaited, or the executor that got the group finds the flag set.
+[[gnu::hot]] void CallbackGroup::give_back() {
+  *can_be_taken_from_ = true;
+  if (is_awaited_ && is_awaited_.exchange(false)) {
+    notify();
+  }
+}
+
+void CallbackGroup::leave_ready(const std::weak_ptr<Waitable>& waitable) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(left_ready_, [](const auto& weak) { return weak.expired(); });
+    if (std::none_of(left_ready_.begin(), left_ready_.end(), [&waitable](const auto& weak) {
+          return !weak.owner_before(waitable) && !waitable.owner_before(weak);
+        })) {
+      left_ready_.push_back(waitable);
+    }
+  }
+  notify();
+}
+
+std::vector<std::weak_ptr<Waitable>> CallbackGroup::take_left_ready() {
   const std::lock_guard lock(mutex_);
-  on_change_ = std::move(on_change);
+  return std::exchange(left_ready_, {});
 }
 
 void CallbackGroup::notify() const {

@@ -113,6 +113,7 @@ Executor::Executor(const ExecutorOptions& options)
 Executor::~Executor() {
   context_->remove_on_shutdown_callback(shutdown_callback_);
   entities_->remove_all();
+  erase_unserved();
 }
 
 void Executor::add_node(const NodePtr& node, bool) {
@@ -258,10 +259,7 @@ void Executor::interrupt() {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_get_next_ready);
   if (const size_t removals = entities_->removals(); removals != removals_seen_) {
     removals_seen_ = removals;
-    ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_));
-    next_ready_ = 0;
-    entities_->erase_unserved(ready_);
-    entities_->erase_unserved(postponed_);
+    erase_unserved();
   }
   while (next_ready_ < ready_.size()) {
     detail::ReadyEntity& ready = ready_[next_ready_++];
@@ -284,13 +282,20 @@ void Executor::interrupt() {
   return false;
 }
 
+void Executor::erase_unserved() {
+  ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_));
+  next_ready_ = 0;
+  entities_->erase_unserved(ready_);
+  entities_->erase_unserved(postponed_);
+}
+
 [[gnu::hot]] void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
   std::copy_if(std::make_move_iterator(ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_)),
                std::make_move_iterator(ready_.end()), std::back_inserter(postponed_), is_waitable);
   ready_.clear();
   next_ready_ = 0;
-  entities_->wait(timeout, ready_);
+  entities_->wait(timeout, ready_, postponed_);
   for (detail::ReadyEntity& postponed : postponed_) {
     if (std::none_of(ready_.begin(), ready_.end(),
                      [&](const detail::ReadyEntity& ready) { return are_same_waitable(ready, postponed); })) {

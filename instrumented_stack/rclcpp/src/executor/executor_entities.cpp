@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace rclcpp {
 
@@ -137,6 +139,7 @@ std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> Executor
   for (const ServedGroup& served : groups_) {
     if (CallbackGroup::SharedPtr group = served.group.lock()) {
       group->collect(result.emplace_back(served.group, CallbackGroup::Entities{}).second);
+      group->take_left_ready();  // an executor that does not wait is told of each trigger
       owners.groups.push_back(std::move(group));
     }
   }
@@ -144,22 +147,37 @@ std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> Executor
 }
 
 void ExecutorEntities::erase_unserved(std::vector<detail::ReadyEntity>& ready) {
-  const std::lock_guard lock(mutex_);
-  ready.erase(std::remove_if(ready.begin(), ready.end(),
-                             [this](const detail::ReadyEntity& entity) {
-                               return std::none_of(groups_.begin(), groups_.end(), [&](const ServedGroup& served) {
-                                 return refer_to_same(served.group, entity.group);
-                               });
-                             }),
-              ready.end());
+  std::vector<detail::ReadyEntity> unserved;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto first_unserved =
+        std::stable_partition(ready.begin(), ready.end(), [this](const detail::ReadyEntity& entity) {
+          return std::any_of(groups_.begin(), groups_.end(),
+                             [&](const ServedGroup& served) { return refer_to_same(served.group, entity.group); });
+        });
+    unserved.assign(std::make_move_iterator(first_unserved), std::make_move_iterator(ready.end()));
+    ready.erase(first_unserved, ready.end());
+  }
+  // Without the lock: this wakes another executor.
+  for (const detail::ReadyEntity& entity : unserved) {
+    const auto* waitable = std::get_if<Waitable::WeakPtr>(&entity.entity);
+    if (const CallbackGroup::SharedPtr group = waitable ? entity.group.lock() : nullptr) {
+      group->leave_ready(*waitable);
+    }
+  }
 }
 
-[[gnu::hot]] void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready) {
+[[gnu::hot]] void ExecutorEntities::wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready,
+                                         std::vector<detail::ReadyEntity>& ready_earlier) {
   {
     std::optional<Owners> owners;
     const std::lock_guard lock(mutex_);
     if (changed_) {
-      rebuild(owners.emplace());
+      const std::size_t before = ready_earlier.size();
+      rebuild(owners.emplace(), ready_earlier);
+      if (ready_earlier.size() > before) {
+        timeout = std::chrono::nanoseconds::zero();
+      }
     }
     waiting_ = true;
   }
@@ -235,13 +253,16 @@ void ExecutorEntities::find_groups(Owners& owners) {
                 groups_.end());
 }
 
-void ExecutorEntities::rebuild(Owners& owners) {
+void ExecutorEntities::rebuild(Owners& owners, std::vector<detail::ReadyEntity>& ready_earlier) {
   find_groups(owners);
   std::vector<WaitedEntities::Group> groups;
   for (const ServedGroup& served : groups_) {
     if (CallbackGroup::SharedPtr group = served.group.lock()) {
       groups.push_back({served.group, group->shared_can_be_taken_from()});
       group->collect(owners.entities.emplace_back());
+      for (Waitable::WeakPtr& waitable : group->take_left_ready()) {
+        ready_earlier.push_back({std::move(waitable), served.group});
+      }
       owners.groups.push_back(std::move(group));
     }
   }

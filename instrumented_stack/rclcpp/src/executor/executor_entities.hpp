@@ -44,13 +44,15 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
 
   // Waits until an entity is ready, interrupt() is called, or the timeout is over. A negative timeout never ends.
   // Appends the entities that are ready. Leaves out the groups of which nothing may be taken now: call interrupt() when
-  // one of them may be taken from again. For one thread at a time.
-  void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready);
+  // one of them may be taken from again. `ready_earlier` gets the waitables that former executors of groups left ready;
+  // then the wait does not block. For one thread at a time.
+  void wait(std::chrono::nanoseconds timeout, std::vector<detail::ReadyEntity>& ready,
+            std::vector<detail::ReadyEntity>& ready_earlier);
 
   // How often nodes and groups were removed. When the count changes, the findings of earlier waits may belong to
   // removed groups.
   size_t removals() const { return removals_; }
-  // Erases the entities whose groups are not served any more.
+  // Erases the entities whose groups are not served any more. Leaves waitables to the next executor of their group.
   void erase_unserved(std::vector<detail::ReadyEntity>& ready);
 
   // Ends the wait that is going on. If there is none, the next wait ends at once.
@@ -79,7 +81,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   // With the mutex held:
   void mark_changed(Owners& owners);
   void find_groups(Owners& owners);
-  void rebuild(Owners& owners);
+  void rebuild(Owners& owners, std::vector<detail::ReadyEntity>& ready_earlier);
   void serve(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool added_by_hand);
   static void release(const CallbackGroup::SharedPtr& group);
 
