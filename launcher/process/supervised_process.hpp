@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inside of the supervisor: what it keeps of each process, and what happens to one. Only for
+// The private part of the supervisor: its state of each process, and the handlers of events. Only for
 // process_supervisor.cpp, which has the table of states and events, and for process_end.cpp.
 #pragma once
 
@@ -84,7 +84,7 @@ struct Supervision {
   void handle(Supervised& process, Event event, int signal = 0);
   void notify(Supervised& process, decltype(ProcessEvent::what) what);
 
-  // Handlers: what happens to a process in one state on one event.
+  // Handlers: each handles one event of a process in one state.
   void ignore(Supervised&) {}
   void spawn(Supervised& process);
   void interrupt(Supervised& process);

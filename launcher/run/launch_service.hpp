@@ -61,7 +61,7 @@ class LaunchService {
   // left, a third one SIGKILL. A signal less than a second after another one does not count.
   int run(const LaunchDescription& description);
 
-  // How long the steps up to the last start and those after the last exit took, in order.
+  // The durations of the steps up to the last start, and of the steps after the last exit, in order.
   const std::vector<TimedStep>& timing() const { return timing_; }
 
  private:

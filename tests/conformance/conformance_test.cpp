@@ -26,7 +26,7 @@ constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has pyth
 #ifdef __SANITIZE_THREAD__
 constexpr std::chrono::seconds kTimeout{600};
 #else
-constexpr std::chrono::seconds kTimeout{110};
+constexpr std::chrono::seconds kTimeout{380};
 #endif
 
 // A file and the kind of its difference.
