@@ -45,7 +45,9 @@ std::string listed_sessions() {
 }
 
 TracedApp::TracedApp(int count, int bytes)
-    : process_({.argv = {TRACED_APP, std::to_string(count), std::to_string(bytes)}}) {
+    : process_({.argv = {TRACED_APP, std::to_string(count), std::to_string(bytes)},
+                // On a busy machine the session daemon may take longer than LTTng's three seconds to register it.
+                .environment = {{"LTTNG_UST_REGISTER_TIMEOUT", "-1"}}}) {
   EXPECT_TRUE(process_.wait_for_output("fired\n"));
 }
 

@@ -89,7 +89,7 @@ struct Counted {
 
 struct VerdictShapes : trace_test::LttngTracer, testing::WithParamInterface<unsigned> {
   void SetUp() override {
-    setenv("LTTNG_UST_REGISTER_TIMEOUT", "-1", 1);
+    setenv("LTTNG_UST_REGISTER_TIMEOUT", "-1", 1);  // for programs that are no TracedApp
     chosen = configuration_of(GetParam(), config_named("run"));
   }
   void TearDown() override { unsetenv("LTTNG_UST_REGISTER_TIMEOUT"); }
