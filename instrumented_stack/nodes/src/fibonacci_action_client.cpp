@@ -66,7 +66,7 @@ int compute(const rclcpp::Node::SharedPtr& node) {
   if (rclcpp::spin_until_future_complete(node, accepted) != rclcpp::FutureReturnCode::SUCCESS) {
     return EXIT_FAILURE;
   }
-  const Client::GoalHandle::SharedPtr handle = accepted.get();
+  const Client::GoalHandle::SharedPtr& handle = accepted.get();
   if (!handle) {
     RCLCPP_ERROR(node->get_logger(), "Goal was rejected by server");
     return EXIT_FAILURE;

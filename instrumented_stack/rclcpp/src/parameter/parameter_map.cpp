@@ -26,7 +26,7 @@ ParameterMap parameter_map_from_yaml_file(const std::string& yaml_filename, cons
     }
     std::vector<Parameter>& parameters = map[node_fqn != nullptr ? node_fqn : pattern];
     for (const auto& [name, value] : values) {
-      parameters.push_back(std::visit([&](const auto& typed) { return Parameter(name, typed); }, value));
+      parameters.push_back(std::visit([&name = name](const auto& typed) { return Parameter(name, typed); }, value));
     }
   }
   return map;

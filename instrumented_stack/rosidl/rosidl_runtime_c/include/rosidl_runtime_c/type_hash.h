@@ -35,11 +35,11 @@ static inline rcutils_ret_t rosidl_stringify_type_hash(const rosidl_type_hash_t*
   const size_t prefix_length = 7;
   const size_t length = prefix_length + 2 * ROSIDL_TYPE_HASH_SIZE;
   char* text;
-  if (type_hash == NULL || output_string == NULL) {
+  if (!type_hash || !output_string) {
     return RCUTILS_RET_INVALID_ARGUMENT;
   }
   text = (char*)allocator.allocate(length + 1, allocator.state);
-  if (text == NULL) {
+  if (!text) {
     return RCUTILS_RET_BAD_ALLOC;
   }
   snprintf(text, length + 1, "RIHS%02x_", (unsigned)type_hash->version);
@@ -55,7 +55,7 @@ static inline rcutils_ret_t rosidl_parse_type_hash_string(const char* type_hash_
   const size_t prefix_length = 7;
   unsigned version;
   int end = 0;
-  if (type_hash_string == NULL || hash_out == NULL) {
+  if (!type_hash_string || !hash_out) {
     return RCUTILS_RET_INVALID_ARGUMENT;
   }
   *hash_out = rosidl_get_zero_initialized_type_hash();
