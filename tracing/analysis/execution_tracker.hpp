@@ -23,6 +23,7 @@ struct Served {
   ObjectId id = kNoObject;   // of a service or a client; kNoObject when its initialisation is not in the trace
   ros2::Handle address = 0;  // of a waitable, and of an object without an id
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): takes the 0 of the comparison for a null pointer
   auto operator<=>(const Served&) const = default;
 };
 

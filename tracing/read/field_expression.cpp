@@ -133,7 +133,7 @@ struct FieldExpression::Node {
   }
 
   bool accepts_number(const Number& number) const {
-    if (comparison == Operator::kIsTrue) return compare(number, Number(std::int64_t{0})) != 0;
+    if (comparison == Operator::kIsTrue) return std::is_neq(compare(number, Number(std::int64_t{0})));
     const auto* const expected = std::get_if<Number>(&value);
     return expected != nullptr && accepts(comparison, compare(number, *expected));
   }

@@ -195,7 +195,7 @@ class RandomTraceWriter {
     const std::size_t tag = lengths_++;
     return {fmt::format("enum : {} {{ {} }} _tag{};\nvariant <_tag{}> {{ {} }} @;", integer_text(size), labels, tag,
                         tag, declarations),
-            8, [this, options, size](BitWriter& out) {
+            8, [this, options](BitWriter& out) {
               const std::size_t chosen = below(options.size());
               out.align(8);
               out.number(chosen, size);
