@@ -35,7 +35,7 @@ class DeclareLaunchArgument : public Action {
     if (value == configurations.end()) {
       if (!declaration_.default_value) {
         throw LaunchError(fmt::format("required launch argument \"{}\" was not provided", declaration_.name), where(),
-                          fmt::format("give it on the command line: {}:=…", declaration_.name));
+                          fmt::format("give it on the command line: {}:=…", declaration_.name), Finding::kArgument);
       }
       value = configurations.emplace(declaration_.name, declaration_.default_value->perform(context.scope())).first;
     }
@@ -43,7 +43,7 @@ class DeclareLaunchArgument : public Action {
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value->second) == choices.end()) {
       throw LaunchError(fmt::format("argument \"{}\" provided value \"{}\" is not valid. Valid options are: ['{}']",
                                     declaration_.name, value->second, fmt::join(choices, "', '")),
-                        where(), did_you_mean(value->second, choices));
+                        where(), did_you_mean(value->second, choices), Finding::kArgument);
     }
   }
 

@@ -9,7 +9,8 @@ namespace {
 
 void require_state(const Fields& fields, const std::string& attribute, const std::string& state, bool is_state) {
   if (fields.has(attribute) && !is_state) {
-    throw LaunchError(fmt::format("{} goes with condition=\"{}\" only", attribute, state), fields.where(attribute));
+    throw LaunchError(fmt::format("{} goes with condition=\"{}\" only", attribute, state), fields.where(attribute), {},
+                      Finding::kExclusive);
   }
 }
 
@@ -56,7 +57,7 @@ DependsOn::DependsOn(const Fields& fields)
   if (subject == "process") {
     state_ = static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}));
     if (fields.has("state")) {
-      throw LaunchError("state goes with a node only", fields.where("state"));
+      throw LaunchError("state goes with a node only", fields.where("state"), {}, Finding::kExclusive);
     }
   } else {
     ros_condition_.emplace(fields, subject);

@@ -33,7 +33,7 @@ class Group : public Action {
     const bool scoped = scoped_.perform(inner);
     if (namespace_ && !scoped) {
       throw LaunchError("ns needs a scoped group: it ends with the group", namespace_->where(),
-                        "use push_ros_namespace for a namespace that stays");
+                        "use push_ros_namespace for a namespace that stays", Finding::kExclusive);
     }
     if (scoped && !forwarding_.perform(inner)) {
       inner.clear_configurations();

@@ -45,7 +45,7 @@ class IncludeLaunchDescription : public Action {
   void execute(LaunchContext& context) const override {
     if (include_depth(where()) > kMaximumDepth) {
       throw LaunchError(fmt::format("includes are nested more than {} deep", kMaximumDepth), where(),
-                        "a file includes itself, directly or through others");
+                        "a file includes itself, directly or through others", Finding::kEndless);
     }
     const std::string path = declaration_.file.perform(context.scope());
     std::error_code ignored;

@@ -12,7 +12,8 @@ class LoadComposableNodes : public Action {
       : Action(fields.where(), fields.condition()), target_(fields.text("target")), nodes_(fields) {
     if (nodes_.empty()) {
       throw LaunchError("load_composable_node needs a composable_node", fields.where(),
-                        "write <composable_node pkg=\"…\" plugin=\"…\" name=\"…\"/> inside");
+                        "write <composable_node pkg=\"…\" plugin=\"…\" name=\"…\"/> inside",
+                        Finding::kMissingAttribute);
     }
   }
 

@@ -24,7 +24,7 @@ void append_global_parameters(ProcessSpec& spec, const Scope& scope) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file.path, ignored)) {
       throw LaunchError(fmt::format("parameter file path is not a file: {}", file.path), file.where,
-                        help_for_missing_file(file.path));
+                        help_for_missing_file(file.path), Finding::kMissingParameterFile);
     }
     spec.argv.insert(spec.argv.end(), {"--params-file", file.path});
   }
@@ -144,10 +144,11 @@ std::string NodeProcess::program(Scope& scope) const {
       scope.packages->prefix(package, scope.environment);
     } catch (const std::runtime_error&) {
       throw LaunchError(error.what(), package_->where(),
-                        did_you_mean(package, scope.packages->packages(scope.environment)));
+                        did_you_mean(package, scope.packages->packages(scope.environment)), Finding::kMissingPackage);
     }
     throw LaunchError(error.what(), executable_.where(),
-                      did_you_mean(executable, scope.packages->executables(package, scope.environment)));
+                      did_you_mean(executable, scope.packages->executables(package, scope.environment)),
+                      Finding::kMissingProgram);
   }
 }
 
@@ -158,7 +159,7 @@ std::optional<std::string> NodeProcess::node_name(Scope& scope) const {
   std::string name = name_->perform(scope);
   if (!is_valid_node_name(name)) {
     throw LaunchError(fmt::format("invalid node name '{}'", name), name_->where(),
-                      "use letters, digits and underscores, not starting with a digit");
+                      "use letters, digits and underscores, not starting with a digit", Finding::kInvalidName);
   }
   return name;
 }

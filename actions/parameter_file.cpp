@@ -87,7 +87,8 @@ void append_parameter_text(const LocatedText& text, const std::string& full_name
     return;
   }
   if (root.kind != YamlNode::Kind::kMapping) {
-    throw LaunchError(fmt::format("expected a mapping of parameters, got {}", describe(root)), root.where);
+    throw LaunchError(fmt::format("expected a mapping of parameters, got {}", describe(root)), root.where, {},
+                      Finding::kWrongParameterFile);
   }
   // A later section replaces a parameter of an earlier one in its place.
   std::vector<YamlEntry> chosen;
@@ -118,11 +119,17 @@ void append_parameter_file(const std::string& path, const std::string& full_name
                            std::vector<NamedParameter>& parameters) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where, help_for_missing_file(path));
+    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where, help_for_missing_file(path),
+                      Finding::kMissingParameterFile);
   }
   const auto file = read_source_file(path, where);
-  append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),
-                        full_name, parameters);
+  try {
+    append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),
+                          full_name, parameters);
+  } catch (LaunchError& error) {
+    error.classify(Finding::kWrongParameterFile);
+    throw;
+  }
 }
 
 }  // namespace launch

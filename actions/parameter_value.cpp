@@ -77,7 +77,7 @@ ParameterScalar to_parameter(const Scalar& scalar, const SourceRange& where) {
       return scalar.text.text();
     default:
       throw LaunchError(fmt::format("a {} can't be the value of a parameter", type_name(scalar.type)), where,
-                        kNoParameterType);
+                        kNoParameterType, Finding::kWrongType);
   }
 }
 
@@ -130,7 +130,7 @@ bool has_type(ParameterType type, const ParameterScalar& scalar) {
 void require_uniform(const std::vector<ParameterScalar>& items, const char* message, const SourceRange& where) {
   for (const ParameterScalar& item : items) {
     if (item.index() != items.front().index()) {
-      throw LaunchError(message, where, kNoParameterType);
+      throw LaunchError(message, where, kNoParameterType, Finding::kWrongType);
     }
   }
 }
@@ -153,10 +153,11 @@ ParameterValueSource::ParameterValueSource(const Value& value, const std::string
   if (!separator) {
     take_value(value);
   } else if (scalar == nullptr || separator->empty()) {
-    throw LaunchError("value-sep needs a text to split and a separator", where_, "write a list instead");
+    throw LaunchError("value-sep needs a text to split and a separator", where_, "write a list instead",
+                      Finding::kExclusive);
   } else if (type_ != ParameterType::kAny && !type_is_list_) {
     throw LaunchError(fmt::format("value-sep can't be used with type '{}'", type), type_where,
-                      fmt::format("use list_of_{}", type));
+                      fmt::format("use list_of_{}", type), Finding::kExclusive);
   } else {
     is_list_ = true;
     const std::string& text = scalar->text.text();
@@ -212,7 +213,7 @@ void ParameterValueSource::take_value(const Value& value) {
     }
   }
   if (type_is_list_) {
-    throw LaunchError("expected a list", where_, "write [a, b], or split a text with value-sep");
+    throw LaunchError("expected a list", where_, "write [a, b], or split a text with value-sep", Finding::kWrongType);
   }
   items_.push_back(make_item(scalar));
 }
@@ -220,12 +221,12 @@ void ParameterValueSource::take_value(const Value& value) {
 void ParameterValueSource::take_items(const std::vector<Value>& values) {
   if (type_ != ParameterType::kAny && !type_is_list_) {
     throw LaunchError(fmt::format("expected {}, got a list", type_with_article(type_)), where_,
-                      fmt::format("use list_of_{}", type_text_of(type_)));
+                      fmt::format("use list_of_{}", type_text_of(type_)), Finding::kWrongType);
   }
   is_list_ = true;
   for (const Value& value : values) {
     if (value.scalar() == nullptr) {
-      throw LaunchError("a list can't hold lists", value.where, kNoParameterType);
+      throw LaunchError("a list can't hold lists", value.where, kNoParameterType, Finding::kWrongType);
     }
     items_.push_back(make_item(*value.scalar()));
   }
@@ -253,7 +254,7 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
     ParameterScalar value = to_parameter(scalar, where);
     if (type_ != ParameterType::kAny && !has_type(type_, value)) {
       throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), scalar.text.text()), where,
-                        kOtherType);
+                        kOtherType, Finding::kWrongType);
     }
     return value;
   }
@@ -268,7 +269,8 @@ ParameterValueSource::Item ParameterValueSource::make_item(const Scalar& scalar)
   }
   std::optional<ParameterScalar> value = convert(type_, text);
   if (!value) {
-    throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType);
+    throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType,
+                      Finding::kWrongType);
   }
   return std::move(*value);
 }
@@ -277,7 +279,8 @@ ParameterValue ParameterValueSource::type_text(const std::string& text, const So
   if (type_ != ParameterType::kAny) {
     std::optional<ParameterScalar> value = convert(type_, text);
     if (!value) {
-      throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType);
+      throw LaunchError(fmt::format("expected {}, got '{}'", type_with_article(type_), text), where, kOtherType,
+                        Finding::kWrongType);
     }
     return std::move(*value);
   }
@@ -290,7 +293,8 @@ ParameterValue ParameterValueSource::typed_list(const std::string& text, const S
   const auto* const items = std::get_if<std::vector<ParameterScalar>>(&value);
   if (items == nullptr || !std::all_of(items->begin(), items->end(),
                                        [this](const ParameterScalar& item) { return has_type(type_, item); })) {
-    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where, kOtherType);
+    throw LaunchError(fmt::format("expected a list of {}, got '{}'", type_text_of(type_), text), where, kOtherType,
+                      Finding::kWrongType);
   }
   return value;
 }
@@ -313,7 +317,7 @@ ParameterValue ParameterValueSource::perform(Scope& scope) const {
     const Template& source = std::get<Template>(item);
     ParameterValue value = type_text(source.perform(scope), source.where());
     if (!std::holds_alternative<ParameterScalar>(value)) {
-      throw LaunchError("a list can't hold lists", source.where(), kNoParameterType);
+      throw LaunchError("a list can't hold lists", source.where(), kNoParameterType, Finding::kWrongType);
     }
     values.push_back(std::get<ParameterScalar>(std::move(value)));
   }
@@ -328,7 +332,7 @@ ParameterValue parameter_of(const Value& value) {
   std::vector<ParameterScalar> items;
   for (const Value& item : *value.list()) {
     if (item.scalar() == nullptr) {
-      throw LaunchError("a list can't hold lists", value.where, kNoParameterType);
+      throw LaunchError("a list can't hold lists", value.where, kNoParameterType, Finding::kWrongType);
     }
     items.push_back(to_parameter(*item.scalar(), value.where));
   }
@@ -347,7 +351,8 @@ ParameterValue typed_parameter(const std::string& text, const SourceRange& where
   } catch (const YamlSyntaxError&) {
     return ParameterScalar(text);
   } catch (const LaunchError& error) {
-    throw LaunchError(fmt::format("{}: '{}'", error.diagnostics().front().message, text), where, kNoParameterType);
+    throw LaunchError(fmt::format("{}: '{}'", error.diagnostics().front().message, text), where, kNoParameterType,
+                      Finding::kWrongType);
   }
   typed->where = where;
   return parameter_of(*typed);

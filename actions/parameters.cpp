@@ -34,12 +34,12 @@ ItemSpec Parameters::item() {
 Parameters::Parameters(const Fields& fields) : where_(fields.where()) {
   if (fields.has("name") && fields.has("from")) {
     throw LaunchError("name and from attributes are mutually exclusive", fields.where("from"),
-                      "a file names its parameters itself");
+                      "a file names its parameters itself", Finding::kExclusive);
   }
   if (fields.has("from")) {
     if (fields.has("value") || !fields.items("param").empty()) {
       throw LaunchError("a parameter file can't have a value or nested parameters", fields.where("from"),
-                        "write another param for these");
+                        "write another param for these", Finding::kExclusive);
     }
     file_ = fields.text("from");
     Scope nothing;
@@ -48,7 +48,7 @@ Parameters::Parameters(const Fields& fields) : where_(fields.where()) {
   }
   if (fields.has("allow_substs")) {
     throw LaunchError("allow_substs can only be used with from", fields.where("allow_substs"),
-                      "substitutions in a value are always performed");
+                      "substitutions in a value are always performed", Finding::kExclusive);
   }
   tree_ = parse_tree(fields);
 }
@@ -56,22 +56,23 @@ Parameters::Parameters(const Fields& fields) : where_(fields.where()) {
 Parameters::Tree Parameters::parse_tree(const Fields& fields) {
   if (!fields.has("name")) {
     throw LaunchError("param entity should have a name or a from attribute", fields.where(),
-                      "write name and value, or from=\"FILE\"");
+                      "write name and value, or from=\"FILE\"", Finding::kMissingAttribute);
   }
   Tree tree{fields.text("name"), std::nullopt, {}};
   const std::vector<const Fields*> nested = fields.items("param");
   if (fields.has("value") && !nested.empty()) {
     throw LaunchError("nested parameters and value attributes are mutually exclusive", fields.where("value"),
-                      "the name of a nested parameter is made of those of all levels, with dots between them");
+                      "the name of a nested parameter is made of those of all levels, with dots between them",
+                      Finding::kExclusive);
   }
   if (!fields.has("value") && nested.empty()) {
     throw LaunchError("either a value attribute or nested params are needed", fields.where(),
-                      "an empty text is written value=\"\"");
+                      "an empty text is written value=\"\"", Finding::kMissingAttribute);
   }
   if (!nested.empty()) {
     if (fields.has("type")) {
       throw LaunchError("type can't be used with nested parameters", fields.where("type"),
-                        "write it in the nested ones");
+                        "write it in the nested ones", Finding::kExclusive);
     }
     for (const Fields* child : nested) {
       tree.nested.push_back(parse_tree(*child));
@@ -101,7 +102,7 @@ LocatedText Parameters::performed_file(const std::string& path, Scope& scope) co
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(),
-                      help_for_missing_file(path));
+                      help_for_missing_file(path), Finding::kMissingParameterFile);
   }
   const auto file = read_source_file(path, file_->where());
   const SourceRange whole{file, 0, static_cast<std::uint32_t>(file->text().size())};
@@ -112,7 +113,8 @@ LocatedText Parameters::performed_file(const std::string& path, Scope& scope) co
   } catch (const LaunchError& error) {
     throw LaunchError(fmt::format("parameter file '{}' is not YAML after its substitutions: {}", path,
                                   error.diagnostics().front().message),
-                      file_->where(), "substitutions are replaced by text, and backslashes go: '\\\\' stands for one");
+                      file_->where(), "substitutions are replaced by text, and backslashes go: '\\\\' stands for one",
+                      Finding::kWrongParameterFile);
   }
   return performed;
 }

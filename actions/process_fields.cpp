@@ -159,7 +159,7 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
   spec.required = required_.perform(scope);
   if (spec.required && spec.respawn.enabled) {
     throw LaunchError("a required process can't respawn: its end is the end of the system", required_where_,
-                      "leave out required or respawn");
+                      "leave out required or respawn", Finding::kExclusive);
   }
   spec.shutdown_on_exit = shutdown_on_exit_;
   spec.shell = shell_.perform(scope);
@@ -209,7 +209,7 @@ RespawnPolicy ProcessFields::respawn(Scope& scope) const {
     }
     if (policy.enabled && policy.backoff > 1.0 && policy.delay == Duration{0}) {
       throw LaunchError("respawn_backoff can't make a respawn_delay of 0 longer", respawn_backoff_where_,
-                        "add respawn_delay, the first delay in seconds");
+                        "add respawn_delay, the first delay in seconds", Finding::kExclusive);
     }
   }
   return policy;

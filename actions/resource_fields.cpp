@@ -144,11 +144,11 @@ void ResourceFields::set_policy(Scope& scope, ResourceLimits& limits) const {
   const bool real_time = limits.policy == SCHED_FIFO || limits.policy == SCHED_RR;
   if (priority_.number && !real_time) {
     throw LaunchError("sched_priority goes with the policies fifo and rr only", priority_.where,
-                      "add sched_policy=\"fifo\", or use nice");
+                      "add sched_policy=\"fifo\", or use nice", Finding::kExclusive);
   }
   if (real_time && !priority_.number) {
     throw LaunchError(fmt::format("the policy {} needs a priority", scheduling_policy_name(*limits.policy)),
-                      policy_->where(), "add sched_priority, from 1 to 99");
+                      policy_->where(), "add sched_priority, from 1 to 99", Finding::kMissingAttribute);
   }
   if (real_time) {
     limits.priority =

@@ -55,11 +55,12 @@ std::string RosCondition::subject_of(const Fields& fields, const std::vector<std
                [&](const std::string& name) { return fields.has(name); });
   if (given.empty()) {
     throw LaunchError("it is not said what is waited for", fields.where(),
-                      fmt::format("give {}node, topic or service", others.empty() ? "" : others.front() + ", "));
+                      fmt::format("give {}node, topic or service", others.empty() ? "" : others.front() + ", "),
+                      Finding::kMissingAttribute);
   }
   if (given.size() > 1) {
     throw LaunchError(fmt::format("either a {} or a {} is waited for", given[0], given[1]), fields.where(given[1]),
-                      "write one for each");
+                      "write one for each", Finding::kExclusive);
   }
   return given.front();
 }
@@ -78,7 +79,7 @@ RosCondition::Kind RosCondition::kind_of(const Fields& fields, const std::string
 RosCondition::RosCondition(const Fields& fields, const std::string& subject)
     : kind_(kind_of(fields, subject)), name_(fields.text(subject)), state_(fields.optional_text("state")) {
   if (state_ && kind_ != Kind::kState) {
-    throw LaunchError("state goes with a node only", fields.where("state"));
+    throw LaunchError("state goes with a node only", fields.where("state"), {}, Finding::kExclusive);
   }
   if (state_ && state_->is_literal()) {
     Scope nothing;

@@ -68,7 +68,7 @@ std::optional<std::string> resolve_namespace(const std::optional<Template>& give
   std::string combined = given ? combine_namespaces(base, given->perform(scope)) : combine_namespaces("", base);
   if (!is_valid_namespace(combined)) {
     throw LaunchError(fmt::format("the resulting namespace is invalid: '{}'", combined), given ? given->where() : where,
-                      "each part is letters, digits and underscores, not starting with a digit");
+                      "each part is letters, digits and underscores, not starting with a digit", Finding::kInvalidName);
   }
   return combined;
 }
@@ -96,7 +96,7 @@ std::string resolve_name(const Template& given, Scope& scope) {
   const std::string name = combine_namespaces(pushed == scope.configurations.end() ? "" : pushed->second, text);
   if (text.empty() || text.ends_with('/') || !is_valid_namespace(name)) {
     throw LaunchError(fmt::format("'{}' is no valid name", text), given.where(),
-                      "each part is letters, digits and underscores, not starting with a digit");
+                      "each part is letters, digits and underscores, not starting with a digit", Finding::kInvalidName);
   }
   return name;
 }

@@ -13,6 +13,7 @@
 #include "launcher/cli/check_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
+#include "launcher/cli/explain_command.hpp"
 #include "launcher/cli/graph/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/result_output.hpp"
@@ -48,6 +49,9 @@ int main(int argc, char** argv) {
   }
   if (command == "check") {
     return launch::check_command({argv + 2, argv + argc}, launch::builtin_actions(), launch::own_environment());
+  }
+  if (command == "explain") {
+    return launch::explain_command({argv + 2, argv + argc});
   }
   if (command == "graph") {
     return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), launch::own_environment());

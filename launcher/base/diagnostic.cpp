@@ -143,8 +143,18 @@ std::string plain(const std::vector<Diagnostic>& diagnostics) {
 LaunchError::LaunchError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(plain(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
-LaunchError::LaunchError(std::string message, SourceRange where, std::string help)
-    : LaunchError(std::vector<Diagnostic>{{Severity::kError, std::move(message), std::move(where), std::move(help)}}) {}
+LaunchError::LaunchError(std::string message, SourceRange where, std::string help, Finding finding)
+    : LaunchError(
+          std::vector<Diagnostic>{{Severity::kError, std::move(message), std::move(where), std::move(help), finding}}) {
+}
+
+void LaunchError::classify(Finding finding) {
+  for (Diagnostic& diagnostic : diagnostics_) {
+    if (diagnostic.finding == Finding::kNone) {
+      diagnostic.finding = finding;
+    }
+  }
+}
 
 std::string render(const Diagnostic& diagnostic, bool colour) {
   const Style style = style_of(diagnostic.severity, colour);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "launcher/base/finding.hpp"
 #include "launcher/base/source.hpp"
 
 namespace launch {
@@ -21,13 +22,17 @@ struct Diagnostic {
   SourceRange where;
   // What to do about it: "did you mean 'exec'?"; may be empty.
   std::string help;
+  Finding finding = Finding::kNone;
 };
 
 // Errors found while loading or visiting a launch file. Holds at least one diagnostic; what() is the plain rendering.
 class LaunchError : public std::runtime_error {
  public:
   explicit LaunchError(std::vector<Diagnostic> diagnostics);
-  LaunchError(std::string message, SourceRange where, std::string help = {});
+  LaunchError(std::string message, SourceRange where, std::string help = {}, Finding finding = Finding::kNone);
+
+  // Gives a kind to the diagnostics that have none.
+  void classify(Finding finding);
 
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
 

@@ -20,7 +20,8 @@ std::shared_ptr<const SourceFile> read_source_file(const std::string& path, Sour
     throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from,
                       included_from && !path.starts_with('/')
                           ? "a relative path is relative to the launcher's working directory; use $(dirname)/…"
-                          : "");
+                          : "",
+                      Finding::kUnreadableFile);
   };
   const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!fd) {
@@ -44,7 +45,7 @@ std::shared_ptr<const SourceFile> read_source_file(const std::string& path, Sour
   try {
     return std::make_shared<const SourceFile>(path, std::move(text), included_from);
   } catch (const std::length_error& error) {
-    throw LaunchError(error.what(), included_from);
+    throw LaunchError(error.what(), included_from, {}, Finding::kUnreadableFile);
   }
 }
 

@@ -44,14 +44,18 @@ std::vector<Diagnostic> check_arguments(const std::vector<std::pair<std::string,
   std::set<std::string> seen;
   for (const auto& [name, value] : arguments) {
     if (!seen.insert(name).second) {
-      found.push_back(
-          {severity, fmt::format("launch argument '{}' is given more than once", name), {}, "the last one counts"});
+      found.push_back({severity,
+                       fmt::format("launch argument '{}' is given more than once", name),
+                       {},
+                       "the last one counts",
+                       Finding::kUnknownArgument});
     } else if (declared.complete && !is_known(name)) {
       std::string help = did_you_mean(name, known);
       found.push_back({severity,
                        fmt::format("launch argument '{}' is unknown to the launch file", name),
                        {},
-                       help.empty() ? "launch --show-args lists the arguments" : std::move(help)});
+                       help.empty() ? "launch --show-args lists the arguments" : std::move(help),
+                       Finding::kUnknownArgument});
     }
   }
   return found;

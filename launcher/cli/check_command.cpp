@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check_launch_file.hpp"
 #include "launcher/cli/diagnostic_output.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/finding_table.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/substitution/package_index.hpp"
@@ -31,39 +33,91 @@ std::string counted(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+// The files to check. A word that is none is a finding, and the others are checked all the same.
+std::vector<std::string> files_of(const std::vector<std::string>& words, const Scope& scope,
+                                  std::vector<Diagnostic>& found) {
+  const auto note = [&](LaunchError& error) {
+    error.classify(Finding::kUnreadableFile);
+    found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
+  };
+  try {
+    return find_launch_files(words, scope);
+  } catch (LaunchError& error) {
+    std::error_code ignored;
+    if (words.size() == 1 || (words.size() == 2 && !std::filesystem::exists(words.front(), ignored))) {
+      note(error);
+      return {};
+    }
+  }
+  std::vector<std::string> files;
+  for (const std::string& word : words) {
+    try {
+      const std::vector<std::string> file = find_launch_files({word}, scope);
+      files.insert(files.end(), file.begin(), file.end());
+    } catch (LaunchError& error) {
+      note(error);
+    }
+  }
+  return files;
+}
+
+// What the options of the command line say of the findings.
+struct Choice {
+  std::vector<std::string> disabled;  // ids
+  bool warnings_are_errors = false;
+
+  // Throws LaunchError for an id that there is not.
+  void apply(std::vector<Diagnostic>& found) const {
+    for (const std::string& id : disabled) {
+      const std::optional<Finding> finding = find_finding(id);
+      if (!finding) {
+        throw unknown_finding(id);
+      }
+      std::erase_if(found, [&](const Diagnostic& diagnostic) { return diagnostic.finding == *finding; });
+    }
+    for (Diagnostic& diagnostic : found) {
+      diagnostic.severity = warnings_are_errors ? Severity::kError : diagnostic.severity;
+    }
+  }
+};
+
 }  // namespace
 
 int check_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment) {
   std::string format = "text";
   CheckOptions options;
   LaunchTarget target;
+  Choice choice;
   Subcommand command(
       "launch check",
       "Finds the errors of launch files without running anything: visits them, including actions that conditions leave "
-      "out, and "
-      "looks for the packages, programs, parameter files and included files that they name. Exit code 1 when there are "
-      "errors.");
+      "out, and looks for the packages, programs, parameter files and included files that they name. Exit code 1 when "
+      "there are errors.");
   command.take_target(target);
   command.take_choice("--format", format, {"text", "json", "sarif"}, "text, json or sarif");
   command.take_flag("--strict-ros2", options.strict_ros2,
                     "tags and attributes that ros2 launch does not know are errors");
+  command.take_flag("--werror", choice.warnings_are_errors, "warnings are errors");
+  command.take_texts("--disable", choice.disabled,
+                     "leave out the findings with this id; may be given several times (launch explain lists the ids)");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  ResultOutput result;
-  options.arguments = target.arguments;
   std::vector<Diagnostic> found;
-  std::size_t files = 0;
   try {
-    for (const std::string& path : find_launch_files(target.words, scope_of(environment))) {
-      ++files;
-      const std::vector<Diagnostic> of_file = check_launch_file(path, registry, environment, options);
-      found.insert(found.end(), of_file.begin(), of_file.end());
-    }
+    choice.apply(found);
   } catch (const LaunchError& error) {
     print_errors(error);
-    return 1;
+    return kWrongCommandLine;
   }
+  ResultOutput result;
+  options.arguments = target.arguments;
+  const std::vector<std::string> files = files_of(target.words, scope_of(environment), found);
+  for (const std::string& path : files) {
+    const std::vector<Diagnostic> of_file = check_launch_file(path, registry, environment, options);
+    found.insert(found.end(), of_file.begin(), of_file.end());
+  }
+  choice.apply(found);
   const auto errors = static_cast<std::size_t>(std::count_if(
       found.begin(), found.end(), [](const Diagnostic& one) { return one.severity == Severity::kError; }));
   if (format == "json") {
@@ -71,8 +125,8 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   } else if (format == "sarif") {
     result.print(diagnostics_as_sarif(found));
   } else {
-    result.print(render(found, result.is_terminal()));
-    result.print(fmt::format("{}: {}, {}\n", counted(files, "file"), counted(errors, "error"),
+    result.print(diagnostics_as_text(found, result.is_terminal()));
+    result.print(fmt::format("{}: {}, {}\n", counted(files.size(), "file"), counted(errors, "error"),
                              counted(found.size() - errors, "warning")));
   }
   return result.finish() && errors == 0 ? 0 : 1;

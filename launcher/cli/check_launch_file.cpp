@@ -34,7 +34,9 @@ class Checker {
   std::vector<Diagnostic> run(const std::string& path) {
     try {
       LaunchContext context(registry_, environment_, own_prefix(), [](auto, auto, auto) {});
-      context.scope().warn = [this](const SourceRange& where, const std::string& text) { warn(text, where); };
+      context.scope().warn = [this](const SourceRange& where, const std::string& text) {
+        warn(Finding::kRemark, text, where);
+      };
       for (const auto& [name, value] : options_.arguments) {
         context.scope().configurations.insert_or_assign(name, value);
       }
@@ -62,6 +64,9 @@ class Checker {
   }
 
   void add(Diagnostic diagnostic) {
+    if (diagnostic.finding == Finding::kNone) {
+      diagnostic.finding = Finding::kWrongValue;  // what is visited was well-formed
+    }
     // A file that is included twice is checked twice.
     const std::string key =
         fmt::format("{} {} {}", to_string(diagnostic.where), diagnostic.where.end, diagnostic.message);
@@ -76,8 +81,8 @@ class Checker {
     }
   }
 
-  void warn(std::string message, const SourceRange& where, std::string help = {}) {
-    add({Severity::kWarning, std::move(message), where, std::move(help)});
+  void warn(Finding finding, std::string message, const SourceRange& where, std::string help = {}) {
+    add({Severity::kWarning, std::move(message), where, std::move(help), finding});
   }
 
   void check(const LaunchDescription& description, LaunchContext& context) {
@@ -125,7 +130,8 @@ class Checker {
       const bool given = std::any_of(options_.arguments.begin(), options_.arguments.end(),
                                      [&](const auto& pair) { return pair.first == argument.name; });
       if (!given && !info.conditional && !argument.default_value && !argument.where.file->included_from()) {
-        warn(fmt::format("argument '{}' has no default, so nothing that is visited was checked", argument.name),
+        warn(Finding::kNotGiven,
+             fmt::format("argument '{}' has no default, so nothing that is visited was checked", argument.name),
              argument.where, fmt::format("give {}:=VALUE", argument.name));
         all = false;
       }
@@ -163,7 +169,7 @@ class Checker {
     for (const ArgumentInfo& info : list.arguments) {
       const std::string& name = info.declaration->name;
       if (!any_reads([&](const LaunchDescription& file) { return is_read_in(file, name); })) {
-        warn(fmt::format("argument '{}' is never read", name), info.declaration->where);
+        warn(Finding::kUnreadArgument, fmt::format("argument '{}' is never read", name), info.declaration->where);
       }
     }
   }
@@ -180,7 +186,8 @@ class Checker {
       const SourceRange& origin = plan.processes[node.process].origin;
       const auto [first, is_new] = seen.emplace(full, origin);
       if (!is_new) {
-        warn(fmt::format("another node is named '{}'", full), origin, "the first is at " + to_string(first->second));
+        warn(Finding::kSameNode, fmt::format("another node is named '{}'", full), origin,
+             "the first is at " + to_string(first->second));
       }
     }
   }
@@ -201,7 +208,8 @@ class Checker {
       add({Severity::kError,
            fmt::format("program '{}' can't be run: {}", spec.argv.front(), error.code().message()),
            spec.origin,
-           {}});
+           {},
+           Finding::kMissingProgram});
     }
   }
 
@@ -218,7 +226,11 @@ class Checker {
       }
       std::error_code ignored;
       if (!fs::is_regular_file(path, ignored)) {
-        add({Severity::kError, fmt::format("parameter file '{}' does not exist", spec.argv[i]), spec.origin, {}});
+        add({Severity::kError,
+             fmt::format("parameter file '{}' does not exist", spec.argv[i]),
+             spec.origin,
+             {},
+             Finding::kMissingParameterFile});
       }
     }
   }
@@ -239,12 +251,13 @@ class Checker {
       std::string from = spec.argv[i].substr(0, separator);
       if (const std::size_t colon = from.find(':'); colon != std::string::npos) {
         if (!node.empty() && from.substr(0, colon) != node) {
-          warn(fmt::format("remap '{}' matches nothing: this node is named '{}'", spec.argv[i], node), spec.origin);
+          warn(Finding::kUselessRemap,
+               fmt::format("remap '{}' matches nothing: this node is named '{}'", spec.argv[i], node), spec.origin);
         }
         from.erase(0, colon + 1);
       }
       if (from == spec.argv[i].substr(separator + 2)) {
-        warn(fmt::format("remap '{}' changes nothing", spec.argv[i]), spec.origin);
+        warn(Finding::kUselessRemap, fmt::format("remap '{}' changes nothing", spec.argv[i]), spec.origin);
       }
     }
   }

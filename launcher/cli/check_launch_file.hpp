@@ -20,7 +20,8 @@ struct CheckOptions {
 // Loads and visits the file, including what conditions leave out, and resolves what a run would resolve: packages,
 // programs, parameter files, included files. Errors are what would fail. Warnings are what is suspicious: arguments
 // that nothing reads, remaps that match nothing, nodes of one name, and errors in what the conditions leave out with
-// these arguments. Each problem is reported once, in the order of the files.
+// these arguments. Each problem is reported once, and every diagnostic has a
+// finding.
 std::vector<Diagnostic> check_launch_file(const std::string& path, const Registry& registry,
                                           const Environment& environment, const CheckOptions& options);
 

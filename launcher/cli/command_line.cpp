@@ -20,6 +20,7 @@ constexpr const char* kFooter =
     "  launch trace …    records a trace by hand (launch trace --help)\n"
     "  launch report DIR describes a recorded trace (launch report --help)\n"
     "  launch check FILE finds errors without running anything (launch check --help)\n"
+    "  launch explain ID explains a finding of launch check (launch explain --help)\n"
     "  launch graph FILE draws nodes, namespaces, includes and remapped topics (launch graph --help)\n"
     "  launch schema     prints a schema for editors (launch schema --help)\n"
     "  launch reference  prints the reference of the launch language\n"

@@ -9,6 +9,7 @@
 
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/finding_table.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
-const Words kCommands = {"check", "graph", "reference", "report", "schema", "trace"};
+const Words kCommands = {"check", "explain", "graph", "reference", "report", "schema", "trace"};
 const Words kOptions = {"--debug",
                         "--dry-run",
                         "--dry-run=json",
@@ -34,7 +35,7 @@ const Words kOptions = {"--debug",
                         "--timing",
                         "--trace",
                         "--version"};
-const Words kCheckOptions = {"--format", "--help", "--strict-ros2"};
+const Words kCheckOptions = {"--disable", "--format", "--help", "--strict-ros2", "--werror"};
 const Words kGraphOptions = {"--format", "--help", "--output"};
 
 const Words kLaunchFileEnds = {"launch.xml", "launch.yaml", "launch.yml", "launch.py"};
@@ -61,6 +62,13 @@ class Completer {
     }
     if (command == "schema") {
       return {"json", "xsd"};
+    }
+    if (command == "explain") {
+      Words ids;
+      for (const FindingInfo& info : finding_table()) {
+        ids.push_back(finding_id(info.finding));
+      }
+      return ids;
     }
     if (command == "report" || command == "reference") {
       return {};

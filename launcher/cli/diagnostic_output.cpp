@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/diagnostic_output.hpp"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+
+#include "launcher/cli/finding_table.hpp"
 
 namespace launch {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kShownOfAKind = 100;
 
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -19,6 +27,7 @@ std::string diagnostics_as_json(const std::vector<Diagnostic>& diagnostics) {
   Json list = Json::array();
   for (const Diagnostic& diagnostic : diagnostics) {
     Json item;
+    item["id"] = finding_id(diagnostic.finding);
     item["severity"] = diagnostic.severity == Severity::kError ? "error" : "warning";
     item["message"] = diagnostic.message;
     item["help"] = diagnostic.help;
@@ -46,10 +55,31 @@ std::string diagnostics_as_json(const std::vector<Diagnostic>& diagnostics) {
   return dump(list);
 }
 
+std::string diagnostics_as_text(const std::vector<Diagnostic>& diagnostics, bool colour) {
+  std::string text;
+  std::map<Finding, std::size_t> counts;
+  for (Diagnostic diagnostic : diagnostics) {
+    if (++counts[diagnostic.finding] <= kShownOfAKind) {
+      diagnostic.message += fmt::format(" [{}]", finding_id(diagnostic.finding));
+      text += render(diagnostic, colour);
+    }
+  }
+  for (const auto& [finding, count] : counts) {
+    if (count > kShownOfAKind) {
+      text += fmt::format("{} more of {} ({}), --format json shows all\n", count - kShownOfAKind, finding_id(finding),
+                          finding_info(finding).title);
+    }
+  }
+  return text;
+}
+
 std::string diagnostics_as_sarif(const std::vector<Diagnostic>& diagnostics) {
   Json results = Json::array();
+  std::set<Finding> rules;
   for (const Diagnostic& diagnostic : diagnostics) {
     Json result;
+    result["ruleId"] = finding_id(diagnostic.finding);
+    rules.insert(diagnostic.finding);
     result["level"] = diagnostic.severity == Severity::kError ? "error" : "warning";
     const std::string help = diagnostic.help.empty() ? "" : " (" + diagnostic.help + ")";
     result["message"]["text"] = diagnostic.message + help;
@@ -75,7 +105,13 @@ std::string diagnostics_as_sarif(const std::vector<Diagnostic>& diagnostics) {
     results.push_back(std::move(result));
   }
   Json run;
-  run["tool"]["driver"] = {{"name", "launch check"}, {"version", LAUNCH_VERSION}};
+  run["tool"]["driver"] = {{"name", "launch check"}, {"version", LAUNCH_VERSION}, {"rules", Json::array()}};
+  for (const Finding finding : rules) {
+    const FindingInfo& info = finding_info(finding);
+    run["tool"]["driver"]["rules"].push_back({{"id", finding_id(finding)},
+                                              {"shortDescription", {{"text", info.title}}},
+                                              {"fullDescription", {{"text", info.explanation}}}});
+  }
   run["columnKind"] = "unicodeCodePoints";
   run["results"] = std::move(results);
   Json root;

@@ -28,7 +28,7 @@ class Walk {
 
  private:
   void refuse(const std::string& what, const SourceRange& where) {
-    found.push_back({Severity::kError, what + " is not known to ros2 launch", where, {}});
+    found.push_back({Severity::kError, what + " is not known to ros2 launch", where, {}, Finding::kExtension});
   }
 
   void action(const Entity& entity, const ActionType& type) {

@@ -31,6 +31,10 @@ void Subcommand::take_text(const std::string& name, std::string& value, const st
   app_->add_option(name, value, help);
 }
 
+void Subcommand::take_texts(const std::string& name, std::vector<std::string>& values, const std::string& help) {
+  app_->add_option(name, values, help)->take_all()->expected(1)->allow_extra_args(false);
+}
+
 void Subcommand::take_flag(const std::string& name, bool& value, const std::string& help) {
   app_->add_flag(name, value, help);
 }

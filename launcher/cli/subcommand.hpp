@@ -36,7 +36,10 @@ class Subcommand {
   // Takes a value that is one of `values`: an option, or a word if `name` does not begin with "--".
   void take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
                    const std::string& help);
+  // Takes an option, or a word that may be left out if `name` does not begin with "--".
   void take_text(const std::string& name, std::string& value, const std::string& help);
+  // Takes an option that may be given several times.
+  void take_texts(const std::string& name, std::vector<std::string>& values, const std::string& help);
   void take_flag(const std::string& name, bool& value, const std::string& help);
 
   // Parses the words after the name of the command. Returns the exit code when there is nothing more to do: after

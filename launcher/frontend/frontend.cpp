@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "launcher/base/diagnostic.hpp"
 #include "launcher/frontend/input_text.hpp"
 
 namespace launch {
@@ -25,7 +26,13 @@ Entity load_entity_tree(const std::shared_ptr<const SourceFile>& file) {
   // The content decides, not the suffix. Only for an empty file the suffix decides which error is reported.
   const bool blank = file->text().find_first_not_of(" \t\r\n") == std::string::npos;
   const bool xml_suffix = path.ends_with(".xml") || path.ends_with(".launch");
-  return looks_like_xml(file->text()) || (blank && xml_suffix) ? parse_xml(file) : parse_yaml(file);
+  const bool is_xml = looks_like_xml(file->text()) || (blank && xml_suffix);
+  try {
+    return is_xml ? parse_xml(file) : parse_yaml(file);
+  } catch (LaunchError& error) {
+    error.classify(is_xml ? Finding::kMalformedXml : Finding::kMalformedYaml);
+    throw;
+  }
 }
 
 }  // namespace launch

@@ -81,7 +81,8 @@ std::vector<Template> words_of_list(const Entity& entity, const Attribute& attri
     if (scalar == nullptr || scalar->type != Scalar::Type::kString) {
       throw LaunchError(fmt::format("the list '{}' of '{}' is expected to hold texts, got {}", attribute.name,
                                     entity.type_name, kind_of(item)),
-                        item.where, scalar != nullptr ? help_for_type(AttributeType::kText, item) : std::string());
+                        item.where, scalar != nullptr ? help_for_type(AttributeType::kText, item) : std::string(),
+                        Finding::kWrongType);
     }
     words.push_back(parse_template(scalar->text));
   }
@@ -158,7 +159,8 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
       tags.push_back(tag);
     }
     errors_.push_back({Severity::kError, fmt::format("unrecognized entity of the type '{}'", entity.type_name),
-                       entity.where, help_for_name(entity.type_name, tags, help_for_former_tag(entity.type_name), "")});
+                       entity.where, help_for_name(entity.type_name, tags, help_for_former_tag(entity.type_name), ""),
+                       is_item_somewhere(entity.type_name) ? Finding::kWrongPlace : Finding::kUnknownName});
     return nullptr;
   }
 
@@ -171,7 +173,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
   fields.items_.reserve(type->items.empty() ? 0 : entity.children.size());
   if (type->holds_actions && !entity.has_children_list) {
     errors_.push_back({Severity::kError, fmt::format("expected '{}' to have a list of actions", entity.type_name),
-                       entity.where, "add a `children:` list"});
+                       entity.where, "add a `children:` list", Finding::kMissingAttribute});
   }
   for (const Entity& child : entity.children) {
     if (const ItemSpec* const item = items.find(child.type_name)) {
@@ -207,7 +209,16 @@ void ActionParser::report_unknown_child(const Entity& parent, const Entity& chil
       {Severity::kError, message, child.where,
        misplaced ? fmt::format("'{}' is an action: put it before or behind '{}'", child.type_name, parent.type_name)
                  : help_for_name(child.type_name, known, actions ? help_for_former_tag(child.type_name) : "",
-                                 fmt::format("'{}' can hold", parent.type_name))});
+                                 fmt::format("'{}' can hold", parent.type_name)),
+       misplaced || is_item_somewhere(child.type_name) ? Finding::kWrongPlace : Finding::kUnknownName});
+}
+
+bool ActionParser::is_item_somewhere(const std::string& tag) const {
+  const auto& types = registry_.types();
+  return std::any_of(types.begin(), types.end(), [&](const auto& type) {
+    const std::vector<ItemSpec>& items = type.second.items;
+    return std::any_of(items.begin(), items.end(), [&](const ItemSpec& item) { return item.tag == tag; });
+  });
 }
 
 void ActionParser::parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
@@ -236,7 +247,10 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
            attribute.name_where,
            is_item ? "leave it out when there is none"
                    : help_for_name(attribute.name, known, help_for_former_attribute(entity.type_name, attribute.name),
-                                   fmt::format("'{}' has", entity.type_name))});
+                                   fmt::format("'{}' has", entity.type_name)),
+           is_item                                                ? Finding::kWrongType
+           : attribute.name == "if" || attribute.name == "unless" ? Finding::kWrongPlace
+                                                                  : Finding::kUnknownName});
       continue;
     }
     if (!fields.has(spec->name)) {
@@ -247,9 +261,10 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
   }
   for (const AttributeSpec& spec : specs) {
     if (spec.required && entity.find(spec.name) == nullptr) {
-      errors_.push_back(
-          {Severity::kError, fmt::format("attribute '{}' not found in entity '{}'", spec.name, entity.type_name),
-           entity.where, spec.help.empty() ? std::string() : fmt::format("{}: {}", spec.name, spec.help)});
+      errors_.push_back({Severity::kError,
+                         fmt::format("attribute '{}' not found in entity '{}'", spec.name, entity.type_name),
+                         entity.where, spec.help.empty() ? std::string() : fmt::format("{}: {}", spec.name, spec.help),
+                         Finding::kMissingAttribute});
     }
   }
 }
@@ -274,7 +289,7 @@ Fields::Parsed ActionParser::parse_value(const Entity& entity, const Attribute& 
   if (scalar == nullptr || !accepts(spec, *scalar)) {
     throw LaunchError(fmt::format("attribute '{}' of '{}' is expected to be of type {}, got {}", attribute.name,
                                   entity.type_name, expected_kind(spec.type), kind_of(attribute.value)),
-                      attribute.value.where, help_for_type(spec.type, attribute.value));
+                      attribute.value.where, help_for_type(spec.type, attribute.value), Finding::kWrongType);
   }
   if (spec.type == AttributeType::kLiteral) {
     return scalar->made != nullptr ? literal_text(*scalar->made, attribute) : unescape(scalar->text.text());
@@ -300,7 +315,8 @@ void ActionParser::parse_condition(const Entity& entity, Fields& fields) {
   const Attribute* const unless_given = entity.find("unless");
   if (if_given != nullptr && unless_given != nullptr) {
     errors_.push_back({Severity::kError, "if and unless conditions can't be used simultaneously",
-                       unless_given->name_where, "use one, with $(and …) or $(not …) where both are needed"});
+                       unless_given->name_where, "use one, with $(and …) or $(not …) where both are needed",
+                       Finding::kExclusive});
     return;
   }
   const Attribute* const given = if_given != nullptr ? if_given : unless_given;

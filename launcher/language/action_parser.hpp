@@ -40,6 +40,8 @@ class ActionParser {
   void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
   Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
   void report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions);
+  // Whether an action can hold items of this tag.
+  bool is_item_somewhere(const std::string& tag) const;
   // Runs `step` and keeps the errors that it throws.
   template <typename Step>
   void collect(Step step);

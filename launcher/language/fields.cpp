@@ -16,7 +16,8 @@ namespace {
 bool to_boolean(const std::string& text, const SourceRange& where) {
   const std::optional<bool> value = yaml_boolean(text);
   if (!value) {
-    throw LaunchError(fmt::format("expected a boolean, got '{}'", text), where, "write true or false");
+    throw LaunchError(fmt::format("expected a boolean, got '{}'", text), where, "write true or false",
+                      Finding::kWrongType);
   }
   return *value;
 }
@@ -54,14 +55,15 @@ double NumberField::convert(const std::string& text) const {
       whole_ ? std::from_chars(digits.data(), end, whole_value) : std::from_chars(digits.data(), end, value);
   if (digits.empty() || result.ec != std::errc() || result.ptr != end) {
     throw LaunchError(fmt::format("expected a {}, got '{}'", whole_ ? "whole number" : "number", text), source_.where(),
-                      whole_ ? "write digits, such as 3" : "write a number without its unit, such as 0.5");
+                      whole_ ? "write digits, such as 3" : "write a number without its unit, such as 0.5",
+                      Finding::kWrongType);
   }
   if (whole_) {
     value = static_cast<double>(whole_value);
   }
   if (not_negative_ && !(value >= 0.0)) {
     throw LaunchError(fmt::format("expected a number that is not negative, got '{}'", text), source_.where(),
-                      "write 0 or more");
+                      "write 0 or more", Finding::kWrongType);
   }
   return value;
 }

@@ -120,7 +120,8 @@ void check_required_arguments(const LaunchDescription& description, const Regist
                               declaration.name, declaration.description, quoted_list(listed)),
                   where,
                   fmt::format("it is declared without a default at {}; add an arg of that name to the include",
-                              to_string(declaration.where)));
+                              to_string(declaration.where)),
+                  Finding::kArgument);
             });
   walk.description(description, std::set<std::string>(given.begin(), given.end()), false, 0);
   if (missing) {

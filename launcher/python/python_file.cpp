@@ -196,7 +196,8 @@ SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRang
       return type.make(std::move(arguments), std::move(where));
     }
   }
-  throw LaunchError(fmt::format("this launcher has no substitution '{}'", part.text), std::move(where));
+  throw LaunchError(fmt::format("this launcher has no substitution '{}'", part.text), std::move(where), {},
+                    Finding::kUnknownName);
 }
 
 PythonHost::PythonHost(PythonFile& file, LaunchContext& context)

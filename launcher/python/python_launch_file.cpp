@@ -42,7 +42,7 @@ std::shared_ptr<const LaunchDescription> run(std::shared_ptr<const SourceFile> f
   try {
     runtime = &python_runtime();
   } catch (const std::runtime_error& error) {
-    throw LaunchError(error.what(), {file, 0, 0});
+    throw LaunchError(error.what(), {file, 0, 0}, {}, Finding::kPython);
   }
   try {
     PythonHost host(*python_file, scope);

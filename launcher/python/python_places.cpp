@@ -69,7 +69,7 @@ void PythonPlaces::fail(const python::Error& error) {
   if (tracebacks() && !error.traceback.empty()) {
     help += (help.empty() ? "" : "\n") + error.traceback;
   }
-  throw LaunchError(error.what(), range(error.where), std::move(help));
+  throw LaunchError(error.what(), range(error.where), std::move(help), Finding::kPython);
 }
 
 }  // namespace launch

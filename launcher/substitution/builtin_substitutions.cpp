@@ -29,7 +29,7 @@ std::string var(const SubstitutionCall& call) {
   if (help.empty()) {
     help = fmt::format("declare it with 'arg', set it with 'let', or give a default: $(var {} DEFAULT)", name);
   }
-  call.fail(fmt::format("launch configuration '{}' does not exist", name), std::move(help));
+  call.fail(fmt::format("launch configuration '{}' does not exist", name), std::move(help), Finding::kUndefined);
 }
 
 std::string env(const SubstitutionCall& call) {
@@ -45,7 +45,7 @@ std::string env(const SubstitutionCall& call) {
   if (help.empty()) {
     help = fmt::format("give a default, which may be empty: $(env {} '')", name);
   }
-  call.fail(fmt::format("environment variable '{}' does not exist", name), std::move(help));
+  call.fail(fmt::format("environment variable '{}' does not exist", name), std::move(help), Finding::kUndefined);
 }
 
 std::string filename(const SubstitutionCall& call) {
@@ -62,14 +62,15 @@ std::string dirname(const SubstitutionCall& call) {
 std::string find_pkg_prefix(const SubstitutionCall& call) {
   const std::string package = call.text(0);
   return call.look_up([&](PackageIndex& index) { return index.prefix(package, call.scope().environment); }, package,
-                      [&](PackageIndex& index) { return index.packages(call.scope().environment); });
+                      [&](PackageIndex& index) { return index.packages(call.scope().environment); },
+                      Finding::kMissingPackage);
 }
 
 std::string find_pkg_share(const SubstitutionCall& call) {
   const std::string package = call.text(0);
-  std::string path =
-      call.look_up([&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
-                   [&](PackageIndex& index) { return index.packages(call.scope().environment); });
+  std::string path = call.look_up(
+      [&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
+      [&](PackageIndex& index) { return index.packages(call.scope().environment); }, Finding::kMissingPackage);
   std::error_code ignored;
   if (call.scope().warn && !std::filesystem::is_directory(path, ignored)) {
     call.scope().warn(call.where(),
@@ -84,16 +85,18 @@ std::string exec_in_pkg(const SubstitutionCall& call) {
   const Environment& environment = call.scope().environment;
   // A package that is missing is reported as such, with packages as suggestions.
   call.look_up([&](PackageIndex& index) { return index.prefix(package, environment); }, package,
-               [&](PackageIndex& index) { return index.packages(environment); });
+               [&](PackageIndex& index) { return index.packages(environment); }, Finding::kMissingPackage);
   return call.look_up([&](PackageIndex& index) { return index.executable(executable, package, environment); },
-                      executable, [&](PackageIndex& index) { return index.executables(package, environment); });
+                      executable, [&](PackageIndex& index) { return index.executables(package, environment); },
+                      Finding::kMissingProgram);
 }
 
 std::string find_exec(const SubstitutionCall& call) {
   const std::string name = call.text(0);
   std::string path = PackageIndex::find_on_path(name, call.scope().environment);
   if (path.empty()) {
-    call.fail(fmt::format("executable '{}' not found on the PATH", name), "install it, or extend the PATH");
+    call.fail(fmt::format("executable '{}' not found on the PATH", name), "install it, or extend the PATH",
+              Finding::kMissingProgram);
   }
   return path;
 }
@@ -167,7 +170,8 @@ std::string param(const SubstitutionCall& call) {
   call.fail(fmt::format("parameter '{}' does not exist", name),
             help.empty()
                 ? fmt::format("set it before with 'set_parameter', or give a default: $(param {} DEFAULT)", name)
-                : std::move(help));
+                : std::move(help),
+            Finding::kUndefined);
 }
 
 std::string loop_variable(const SubstitutionCall& call, const char* kind, const char* loop) {
@@ -181,7 +185,7 @@ std::string loop_variable(const SubstitutionCall& call, const char* kind, const 
   }
   std::string help = did_you_mean(name, names_of(variables));
   call.fail(fmt::format("{} '{}' does not exist here", kind, name),
-            help.empty() ? fmt::format("it is set inside a '{}' only", loop) : std::move(help));
+            help.empty() ? fmt::format("it is set inside a '{}' only", loop) : std::move(help), Finding::kUndefined);
 }
 
 std::string for_var(const SubstitutionCall& call) {

@@ -44,11 +44,13 @@ Words split_words(std::string_view text, const SourceRange& where, const std::st
         quoted += text[i];
       }
       if (i == text.size()) {
-        throw LaunchError("no closing quotation in the command line", where, quotation_help);
+        throw LaunchError("no closing quotation in the command line", where, quotation_help,
+                          Finding::kMalformedSubstitution);
       }
     } else if (c == '\\') {
       if (++i == text.size()) {
-        throw LaunchError("nothing follows the last backslash of the command line", where);
+        throw LaunchError("nothing follows the last backslash of the command line", where, {},
+                          Finding::kMalformedSubstitution);
       }
       word() += text[i];
     } else {

@@ -43,22 +43,24 @@ std::string command(const SubstitutionCall& call) {
   if (program.empty()) {
     call.fail(fmt::format("executing command '{}' failed: '{}' was not found", line, words.front()),
               words.front().find(' ') != std::string::npos ? "one quoted word is one program name; quote less"
-                                                           : "install it, or extend the PATH");
+                                                           : "install it, or extend the PATH",
+              Finding::kExpression);
   }
   CommandOutput output;
   try {
     output = capture_command(program, words, call.scope().environment, on_stderr == "capture");
   } catch (const std::runtime_error& error) {
-    call.fail(fmt::format("executing command '{}' failed: {}", line, error.what()), {});
+    call.fail(fmt::format("executing command '{}' failed: {}", line, error.what()), {}, Finding::kExpression);
   }
   const std::string said = output.error.empty() ? std::string() : fmt::format("it wrote: {}", last_line(output.error));
   if (output.status != 0) {
     call.fail(fmt::format("executing command '{}' failed: {}", line, describe_status(output.status)),
-              said.empty() ? "it wrote nothing to standard error" : said);
+              said.empty() ? "it wrote nothing to standard error" : said, Finding::kExpression);
   }
   if (!output.error.empty() && on_stderr == "fail") {
     call.fail(fmt::format("executing command '{}' failed: it wrote to standard error", line),
-              fmt::format("{}; to accept that: $(command '…' warn), or ignore, or capture", said));
+              fmt::format("{}; to accept that: $(command '…' warn), or ignore, or capture", said),
+              Finding::kExpression);
   }
   if (!output.error.empty() && on_stderr == "warn" && call.scope().warn) {
     call.scope().warn(call.where(),
@@ -81,7 +83,8 @@ std::string eval(const SubstitutionCall& call) {
     }
     call.fail(
         fmt::format("failed to evaluate the Python expression '{}': {}", expression, error.what()),
-        help.empty() ? "substitutions are pasted in as text: put quotes around what is to be a text" : std::move(help));
+        help.empty() ? "substitutions are pasted in as text: put quotes around what is to be a text" : std::move(help),
+        Finding::kExpression);
   }
 }
 
@@ -93,7 +96,8 @@ std::string file_content(const SubstitutionCall& call) {
     call.fail(fmt::format("file not found: '{}'", path),
               path.starts_with('/')
                   ? ""
-                  : "a relative path is relative to the launcher's working directory; use $(dirname)/…");
+                  : "a relative path is relative to the launcher's working directory; use $(dirname)/…",
+              Finding::kMissingFile);
   }
   return std::move(content).str();
 }

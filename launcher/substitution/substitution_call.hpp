@@ -38,22 +38,22 @@ class SubstitutionCall {
     const std::optional<bool> result = yaml_boolean(value);
     if (!result) {
       throw LaunchError(fmt::format("'{}' is not a boolean", value), arguments_[index].where(),
-                        "expected true, false, yes, no, on, off, 1 or 0");
+                        "expected true, false, yes, no, on, off, 1 or 0", Finding::kWrongType);
     }
     return *result;
   }
 
-  [[noreturn]] void fail(std::string message, std::string help) const {
-    throw LaunchError(std::move(message), where_, std::move(help));
+  [[noreturn]] void fail(std::string message, std::string help, Finding finding = Finding::kNone) const {
+    throw LaunchError(std::move(message), where_, std::move(help), finding);
   }
 
   // Runs a look-up of the package index, whose errors have no place, and gives them this one.
   template <typename LookUp, typename Candidates>
-  std::string look_up(LookUp find, std::string_view name, Candidates candidates) const {
+  std::string look_up(LookUp find, std::string_view name, Candidates candidates, Finding finding) const {
     try {
       return find(*scope_.packages);
     } catch (const std::runtime_error& error) {
-      fail(error.what(), did_you_mean(name, candidates(*scope_.packages)));
+      fail(error.what(), did_you_mean(name, candidates(*scope_.packages)), finding);
     }
   }
 

@@ -75,7 +75,8 @@ class TemplateParser {
   bool at_substitution() const { return !at_end() && starts_substitution(position_); }
 
   [[noreturn]] void fail(std::string message, std::size_t begin, std::size_t length, std::string help = {}) const {
-    throw LaunchError(std::move(message), source_.range(begin, length), std::move(help));
+    throw LaunchError(std::move(message), source_.range(begin, length), std::move(help),
+                      Finding::kMalformedSubstitution);
   }
 
   // End of the literal run that starts here at the top level.
@@ -246,7 +247,8 @@ class TemplateParser {
       throw LaunchError(
           std::move(*wrong), std::move(where),
           fmt::format("usage: {}{}", type->usage,
-                      too_many && type->maximum_arguments > 0 ? "; quote an argument that has spaces" : ""));
+                      too_many && type->maximum_arguments > 0 ? "; quote an argument that has spaces" : ""),
+          Finding::kMalformedSubstitution);
     }
     return type->make(std::move(arguments), std::move(where));
   }
@@ -265,7 +267,7 @@ class TemplateParser {
       }
       help = did_you_mean(name, names);
     }
-    return {fmt::format("unknown substitution '{}'", name), where, std::move(help)};
+    return {fmt::format("unknown substitution '{}'", name), where, std::move(help), Finding::kUnknownName};
   }
 
   const LocatedText& source_;

@@ -20,14 +20,16 @@ TrackedProcess* find_target(const std::string& name, const std::unordered_map<co
     const std::string suggestion = did_you_mean(name, table.names());
     throw LaunchError(
         fmt::format("no process is named '{}'", name), where,
-        suggestion.empty() ? "what a timer or an event handler starts is not known before it does" : suggestion);
+        suggestion.empty() ? "what a timer or an event handler starts is not known before it does" : suggestion,
+        Finding::kUnknownProcess);
   }
   std::vector<TrackedProcess*> asked_for;
   std::copy_if(named.begin(), named.end(), std::back_inserter(asked_for),
                [&](const TrackedProcess* process) { return now.contains(process); });
   if (asked_for.size() > 1) {
     throw LaunchError(fmt::format("{} processes are named '{}'", asked_for.size(), name), where,
-                      "use the full name of the node, such as /left/talker, or give each a name of its own");
+                      "use the full name of the node, such as /left/talker, or give each a name of its own",
+                      Finding::kUnknownProcess);
   }
   return asked_for.empty() ? named.back() : asked_for.front();
 }
@@ -80,7 +82,7 @@ class CycleSearch {
       text += fmt::format("'{}' waits for ", processes_[*step]->names.front());
     }
     throw LaunchError(fmt::format("no start order is possible: {}'{}'", text, processes_[closing.to]->names.front()),
-                      *closing.where, "remove one of these depends_on");
+                      *closing.where, "remove one of these depends_on", Finding::kStartOrder);
   }
 
   const std::vector<TrackedProcess*>& processes_;

@@ -43,7 +43,7 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
 void LaunchContext::visit(const Action& action) {
   if (depth_ == kDeepest) {
     throw LaunchError(fmt::format("actions hold each other more than {} deep", kDeepest), action.where(),
-                      "an action that gives itself has no end");
+                      "an action that gives itself has no end", Finding::kEndless);
   }
   ++depth_;
   AtExit restore([this] { --depth_; });

@@ -24,7 +24,7 @@ void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTa
   for (const ProcessCommand& command : commands) {
     if (table.find(command.process).empty()) {
       errors.push_back({Severity::kError, fmt::format("no process is named '{}'", command.process), command.where,
-                        did_you_mean(command.process, table.names())});
+                        did_you_mean(command.process, table.names()), Finding::kUnknownProcess});
     }
   }
   if (!errors.empty()) {
