@@ -5,6 +5,8 @@
 
 #include "actions/node_process.hpp"
 #include "actions/parameter_file.hpp"
+#include "actions/plugin_findings.hpp"
+#include "actions/process_findings.hpp"
 #include "actions/ros_names.hpp"
 
 namespace launch {
@@ -71,7 +73,7 @@ void ComposableNodes::request(LaunchContext& context, const std::string& target,
   request.origin = where;
   for (const Description& node : nodes_) {
     if (node.condition.holds(context.scope())) {
-      request.nodes.push_back(evaluate(node, context));
+      request.nodes.push_back(evaluate(node, environment, context));
     }
   }
   if (!request.nodes.empty()) {
@@ -79,7 +81,8 @@ void ComposableNodes::request(LaunchContext& context, const std::string& target,
   }
 }
 
-ComposableNode ComposableNodes::evaluate(const Description& node, LaunchContext& context) {
+ComposableNode ComposableNodes::evaluate(const Description& node, const Environment& environment,
+                                         LaunchContext& context) {
   Scope& scope = context.scope();
   ComposableNode result;
   result.origin = node.where;
@@ -88,6 +91,7 @@ ComposableNode ComposableNodes::evaluate(const Description& node, LaunchContext&
   result.name = node.name.perform(scope);
   result.name_space = resolve_namespace(node.name_space, scope, node.where).value_or("");
   result.autostart = node.autostart.perform(scope);
+  find_missing_plugin(result, environment, node.package.where(), node.plugin.where(), context);
   const std::string full_name = qualified_name(result.name_space, result.name);
   if (!result.name_space.empty() && !result.name.empty()) {
     context.note_node(full_name);
@@ -105,7 +109,8 @@ ComposableNode ComposableNodes::evaluate(const Description& node, LaunchContext&
   }
   result.remaps = scope.global_remaps;
   for (const auto& [from, to] : node.remaps) {
-    result.remaps.emplace_back(from.perform(scope), to.perform(scope));
+    const auto& [before, after] = result.remaps.emplace_back(from.perform(scope), to.perform(scope));
+    find_invalid_remap(before, from.where(), after, to.where(), context);
   }
   for (const auto& [name, value] : node.extra_arguments) {
     result.extra_arguments.push_back({name.perform(scope), typed_parameter(value.perform(scope), value.where())});

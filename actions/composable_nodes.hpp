@@ -38,7 +38,7 @@ class ComposableNodes {
     std::vector<std::pair<Template, Template>> extra_arguments;
     BooleanField autostart;
   };
-  static ComposableNode evaluate(const Description& node, LaunchContext& context);
+  static ComposableNode evaluate(const Description& node, const Environment& environment, LaunchContext& context);
 
   std::vector<Description> nodes_;
 };

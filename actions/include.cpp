@@ -2,12 +2,16 @@
 // <include file="…"/>: visits another launch file here, in the current scope.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "actions/ros_names.hpp"
 #include "launcher/base/monotonic_clock.hpp"
+#include "launcher/language/argument_use.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/language/introspection.hpp"
+#include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
@@ -61,6 +65,9 @@ class IncludeLaunchDescription : public Action {
       given.push_back(name.perform(context.scope()));
     }
     check_required_arguments(*included, context.registry(), context.scope(), given, where());
+    if (context.explores()) {
+      find_undeclared_arguments(*included, given, context);
+    }
     ++context.requests().includes;
     // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
     const std::optional<std::string> outer_namespace = pushed_namespace(context.scope());
@@ -84,6 +91,47 @@ class IncludeLaunchDescription : public Action {
       std::string key = name.perform(scope);
       scope.configurations.insert_or_assign(std::move(key), value.perform(scope));
     }
+  }
+
+  // The arguments that neither the included file nor a file around it declares or reads.
+  void find_undeclared_arguments(const LaunchDescription& included, const std::vector<std::string>& given,
+                                 LaunchContext& context) const {
+    std::optional<ArgumentList> list;
+    const bool depends_on_command = command_was_left_out();
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (is_own_configuration(given[i]) || may_read(*included.file, given[i]) || is_read_around(given[i])) {
+        continue;
+      }
+      if (!list) {
+        list = find_arguments(included, context.registry(), context.scope());
+      }
+      std::vector<std::string> declared;
+      for (const ArgumentInfo& argument : list->arguments) {
+        declared.push_back(argument.declaration->name);
+      }
+      const bool is_read = std::any_of(list->loaded.begin(), list->loaded.end(), [&](const auto& description) {
+        return description->file != nullptr && may_read(*description->file, given[i]);
+      });
+      if (list->complete && !is_read && std::find(declared.begin(), declared.end(), given[i]) == declared.end()) {
+        context.remark({Severity::kWarning,
+                        fmt::format("the included file declares no argument '{}', and nothing reads it", given[i]),
+                        declaration_.arguments[i].first.where(), did_you_mean(given[i], declared),
+                        Finding::kUnknownArgument});
+      }
+    }
+    if (!depends_on_command) {
+      forget_left_out_command();  // the paths of further includes were only tried
+    }
+  }
+
+  // What an include sets stays set, so the files that lead to it may read it.
+  bool is_read_around(const std::string& name) const {
+    for (const SourceRange* place = &where(); place->file != nullptr; place = &place->file->included_from()) {
+      if (may_read(*place->file, name)) {
+        return true;
+      }
+    }
+    return false;
   }
 
   // It is not known what a missing Python launch file would do, so a plan goes on without it.

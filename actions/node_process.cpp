@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "actions/parameter_file.hpp"
+#include "actions/parameter_file_findings.hpp"
+#include "actions/process_findings.hpp"
 #include "actions/ros_names.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -14,7 +16,8 @@ namespace launch {
 namespace {
 
 // Appends the arguments for what the scope sets for every node.
-void append_global_parameters(ProcessSpec& spec, const Scope& scope) {
+void append_global_parameters(ProcessSpec& spec, LaunchContext& context) {
+  const Scope& scope = context.scope();
   for (const GlobalParameter& parameter : scope.global_parameters) {
     if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
       spec.argv.insert(spec.argv.end(), {"-p", named->name + ":=" + to_argument(named->value)});
@@ -27,6 +30,7 @@ void append_global_parameters(ProcessSpec& spec, const Scope& scope) {
                         help_for_missing_file(file.path), Finding::kMissingParameterFile);
     }
     spec.argv.insert(spec.argv.end(), {"--params-file", file.path});
+    find_faults_of_parameter_file(file.path, file.where, context);
   }
 }
 
@@ -111,7 +115,7 @@ std::string NodeProcess::request(LaunchContext& context) const {
   if (!full_name.empty()) {
     context.note_node(full_name);
   }
-  append_global_parameters(spec, scope);
+  append_global_parameters(spec, context);
   for (const Parameters& parameters : parameters_) {
     parameters.append_to(spec, context, full_name);
   }
@@ -119,7 +123,10 @@ std::string NodeProcess::request(LaunchContext& context) const {
     remap(from + ":=" + to);
   }
   for (const auto& [from, to] : remaps_) {
-    remap(from.perform(scope) + ":=" + to.perform(scope));
+    const std::string before = from.perform(scope);
+    const std::string after = to.perform(scope);
+    find_invalid_remap(before, from.where(), after, to.where(), context);
+    remap(before + ":=" + after);
   }
 
   if (exec_name_) {

@@ -126,9 +126,12 @@ void append_parameter_file(const std::string& path, const std::string& full_name
   try {
     append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),
                           full_name, parameters);
-  } catch (LaunchError& error) {
-    error.classify(Finding::kWrongParameterFile);
-    throw;
+  } catch (const LaunchError& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    for (Diagnostic& diagnostic : diagnostics) {
+      diagnostic.finding = Finding::kWrongParameterFile;  // whatever kind it is in a launch file
+    }
+    throw LaunchError(std::move(diagnostics));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "actions/parameter_file.hpp"
+#include "actions/parameter_file_findings.hpp"
 #include "launcher/base/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -152,7 +153,10 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
       std::error_code ignored;
       if (std::filesystem::is_regular_file(path, ignored)) {
         spec.argv.insert(spec.argv.end(), {"--params-file", path});
+        find_faults_of_parameter_file(path, file_->where(), context);
       } else {
+        context.remark({Severity::kError, fmt::format("parameter file '{}' does not exist", path), file_->where(),
+                        help_for_missing_file(path), Finding::kMissingParameterFile});
         context.message(LogLevel::kWarning, "launch_ros.actions.node",
                         fmt::format("{}: parameter file path is not a file: {}", to_string(file_->where()), path));
       }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "actions/process_findings.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
@@ -150,8 +151,10 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
 
   spec.environment = environment(scope);
   spec.limits = resources_.perform(scope);
+  find_missing_cpus(spec.limits.cpus, resources_.where_of_cpus(), context);
   if (working_directory_) {
     spec.working_directory = working_directory_->perform(scope);
+    find_missing_directory(spec.working_directory, working_directory_->where(), context);
   }
   spec.output = output(context);
   spec.traced = traced_.perform(scope);

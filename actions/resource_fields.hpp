@@ -21,6 +21,8 @@ class ResourceFields {
   // Throws LaunchError at the attribute that is wrong.
   ResourceLimits perform(Scope& scope) const;
 
+  SourceRange where_of_cpus() const { return cpus_ ? cpus_->where() : SourceRange(); }
+
  private:
   // A number within bounds.
   struct Bounded {

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include "actions/trace_channel.hpp"
+#include "actions/trace_findings.hpp"
 #include "actions/trace_overhead.hpp"
 #include "actions/trace_scope.hpp"
 #include "launcher/language/fields.hpp"
@@ -72,6 +73,7 @@ class Trace : public Action {
     perform_events(config, scope);
     perform_buffers(config, scope);
     perform_overhead(config, scope);
+    find_faults(config, context);
     TraceChoices choices = perform_choices(scope);
     config.snapshot_mode = config.snapshot_mode || choices.flight_recorder();
     context.requests().scopes.push_back(std::make_unique<TraceScope>(
@@ -79,6 +81,19 @@ class Trace : public Action {
   }
 
  private:
+  void find_faults(const tracing::TraceConfig& config, LaunchContext& context) const {
+    if (events_ust_.given()) {
+      find_unknown_events(config.events_ust, events_ust_.where(), context);
+    }
+    if (context_fields_.given() && !config.events_ust.empty()) {
+      find_unknown_context_fields(config.context_fields_ust, LTTNG_DOMAIN_UST, context_fields_.where(), context);
+    }
+    if (context_fields_kernel_.given() && !(config.events_kernel.empty() && config.syscalls.empty())) {
+      find_unknown_context_fields(config.context_fields_kernel, LTTNG_DOMAIN_KERNEL, context_fields_kernel_.where(),
+                                  context);
+    }
+  }
+
   void perform_session(tracing::TraceConfig& config, Scope& scope) const {
     config.session_name = session_name_.perform(scope);
     if (config.session_name.empty()) {

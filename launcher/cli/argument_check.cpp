@@ -6,32 +6,18 @@
 #include <algorithm>
 #include <set>
 
+#include "launcher/language/argument_use.hpp"
+
 namespace launch {
 
-namespace {
-
-constexpr std::string_view kOwnConfigurations[] = {"launch-prefix",   "launch-prefix-filter", "sigterm_timeout",
-                                                   "sigkill_timeout", "emulate_tty",          "ros_namespace"};
-
-}  // namespace
-
 bool is_read_in(const LaunchDescription& description, const std::string& name) {
-  if (description.file == nullptr) {
-    return false;
-  }
-  const std::string& text = description.file->text();
-  if (description.file->path().ends_with(".py")) {
-    return text.find(fmt::format("'{}'", name)) != std::string::npos ||
-           text.find(fmt::format("\"{}\"", name)) != std::string::npos;
-  }
-  return text.find(fmt::format("$(var {})", name)) != std::string::npos ||
-         text.find(fmt::format("$(var {} ", name)) != std::string::npos;
+  return description.file != nullptr && may_read(*description.file, name);
 }
 
 std::vector<Diagnostic> check_arguments(const std::vector<std::pair<std::string, std::string>>& arguments,
                                         const LaunchDescription& description, const ArgumentList& declared,
                                         Severity severity) {
-  std::vector<std::string> known(std::begin(kOwnConfigurations), std::end(kOwnConfigurations));
+  std::vector<std::string> known = own_configurations();
   for (const ArgumentInfo& argument : declared.arguments) {
     known.push_back(argument.declaration->name);
   }

@@ -2,29 +2,24 @@
 #include "launcher/cli/check_launch_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
-#include <map>
 #include <set>
-#include <system_error>
 
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/read_source_file.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/plan_findings.hpp"
 #include "launcher/cli/strict_ros2.hpp"
 #include "launcher/language/introspection.hpp"
-#include "launcher/process/program_search.hpp"
+#include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 class Checker {
  public:
@@ -40,6 +35,7 @@ class Checker {
       for (const auto& [name, value] : options_.arguments) {
         context.scope().configurations.insert_or_assign(name, value);
       }
+      leave_commands_out();
       check(*load_launch_files({path}, registry_, context.scope()), context);
     } catch (const LaunchError& error) {
       add(error);
@@ -101,25 +97,16 @@ class Checker {
     for (Diagnostic& diagnostic : check_arguments(options_.arguments, description, list, Severity::kWarning)) {
       add(std::move(diagnostic));
     }
+    forget_left_out_command();
     if (!all_given(list)) {
       return;
     }
-    context.explore([this](const LaunchError& error, bool left_out) { add_of_visit(error, left_out); });
+    std::vector<Requests> left_out;
+    context.explore({.report = [this](const LaunchError& error, bool is_left_out) { add_of_visit(error, is_left_out); },
+                     .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); }});
     const LaunchPlan plan = plan_launch(context, description);
     check_unused(description, list, plan);
-    check_nodes(plan);
-    check_processes(plan);
-  }
-
-  void check_processes(const LaunchPlan& plan) {
-    for (const ProcessSpec& spec : plan.processes) {
-      check_program(spec);
-      check_parameter_files(spec);
-      check_remaps(spec);
-    }
-    for (const PlannedHandler& planned : plan.handlers) {
-      check_processes(planned.plan);
-    }
+    find_faults_of_plan(plan, left_out, [this](Diagnostic diagnostic) { add(std::move(diagnostic)); });
   }
 
   // A launch file can't be visited when nobody gives an argument that it needs.
@@ -158,106 +145,10 @@ class Checker {
       return reads(description) ||
              std::any_of(list.loaded.begin(), list.loaded.end(), [&](const auto& loaded) { return reads(*loaded); });
     };
-    // It can't be known which argument a computed name reads, nor which arguments Python code reads.
-    const bool computed = any_reads([](const LaunchDescription& file) {
-      return file.file != nullptr && (file.file->text().find("$(var $(") != std::string::npos ||
-                                      file.file->text().find("$(var '$(") != std::string::npos);
-    });
-    if (computed) {
-      return;
-    }
     for (const ArgumentInfo& info : list.arguments) {
       const std::string& name = info.declaration->name;
       if (!any_reads([&](const LaunchDescription& file) { return is_read_in(file, name); })) {
         warn(Finding::kUnreadArgument, fmt::format("argument '{}' is never read", name), info.declaration->where);
-      }
-    }
-  }
-
-  void check_nodes(const LaunchPlan& plan) {
-    std::map<std::string, SourceRange> seen;
-    for (const NodeDescription& node : plan.nodes) {
-      if (!node.name) {
-        continue;
-      }
-      const std::string space = node.name_space.value_or("/");
-      const std::string full = (space.empty() || space.front() != '/' ? "/" : "") + space +
-                               (space.empty() || space.back() == '/' ? "" : "/") + *node.name;
-      const SourceRange& origin = plan.processes[node.process].origin;
-      const auto [first, is_new] = seen.emplace(full, origin);
-      if (!is_new) {
-        warn(Finding::kSameNode, fmt::format("another node is named '{}'", full), origin,
-             "the first is at " + to_string(first->second));
-      }
-    }
-  }
-
-  void check_program(const ProcessSpec& spec) {
-    if (spec.shell) {
-      return;
-    }
-    try {
-      fs::path program = find_program(spec);
-      if (program.is_relative() && !spec.working_directory.empty()) {
-        program = spec.working_directory / program;
-      }
-      if (::access(program.c_str(), X_OK) != 0) {
-        throw std::system_error(errno, std::generic_category());
-      }
-    } catch (const std::system_error& error) {
-      add({Severity::kError,
-           fmt::format("program '{}' can't be run: {}", spec.argv.front(), error.code().message()),
-           spec.origin,
-           {},
-           Finding::kMissingProgram});
-    }
-  }
-
-  void check_parameter_files(const ProcessSpec& spec) {
-    for (std::size_t i = 1; i < spec.argv.size(); ++i) {
-      const bool generated = std::any_of(spec.files.begin(), spec.files.end(),
-                                         [&](const GeneratedFile& file) { return file.argument == i; });
-      if (spec.argv[i - 1] != "--params-file" || generated) {
-        continue;
-      }
-      fs::path path = spec.argv[i];
-      if (path.is_relative() && !spec.working_directory.empty()) {
-        path = spec.working_directory / path;
-      }
-      std::error_code ignored;
-      if (!fs::is_regular_file(path, ignored)) {
-        add({Severity::kError,
-             fmt::format("parameter file '{}' does not exist", spec.argv[i]),
-             spec.origin,
-             {},
-             Finding::kMissingParameterFile});
-      }
-    }
-  }
-
-  // `-r [node:]from:=to`
-  void check_remaps(const ProcessSpec& spec) {
-    std::string node;
-    for (std::size_t i = 1; i < spec.argv.size(); ++i) {
-      if (spec.argv[i - 1] == "-r" && spec.argv[i].rfind("__node:=", 0) == 0) {
-        node = spec.argv[i].substr(8);
-      }
-    }
-    for (std::size_t i = 1; i < spec.argv.size(); ++i) {
-      const std::size_t separator = spec.argv[i].find(":=");
-      if (spec.argv[i - 1] != "-r" || separator == std::string::npos) {
-        continue;
-      }
-      std::string from = spec.argv[i].substr(0, separator);
-      if (const std::size_t colon = from.find(':'); colon != std::string::npos) {
-        if (!node.empty() && from.substr(0, colon) != node) {
-          warn(Finding::kUselessRemap,
-               fmt::format("remap '{}' matches nothing: this node is named '{}'", spec.argv[i], node), spec.origin);
-        }
-        from.erase(0, colon + 1);
-      }
-      if (from == spec.argv[i].substr(separator + 2)) {
-        warn(Finding::kUselessRemap, fmt::format("remap '{}' changes nothing", spec.argv[i]), spec.origin);
       }
     }
   }

@@ -109,7 +109,9 @@ def generate_launch_description():
 </launch>
 )x"},
     {Finding::kExpression, "Expression or command that fails", Severity::kError,
-     "An expression of $(eval) raises an exception, or a command of $(command) ends with an error.",
+     "An expression of $(eval) raises an exception, or the program of a $(command) does not exist. A check runs no "
+     "command, "
+     "so a command that ends with an error is found by a run only.",
      R"x(<launch>
   <log message="$(eval '1 / 0')"/>
 </launch>
@@ -136,8 +138,7 @@ def generate_launch_description():
 </launch>
 )x"},
     {Finding::kRemark, "Something is suspicious", Severity::kWarning,
-     "A run prints this warning, too: a loop has no turns, a package has no share directory, or a command wrote to "
-     "standard error and its warnings are asked for.",
+     "A run prints this warning, too: a loop has no turns, or a package has no share directory.",
      R"x(<launch>
   <for name="i" len="0"><log message="hello"/></for>
 </launch>
@@ -173,15 +174,39 @@ def generate_launch_description():
 )x"},
 
     {Finding::kWrongParameterFile, "Wrong parameter file", Severity::kError,
-     "A parameter file is no YAML, or it is not made of the names of nodes, each with a mapping ros__parameters.",
+     "A parameter file is no YAML, or it is not made of names of nodes, each with a mapping ros__parameters. The node "
+     "ends when it reads such a file.",
      R"x(<launch>
   <node pkg="demo_nodes" exec="talker">
-    <param from="$(dirname)/params.yaml" allow_substs="true"/>
+    <param from="$(dirname)/params.yaml"/>
   </node>
 </launch>
 )x",
      R"x(/talker:
-  ros__parameters: {rate: 10
+  ros__paramters:
+    rate: 10.0
+)x"},
+    {Finding::kMissingPlugin, "Plugin not found", Severity::kError,
+     "A container can't load the component: the package registers no components, none of its libraries has a plugin of "
+     "this name, or the library does not exist.",
+     R"x(<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="parts" namespace="">
+    <composable_node pkg="composition" plugin="composition::Talkr" name="talker"/>
+  </node_container>
+</launch>
+)x"},
+    {Finding::kMissingDirectory, "Working directory not found", Severity::kError,
+     "The working directory of a process does not exist, so the process can't be started.",
+     R"x(<launch>
+  <executable cmd="true" cwd="/no/such/directory"/>
+</launch>
+)x"},
+    {Finding::kMissingCpu, "CPU that this machine lacks", Severity::kError,
+     "A process may run on certain CPUs only, and this machine has none of them. If it has some of them, this is a "
+     "warning.",
+     R"x(<launch>
+  <executable cmd="true" cpus="1000"/>
+</launch>
 )x"},
 
     {Finding::kInvalidName, "Invalid name of a node or namespace", Severity::kError,
@@ -190,6 +215,16 @@ def generate_launch_description():
      "slash; its namespace has an attribute of its own.",
      R"x(<launch>
   <node pkg="demo_nodes" exec="talker" name="left/talker"/>
+</launch>
+)x"},
+    {Finding::kInvalidRemap, "Invalid remap", Severity::kError,
+     "A node can't read the remap and ends. Both names are parts of letters, digits and underscores with single "
+     "slashes "
+     "between them; they may begin with / or ~/.",
+     R"x(<launch>
+  <node pkg="demo_nodes" exec="talker">
+    <remap from="chatter" to="left chatter"/>
+  </node>
 </launch>
 )x"},
     {Finding::kUselessRemap, "Remap without effect", Severity::kWarning,
@@ -208,6 +243,17 @@ def generate_launch_description():
 </launch>
 )x"},
 
+    {Finding::kMissingContainer, "No such container", Severity::kWarning,
+     "Components are loaded into a container that this launch does not start. They are loaded when another launch "
+     "starts "
+     "a container of this name.",
+     R"x(<launch>
+  <load_composable_node target="/parts">
+    <composable_node pkg="composition" plugin="composition::Talker" name="talker"/>
+  </load_composable_node>
+</launch>
+)x"},
+
     {Finding::kUnreadArgument, "Argument is never read", Severity::kWarning,
      "No substitution reads the argument, neither in its file nor in the files that are included.",
      R"x(<launch>
@@ -215,7 +261,8 @@ def generate_launch_description():
 </launch>
 )x"},
     {Finding::kUnknownArgument, "Argument that nothing declares", Severity::kWarning,
-     "An argument is given that no launch file declares or reads, or it is given twice.",
+     "An argument is given on the command line or by an include, and no launch file declares or reads it. Or it is "
+     "given twice on the command line.",
      R"x(<launch>
   <arg name="rate" default="10"/>
   <log message="$(var rate)"/>
@@ -227,6 +274,27 @@ def generate_launch_description():
      R"x(<launch>
   <arg name="robot"/>
   <log message="$(var robot)"/>
+</launch>
+)x"},
+
+    {Finding::kUnknownContextField, "Unknown context field", Severity::kError,
+     "LTTng has no context field of this name, so the trace can't begin. lttng-add-context(1) lists the fields.",
+     R"x(<launch>
+  <trace session-name="run" context-fields="vpid vtdi"/>
+</launch>
+)x"},
+    {Finding::kUnknownEvent, "Unknown event", Severity::kWarning,
+     "No event of ROS 2 has this name, so nothing of it will be recorded. The names have their provider in front: "
+     "ros2:callback_start. Events of other providers are not judged.",
+     R"x(<launch>
+  <trace session-name="run" events-ust="ros2:callback_strat"/>
+</launch>
+)x"},
+    {Finding::kSameSession, "Several traces of one session", Severity::kError,
+     "Each trace needs a session name of its own. The second one can't begin.",
+     R"x(<launch>
+  <trace session-name="run"/>
+  <trace session-name="run" events-ust="ros2:rcl_init"/>
 </launch>
 )x"},
 };

@@ -13,10 +13,21 @@
 #include "launcher/substitution/command_output.hpp"
 #include "launcher/substitution/substitution_call.hpp"
 #include "launcher/substitution/template_parser.hpp"
+#include "launcher/substitution/unrun_commands.hpp"
 
 namespace launch {
 
 namespace {
+
+struct Commands {
+  bool left_out = false;
+  bool any_was_left_out = false;
+};
+
+Commands& commands() {
+  static Commands commands;
+  return commands;
+}
 
 // The end of a text without its line ends, for a message.
 std::string last_line(std::string text) {
@@ -25,6 +36,18 @@ std::string last_line(std::string text) {
 }
 
 }  // namespace
+
+void leave_commands_out() {
+  commands().left_out = true;
+}
+
+bool command_was_left_out() {
+  return commands().any_was_left_out;
+}
+
+void forget_left_out_command() {
+  commands().any_was_left_out = false;
+}
 
 std::string command(const SubstitutionCall& call) {
   const std::string line = call.text(0);
@@ -45,6 +68,10 @@ std::string command(const SubstitutionCall& call) {
               words.front().find(' ') != std::string::npos ? "one quoted word is one program name; quote less"
                                                            : "install it, or extend the PATH",
               Finding::kExpression);
+  }
+  if (commands().left_out) {
+    commands().any_was_left_out = true;
+    return std::string(kUnknownOutput);
   }
   CommandOutput output;
   try {

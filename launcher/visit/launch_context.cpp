@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "launcher/substitution/package_index.hpp"
+#include "launcher/substitution/unrun_commands.hpp"
 
 namespace launch {
 
@@ -24,6 +25,12 @@ class AtExit {
  private:
   Restore restore_;
 };
+
+// What a visit asks for, without what it leaves to a run.
+std::size_t size_of(const Requests& requests) {
+  return requests.processes.size() + requests.loads.size() + requests.logs.size() + requests.scopes.size() +
+         requests.handlers.size() + requests.transitions.size();
+}
 
 }  // namespace
 
@@ -56,16 +63,25 @@ void LaunchContext::visit(const Action& action) {
 
 void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
   for (const ActionPtr& action : actions) {
+    const std::size_t before = size_of(requests_);
     try {
       visit(*action);
+      if (command_was_left_out()) {
+        forget_left_out_command();
+        requests_.left_to_run.push_back({"", "", action->where()});
+        scope_.incomplete = scope_.incomplete || size_of(requests_) == before;  // the scope may hold the output
+      }
     } catch (const OnlyARunCalls& left) {
       requests_.left_to_run.push_back({left.function(), "", action->where()});
       scope_.incomplete = true;
     } catch (const LaunchError& error) {
+      const bool depends_on_command = command_was_left_out();
+      forget_left_out_command();
+      scope_.incomplete = scope_.incomplete || depends_on_command;
       if (scope_.incomplete) {
         requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
-      } else if (report_) {
-        report_(error, in_left_out_);
+      } else if (explores()) {
+        report(error);
       } else {
         throw;
       }
@@ -100,7 +116,7 @@ void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions)
 }
 
 void LaunchContext::visit_left_out(const Action& action) {
-  if (!report_ || in_left_out_) {
+  if (!explores() || in_left_out_) {
     return;
   }
   AtExit restore([this, scope = scope_, requests = std::move(requests_), nodes = nodes_,
@@ -117,7 +133,17 @@ void LaunchContext::visit_left_out(const Action& action) {
   try {
     action.execute(*this);
   } catch (const LaunchError& error) {
-    report_(error, true);
+    if (!command_was_left_out()) {
+      report(error);
+    }
+  }
+  forget_left_out_command();
+  explorer_.left_out(std::move(requests_));
+}
+
+void LaunchContext::remark(Diagnostic diagnostic) {
+  if (explores() && !scope_.incomplete && !command_was_left_out()) {
+    report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
   }
 }
 

@@ -9,9 +9,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "launcher/language/action.hpp"
@@ -65,8 +67,20 @@ class LaunchContext {
 
   // From now on the visit goes on after an error with the next action. It also visits what conditions leave out, on the
   // side: in a copy of the scope, without messages, and the requests are dropped. Inside such a visit nothing left out
-  // is visited, so that a file that includes itself comes to an end. `report` gets the errors.
-  void explore(std::function<void(const LaunchError&, bool left_out)> report) { report_ = std::move(report); }
+  // is visited, so that a file that includes itself comes to an end.
+  struct Explorer {
+    std::function<void(const LaunchError&, bool left_out)> report;
+    // Gets the requests of an action that its condition leaves out.
+    std::function<void(Requests)> left_out;
+  };
+  void explore(Explorer explorer) { explorer_ = std::move(explorer); }
+  bool explores() const { return explorer_.report != nullptr; }
+  // Tells an exploring visit of an error behind which it goes on.
+  void report(const LaunchError& error) { explorer_.report(error, in_left_out_); }
+  // Tells an exploring visit of what would go wrong only when the requests are carried out.
+  void remark(Diagnostic diagnostic);
+  // Whether an exploring visit has not seen this file before: a file that many nodes read is judged once.
+  bool sees_first(const std::string& path) { return seen_files_.emplace(path, in_left_out_).second; }
 
   // The scopes that PushEnvironment or PushLaunchConfigurations of a Python launch file have kept, the last one at the
   // end.
@@ -88,8 +102,9 @@ class LaunchContext {
   Scope scope_;
   Requests requests_;
   bool plan_only_ = false;
-  int depth_ = 0;                                         // of the actions that are being visited
-  std::function<void(const LaunchError&, bool)> report_;  // empty: not exploring
+  int depth_ = 0;                                      // of the actions that are being visited
+  Explorer explorer_;                                  // empty: not exploring
+  std::set<std::pair<std::string, bool>> seen_files_;  // path, in what is left out
   bool in_left_out_ = false;
   std::vector<Scope> pushed_environments_;
   std::vector<Scope> pushed_configurations_;

@@ -57,7 +57,7 @@ class Planner {
       scope.only_planned = true;
       context_.visit_in(std::move(scope), handler->actions);
       if (std::holds_alternative<OnShutdown>(handler->event)) {
-        check_farewell(context_.requests());
+        or_report([&] { check_farewell(context_.requests()); });
       }
       planned.plan = plan_requests();
     }
@@ -66,6 +66,19 @@ class Planner {
   }
 
  private:
+  // A visit that explores goes on after an error.
+  template <typename Step>
+  void or_report(Step step) {
+    try {
+      step();
+    } catch (const LaunchError& error) {
+      if (!context_.explores()) {
+        throw;
+      }
+      context_.report(error);
+    }
+  }
+
   void collect(LaunchPlan& plan, std::multimap<Duration, TimerRequest>& timers, Duration now) {
     Requests requests = context_.take_requests();
     for (const auto& scope : requests.scopes) {
@@ -84,12 +97,15 @@ class Planner {
       resolve_dependencies(requests.dependencies, asked_for, table_);
       check_commands(requests.commands, table_);
     } catch (const LaunchError& error) {
-      if (!any_left_) {
+      if (any_left_) {
+        // A function that was not called may start the process that this speaks of.
+        const Diagnostic& first = error.diagnostics().front();
+        plan.left_to_run.push_back({"", first.message, first.where});
+      } else if (context_.explores()) {
+        context_.report(error);
+      } else {
         throw;
       }
-      // A function that was not called may start the process that this speaks of.
-      const Diagnostic& first = error.diagnostics().front();
-      plan.left_to_run.push_back({"", first.message, first.where});
     }
 
     for (NodeDescription& node : requests.nodes) {

@@ -25,6 +25,27 @@ def launch(*words):
 
 
 class Explain(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory()
+        prefix = Path(cls.directory.name)
+        index = prefix / 'share/ament_index/resource_index'
+        for folder in ('packages', 'rclcpp_components'):
+            (index / folder).mkdir(parents=True)
+        (index / 'rclcpp_components/composition').write_text('composition::Talker;lib/libtalker.so\n')
+        (prefix / 'lib').mkdir()
+        (prefix / 'lib/libtalker.so').touch()
+        for package, program in (('demo_nodes', 'talker'), ('rclcpp_components', 'component_container'),
+                                 ('composition', 'composition')):
+            (index / 'packages' / package).touch()
+            (prefix / 'lib' / package).mkdir()
+            (prefix / 'lib' / package / program).write_text('#!/bin/sh\n')
+            (prefix / 'lib' / package / program).chmod(0o755)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
     def test_the_page_is_that_of_the_table(self):
         self.assertEqual((SOURCE / 'docs/findings.md').read_text(), launch('explain', '--markdown').stdout,
                          './dev launch explain --markdown > docs/findings.md')
@@ -71,7 +92,9 @@ Example:
             path.write_text(files[0][1])
             if len(files) > 1:
                 Path(directory, 'params.yaml').write_text(files[1][1])
-            result = launch('check', '--format', 'json', str(path), *FURTHER_WORDS.get(section['id'], []))
+            result = subprocess.run(
+                [LAUNCH, 'check', '--format', 'json', str(path), *FURTHER_WORDS.get(section['id'], [])],
+                capture_output=True, text=True, env={**os.environ, 'AMENT_PREFIX_PATH': self.directory.name})
             found = [(item['id'], item['severity']) for item in json.loads(result.stdout)]
             return section['id'], (section['id'], section['severity']), found
 
