@@ -3,27 +3,21 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <system_error>
 #include <variant>
 
-#include "launcher/process/program_search.hpp"
+#include "launcher/cli/process_faults.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string full_name(const std::string& space, const std::string& name) {
   return (space.empty() || space.front() != '/' ? "/" : "") + space +
@@ -63,7 +57,7 @@ class PlanFindings {
     for (const Requests& requests : left_out_) {
       note_names(requests.processes, requests.nodes);
       for (const ProcessSpec& spec : requests.processes) {
-        find_missing_program(spec, true);
+        find_faults_of_process(spec, true, report_);
       }
     }
     check(plan_);
@@ -127,9 +121,7 @@ class PlanFindings {
 
   void check(const LaunchPlan& plan) {
     for (const ProcessSpec& spec : plan.processes) {
-      find_missing_program(spec, false);
-      find_missing_parameter_files(spec);
-      find_useless_remaps(spec);
+      find_faults_of_process(spec, false, report_);
     }
     for (const auto& scope : plan.scopes) {
       find_same_session(*scope);
@@ -140,80 +132,6 @@ class PlanFindings {
     for (const PlannedHandler& planned : plan.handlers) {
       find_unknown_process(planned.handler);
       check(planned.plan);
-    }
-  }
-
-  void find_missing_program(const ProcessSpec& spec, bool left_out) {
-    std::error_code ignored;
-    const bool is_known = spec.argv.front().find(kUnknownOutput) == std::string::npos &&
-                          spec.working_directory.find(kUnknownOutput) == std::string::npos;
-    if (spec.shell || !is_known ||
-        (!spec.working_directory.empty() && !fs::is_directory(spec.working_directory, ignored))) {
-      return;
-    }
-    try {
-      fs::path program = find_program(spec);
-      if (program.is_relative() && !spec.working_directory.empty()) {
-        program = spec.working_directory / program;
-      }
-      if (::access(program.c_str(), X_OK) != 0) {
-        throw std::system_error(errno, std::generic_category());
-      }
-    } catch (const std::system_error& error) {
-      report_({left_out ? Severity::kWarning : Severity::kError,
-               fmt::format("program '{}' can't be run: {}", spec.argv.front(), error.code().message()), spec.origin,
-               left_out ? "a condition leaves this out with the arguments given" : "", Finding::kMissingProgram});
-    }
-  }
-
-  // Those that stand in the arguments; the others are found where they stand in the launch file.
-  void find_missing_parameter_files(const ProcessSpec& spec) {
-    for (std::size_t i = 1; i < spec.argv.size(); ++i) {
-      const bool generated = std::any_of(spec.files.begin(), spec.files.end(),
-                                         [&](const GeneratedFile& file) { return file.argument == i; });
-      if (spec.argv[i - 1] != "--params-file" || generated || spec.argv[i].find(kUnknownOutput) != std::string::npos) {
-        continue;
-      }
-      std::error_code ignored;
-      if (!fs::is_regular_file(fs::path(spec.working_directory) / spec.argv[i], ignored)) {
-        report_({Severity::kError,
-                 fmt::format("parameter file '{}' does not exist", spec.argv[i]),
-                 spec.origin,
-                 {},
-                 Finding::kMissingParameterFile});
-      }
-    }
-  }
-
-  // `-r [node:]from:=to`
-  void find_useless_remaps(const ProcessSpec& spec) {
-    std::string node;
-    for (std::size_t i = 1; i < spec.argv.size(); ++i) {
-      if (spec.argv[i - 1] == "-r" && spec.argv[i].rfind("__node:=", 0) == 0) {
-        node = spec.argv[i].substr(8);
-      }
-    }
-    const auto warn = [&](const std::string& message) {
-      report_({Severity::kWarning, message, spec.origin, {}, Finding::kUselessRemap});
-    };
-    for (std::size_t i = 1; i < spec.argv.size(); ++i) {
-      const std::size_t separator = spec.argv[i].find(":=");
-      if (spec.argv[i - 1] != "-r" || separator == std::string::npos) {
-        continue;
-      }
-      std::string from = spec.argv[i].substr(0, separator);
-      for (const std::string_view scheme : {"rostopic://", "rosservice://"}) {
-        from.erase(0, from.starts_with(scheme) ? scheme.size() : 0);
-      }
-      if (const std::size_t colon = from.find(':'); colon != std::string::npos) {
-        if (!node.empty() && from.substr(0, colon) != node) {
-          warn(fmt::format("remap '{}' matches nothing: this node is named '{}'", spec.argv[i], node));
-        }
-        from.erase(0, colon + 1);
-      }
-      if (from == spec.argv[i].substr(separator + 2)) {
-        warn(fmt::format("remap '{}' changes nothing", spec.argv[i]));
-      }
     }
   }
 

@@ -82,6 +82,8 @@ void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
         requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
       } else if (explores()) {
         report(error);
+        // What names something that the action would have given is no error of its own.
+        requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
       } else {
         throw;
       }
@@ -138,7 +140,9 @@ void LaunchContext::visit_left_out(const Action& action) {
     }
   }
   forget_left_out_command();
-  explorer_.left_out(std::move(requests_));
+  if (explorer_.left_out) {
+    explorer_.left_out(std::move(requests_));
+  }
 }
 
 void LaunchContext::remark(Diagnostic diagnostic) {

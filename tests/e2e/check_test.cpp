@@ -156,7 +156,7 @@ TEST_F(WithoutRunning, CheckLeavesOutDisabledFindings) {
   const CommandResult wrong = launch({"check", "--disable", "LF0511", path});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_EQ(wrong.out, "");
-  EXPECT_EQ(wrong.err, "error: no finding has the id 'LF0511'\n      = help: did you mean 'LF0101'?\n");
+  EXPECT_EQ(wrong.err, "error: no finding has the id 'LF0511'\n      = help: did you mean 'LF0501'?\n");
 }
 
 TEST_F(WithoutRunning, CheckTakesWarningsForErrors) {

@@ -90,7 +90,7 @@ void load_and_visit(const std::string& file, std::size_t processes) {
 int explore(const bench::CorpusTree& tree) {
   launch::LaunchContext context(registry(), tree.environment, "", [](auto...) {});
   context.scope().configurations = tree.arguments;
-  context.explore([](const launch::LaunchError&, bool) {});
+  context.explore({.report = [](const launch::LaunchError&, bool) {}, .left_out = {}});
   const auto description = launch::load_launch_description(tree.file, registry(), context.scope());
   return launch::plan_launch(context, *description).includes;
 }

@@ -73,13 +73,16 @@ TEST_F(LaunchContextTest, AScopeOfItsOwnEndsWithItsActionsAlsoAfterAnError) {
 
 TEST_F(LaunchContextTest, ExploringGoesOnAfterErrorsAndLooksIntoWhatIsLeftOut) {
   std::vector<std::pair<std::string, bool>> errors;
-  context_.explore([&](const LaunchError& error, bool left_out) {
-    errors.emplace_back(error.diagnostics().front().message, left_out);
-  });
+  std::vector<std::string> left_out;
+  context_.explore(
+      {.report = [&](const LaunchError& error,
+                     bool is_left_out) { errors.emplace_back(error.diagnostics().front().message, is_left_out); },
+       .left_out = [&](Requests requests) { left_out = std::move(requests.logs); }});
   context_.visit({note("broken"), note("left out", condition("false")), note("broken", condition("false")), note("z")});
   EXPECT_THAT(journal_, ElementsAre("broken", "left out", "broken", "z"));
   EXPECT_THAT(errors, ElementsAre(Pair("it is broken", false), Pair("it is broken", true)));
   EXPECT_THAT(context_.take_requests().logs, ElementsAre("broken", "z")) << "what is left out asks for nothing";
+  EXPECT_THAT(left_out, ElementsAre("broken"));
 }
 
 TEST_F(LaunchContextTest, AFileIsTheCurrentOneWhileItIsVisited) {
