@@ -73,7 +73,7 @@ TEST_F(IntraProcessTest, AllReadersShareOneMessage) {
   Addresses first;
   Addresses second;
   Addresses by_reference;
-  const auto subscriptions = {read_only(first), read_only(second)};
+  [[maybe_unused]] const auto subscriptions = {read_only(first), read_only(second)};
   const auto referring = node_->create_subscription<String>(
       "topic", 10, [&by_reference](const String& message) { by_reference.push_back(&message); });
   const auto publisher = node_->create_publisher<String>("topic", 10);

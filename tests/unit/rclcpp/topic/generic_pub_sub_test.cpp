@@ -67,7 +67,7 @@ TEST_F(GenericPubSubTest, OneGivesToTheOther) {
   const auto publisher = node_->create_generic_publisher("topic", "std_msgs/msg/String", 10);
   const auto subscription = node_->create_generic_subscription(
       "topic", "std_msgs/msg/String", 10,
-      [&publisher, this](std::unique_ptr<SerializedMessage> bytes) { got_.push_back(text_of(*bytes)); });
+      [this](std::unique_ptr<SerializedMessage> bytes) { got_.push_back(text_of(*bytes)); });
   EXPECT_STREQ(subscription->get_topic_name(), "/topic");
   ASSERT_TRUE(spin_until(executor_, [&] { return publisher->get_subscription_count() == 1; }));
   publisher->publish(bytes_of("a"));
