@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <system_error>
+#include <utility>
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/substitution/package_index.hpp"
@@ -54,6 +56,26 @@ std::string find_in_package(const std::string& package, const std::string& name,
   return found.front();
 }
 
+// The error for a path that no launch file has. `path` may be that of a directory.
+LaunchError no_launch_file(const std::string& path) {
+  std::error_code unreadable;
+  if (fs::is_directory(path, unreadable)) {
+    return LaunchError(fmt::format("'{}' is a directory, not a launch file", path), {}, "give one of its files");
+  }
+  const fs::path directory = fs::path(path).parent_path();
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory.empty() ? "." : directory, unreadable)) {
+    if (!entry.is_directory(unreadable)) {
+      files.push_back((directory / entry.path().filename()).string());
+    }
+  }
+  std::string help = did_you_mean(path, files);
+  if (help.empty()) {
+    help = "a file of a package is named by two words: launch PACKAGE FILE";
+  }
+  return LaunchError(fmt::format("launch file '{}' does not exist", path), {}, std::move(help));
+}
+
 }  // namespace
 
 std::vector<std::string> find_launch_files(const std::vector<std::string>& words, const Scope& scope) {
@@ -65,8 +87,7 @@ std::vector<std::string> find_launch_files(const std::vector<std::string>& words
     return {find_in_package(words[0], words[1], scope)};
   }
   if (!is_file(words[0])) {
-    throw LaunchError(fmt::format("launch file '{}' does not exist", words[0]), {},
-                      "a file of a package is named by two words: launch PACKAGE FILE");
+    throw no_launch_file(words[0]);
   }
   for (const std::string& word : words) {
     if (!is_file(word)) {

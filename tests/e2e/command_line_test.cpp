@@ -56,6 +56,15 @@ TEST_F(CommandLine, MissingFilesAndPackagesAreNamed) {
   const CommandResult file = launch({"nowhere.launch.xml"});
   EXPECT_EQ(file.exit_code, 1);
   EXPECT_THAT(file.err, StartsWith("error: launch file 'nowhere.launch.xml' does not exist\n"));
+  EXPECT_EQ(launch({EXAMPLES_DIRECTORY "/01_ping_pon.launch.xml"}).err,
+            "error: launch file '" EXAMPLES_DIRECTORY
+            "/01_ping_pon.launch.xml' does not exist\n"
+            "      = help: did you mean '" EXAMPLES_DIRECTORY "/01_ping_pong.launch.xml'?\n");
+  const CommandResult directory = launch({EXAMPLES_DIRECTORY});
+  EXPECT_EQ(directory.exit_code, 1);
+  EXPECT_EQ(directory.err, "error: '" EXAMPLES_DIRECTORY
+                           "' is a directory, not a launch file\n"
+                           "      = help: give one of its files\n");
   const CommandResult in_package = launch({"launch_examples", "01_ping_pon.launch.xml"});
   EXPECT_EQ(in_package.exit_code, 1);
   EXPECT_THAT(in_package.err, HasSubstr("file '01_ping_pon.launch.xml' was not found in the share directory of package "
