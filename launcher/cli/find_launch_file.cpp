@@ -9,9 +9,9 @@
 #include <iostream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/base/nearest_name.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/visit/joined_description.hpp"
 
@@ -62,18 +62,21 @@ LaunchError no_launch_file(const std::string& path) {
   if (fs::is_directory(path, unreadable)) {
     return LaunchError(fmt::format("'{}' is a directory, not a launch file", path), {}, "give one of its files");
   }
+  // Names are compared without ".launch.xml", which would make any two of them look alike.
   const fs::path directory = fs::path(path).parent_path();
-  std::vector<std::string> files;
+  const std::string name = fs::path(path).filename();
+  const std::string ending = name.substr(std::min(name.find('.'), name.size()));
+  std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory.empty() ? "." : directory, unreadable)) {
-    if (!entry.is_directory(unreadable)) {
-      files.push_back((directory / entry.path().filename()).string());
+    const std::string other = entry.path().filename();
+    if (other.ends_with(ending) && !entry.is_directory(unreadable)) {
+      names.push_back(other.substr(0, other.size() - ending.size()));
     }
   }
-  std::string help = did_you_mean(path, files);
-  if (help.empty()) {
-    help = "a file of a package is named by two words: launch PACKAGE FILE";
-  }
-  return LaunchError(fmt::format("launch file '{}' does not exist", path), {}, std::move(help));
+  const std::string nearest = nearest_name(name.substr(0, name.size() - ending.size()), names);
+  return LaunchError(fmt::format("launch file '{}' does not exist", path), {},
+                     nearest.empty() ? "a file of a package is named by two words: launch PACKAGE FILE"
+                                     : fmt::format("did you mean '{}'?", (directory / (nearest + ending)).string()));
 }
 
 }  // namespace
