@@ -7,7 +7,7 @@
 namespace launch {
 
 // A number keeps its meaning for ever, because users disable findings by their ids. A new kind needs a row in
-// launcher/cli/finding_table.cpp.
+// launcher/cli/check/finding_table.cpp.
 enum class Finding : std::uint16_t {
   kNone = 0,  // the code that catches the error knows the kind: LaunchError::classify()
 

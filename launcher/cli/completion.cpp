@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "launcher/base/own_prefix.hpp"
+#include "launcher/cli/check/finding_table.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/finding_table.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/process_faults.hpp"
+#include "launcher/cli/check/process_faults.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/plan_findings.hpp"
+#include "launcher/cli/check/plan_findings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <variant>
 
-#include "launcher/cli/process_faults.hpp"
+#include "launcher/cli/check/process_faults.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/process_table.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/strict_ros2.hpp"
+#include "launcher/cli/check/strict_ros2.hpp"
 
 #include <fmt/format.h>
 

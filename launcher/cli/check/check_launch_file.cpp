@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/check_launch_file.hpp"
+#include "launcher/cli/check/check_launch_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/read_source_file.hpp"
 #include "launcher/cli/argument_check.hpp"
+#include "launcher/cli/check/plan_findings.hpp"
+#include "launcher/cli/check/strict_ros2.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/plan_findings.hpp"
-#include "launcher/cli/strict_ros2.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_plan.hpp"

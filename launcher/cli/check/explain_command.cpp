@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/explain_command.hpp"
+#include "launcher/cli/check/explain_command.hpp"
 
 #include <fmt/format.h>
 
-#include "launcher/cli/finding_table.hpp"
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "launcher/cli/check/finding_table.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/subcommand.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/diagnostic_output.hpp"
+#include "launcher/cli/check/diagnostic_output.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "launcher/cli/finding_table.hpp"
+#include "launcher/cli/check/finding_table.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/check_command.hpp"
+#include "launcher/cli/check/check_command.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "launcher/base/own_prefix.hpp"
-#include "launcher/cli/check_launch_file.hpp"
-#include "launcher/cli/diagnostic_output.hpp"
+#include "launcher/cli/check/check_launch_file.hpp"
+#include "launcher/cli/check/diagnostic_output.hpp"
+#include "launcher/cli/check/finding_table.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/cli/finding_table.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/substitution/package_index.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/finding_table.hpp"
+#include "launcher/cli/check/finding_table.hpp"
 
 #include <fmt/format.h>
 
