@@ -53,7 +53,7 @@ TEST_F(Supervision, ANodeThatIgnoresSigintIsTerminatedThenKilled) {
 TEST_F(Supervision, MoreCtrlCsTerminateThenKillAndStillDestroyTheSession) {
   const std::string file = write(R"xml(
     <trace session-name="hurry"/>
-    <executable name="stubborn" shell="true" output="screen" sigterm_timeout="1000"
+    <executable name="stubborn" shell="true" output="screen" sigterm_timeout="1000" sigkill_timeout="1000"
                 cmd="trap : INT TERM; echo ready; while :; do read x; done"/>)xml");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[stubborn-1] ready")) << run.out() << run.err();
@@ -69,7 +69,7 @@ TEST_F(Supervision, MoreCtrlCsTerminateThenKillAndStillDestroyTheSession) {
     return false;
   };
   EXPECT_TRUE(
-      press_until("(SIGINT) again, sent SIGTERM to stubborn-1; SIGKILL follows in 5 s, or with a third signal"));
+      press_until("(SIGINT) again, sent SIGTERM to stubborn-1; SIGKILL follows in 1000 s, or with a third signal"));
   EXPECT_TRUE(press_until("user interrupted with ctrl-c (SIGINT) again, killing stubborn-1"));
   const CommandResult result = run.wait();
   EXPECT_FALSE(result.timed_out);
@@ -86,8 +86,6 @@ TEST_F(Supervision, ASignalThatComesTwiceLeavesProcessesTheirTime) {
     RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
     ASSERT_TRUE(run.wait_for_output("[careful-1] ready")) << run.out() << run.err();
     run.send_signal(signal);
-    run.send_signal(signal);
-    ASSERT_TRUE(run.wait_for_output("sending signal 'SIGINT'"));
     run.send_signal(signal);
     const CommandResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0);
