@@ -43,8 +43,9 @@ class Clock {
 
   Time now() const;
 
-  // Returns true when the time was reached, false if the context ended first. `until` must be a time of this clock's
-  // type.
+  // Return true when the time was reached. Return false if the context ended first, if a simulation began or ceased to
+  // drive the clock, or if the sleep was cancelled. While a simulation drives the clock, its time is slept. `until`
+  // must be a time of this clock's type. Throw std::runtime_error without a valid context.
   bool sleep_until(Time until, Context::SharedPtr context = contexts::get_global_default_context());
   bool sleep_for(Duration duration, Context::SharedPtr context = contexts::get_global_default_context());
 
@@ -56,6 +57,9 @@ class Clock {
   bool wait_until_started(Context::SharedPtr context = contexts::get_global_default_context());
   bool wait_until_started(const Duration& timeout, Context::SharedPtr context = contexts::get_global_default_context(),
                           const Duration& wait_tick_ns = Duration(0, 1'000'000));
+
+  // Ends the sleep of one thread, now or when it next begins. Also ends the wait without a timeout.
+  void cancel_sleep_or_wait();
 
   // Calls `pre_callback` before and `post_callback` after a jump that exceeds the threshold, in the thread that sets
   // the time. Either may be null. They must not use the clock. They are called while the returned object lives. Throws
@@ -72,7 +76,12 @@ class Clock {
   std::mutex& get_clock_mutex() noexcept;
 
  private:
+  friend class Rate;
   struct Impl;
+
+  // As sleep_until(), but returns false if the context has ended already.
+  bool sleep(const Time& until, const Context::SharedPtr& context);
+
   std::shared_ptr<Impl> impl_;
 };
 

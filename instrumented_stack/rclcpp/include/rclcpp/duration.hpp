@@ -25,10 +25,11 @@ class Duration {
   static Duration from_nanoseconds(rcl_duration_value_t nanoseconds);
   static Duration from_seconds(double seconds);
   static Duration from_rmw_time(rmw_time_t duration);
+  // The longest duration that a message holds.
   static Duration max();
 
   Duration& operator=(const builtin_interfaces::msg::Duration& message);
-  // Throws when the duration does not fit.
+  // A duration that the message can't hold becomes the largest or the smallest value of its fields.
   operator builtin_interfaces::msg::Duration() const;
 
   rcl_duration_value_t nanoseconds() const { return nanoseconds_; }
@@ -52,6 +53,7 @@ class Duration {
   Duration operator-(const Duration& other) const;
   Duration& operator+=(const Duration& other) { return *this = *this + other; }
   Duration& operator-=(const Duration& other) { return *this = *this - other; }
+  // Throws std::runtime_error also for a scale that is infinite or not a number.
   Duration operator*(double scale) const;
   Duration& operator*=(double scale) { return *this = *this * scale; }
 

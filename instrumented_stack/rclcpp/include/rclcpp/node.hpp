@@ -226,7 +226,8 @@ class Node : public std::enable_shared_from_this<Node> {
   // Throw exceptions::ParameterNotDeclaredException or exceptions::ParameterUninitializedException.
   Parameter get_parameter(const std::string& name) const;
   std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const;
-  // Returns false and changes nothing if the parameter is not set. The typed ones throw ParameterTypeException.
+  // Returns false and changes nothing if the parameter is not set. The typed ones throw
+  // exceptions::InvalidParameterTypeException.
   bool get_parameter(const std::string& name, Parameter& parameter) const;
   template <typename ParameterT>
   bool get_parameter(const std::string& name, ParameterT& parameter) const;

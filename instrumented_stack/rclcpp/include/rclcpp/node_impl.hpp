@@ -51,7 +51,7 @@ bool Node::get_parameter(const std::string& name, ParameterT& parameter) const {
   if (!get_parameter(name, found)) {
     return false;
   }
-  parameter = found.get_parameter_value().get<ParameterT>();
+  parameter = found.get_value<ParameterT>();
   return true;
 }
 

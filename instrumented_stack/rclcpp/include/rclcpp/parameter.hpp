@@ -31,7 +31,7 @@ class Parameter {
   const ParameterValue& get_parameter_value() const { return value_; }
   rcl_interfaces::msg::ParameterValue get_value_message() const { return value_.to_value_msg(); }
 
-  // Throw exceptions::InvalidParameterTypeException.
+  // The value as a C++ type. Throws exceptions::InvalidParameterTypeException, which names the parameter.
   template <typename T>
   auto get_value() const {
     try {
@@ -40,13 +40,10 @@ class Parameter {
       throw exceptions::InvalidParameterTypeException(name_, error.what());
     }
   }
+  // The value as a parameter type, like the functions below. Throw ParameterTypeException.
   template <ParameterType type>
   auto get_value() const {
-    try {
-      return value_.get<type>();
-    } catch (const ParameterTypeException& error) {
-      throw exceptions::InvalidParameterTypeException(name_, error.what());
-    }
+    return value_.get<type>();
   }
   bool as_bool() const { return get_value<PARAMETER_BOOL>(); }
   int64_t as_int() const { return get_value<PARAMETER_INTEGER>(); }

@@ -13,15 +13,18 @@ namespace rclcpp {
 
 class Time {
  public:
-  // Throws std::runtime_error for a negative time.
+  // These two throw std::runtime_error for negative seconds. Arithmetic and nanoseconds may give a negative time.
   Time(int32_t seconds, uint32_t nanoseconds, rcl_clock_type_t clock_type = RCL_SYSTEM_TIME);
-  explicit Time(int64_t nanoseconds = 0, rcl_clock_type_t clock_type = RCL_SYSTEM_TIME);
   Time(const builtin_interfaces::msg::Time& message, rcl_clock_type_t clock_type = RCL_ROS_TIME);  // NOLINT
+
+  explicit Time(int64_t nanoseconds = 0, rcl_clock_type_t clock_type = RCL_SYSTEM_TIME);
   explicit Time(const rcl_time_point_t& time_point);
 
+  // The last time that a message holds.
   static Time max(rcl_clock_type_t clock_type = RCL_SYSTEM_TIME);
 
   Time& operator=(const builtin_interfaces::msg::Time& message);
+  // A time that the message can't hold becomes the largest or the smallest value of its fields.
   operator builtin_interfaces::msg::Time() const;
 
   rcl_time_point_value_t nanoseconds() const { return nanoseconds_; }
@@ -43,7 +46,7 @@ class Time {
   Time& operator-=(const Duration& duration) { return *this = *this - duration; }
 
  private:
-  void require_same_clock(const Time& other, const char* operation) const;
+  void require_same_clock(const Time& other) const;
 
   rcl_time_point_value_t nanoseconds_;
   rcl_clock_type_t clock_type_;

@@ -35,9 +35,7 @@ Node::Node(const std::string& node_name, const std::string& node_namespace, cons
           node_base_, node_parameters_, node_services_)),
       time_source_(std::make_unique<TimeSource>(options.clock_qos(), options.use_clock_thread())),
       effective_namespace_(node_base_->get_namespace()) {
-  if (options.clock_type() == RCL_ROS_TIME) {
-    time_source_->attachClock(node_clock_->get_clock());
-  }
+  time_source_->attachClock(node_clock_->get_clock());
   time_source_->attachNode(node_base_, node_topics_, node_graph_, node_services_, node_logging_, node_clock_,
                            node_parameters_);
   if (options.enable_logger_service()) {

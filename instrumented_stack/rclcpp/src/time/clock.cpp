@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/clock.hpp"
 
+#include <condition_variable>
 #include <stdexcept>
 #include <utility>
 
@@ -8,6 +9,22 @@
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+namespace {
+
+void require_valid(const Context::SharedPtr& context) {
+  if (!context || !context->is_valid()) {
+    throw std::runtime_error("context cannot be slept with because it's invalid");
+  }
+}
+
+void require_ros_time(const Clock& clock) {
+  if (clock.get_clock_type() != RCL_ROS_TIME) {
+    throw std::runtime_error("only a clock of ROS time can be waited for");
+  }
+}
+
+}  // namespace
 
 struct Clock::Impl {
   explicit Impl(rcl_clock_type_t clock_type) {
@@ -26,8 +43,17 @@ struct Clock::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
+  // Lets sleeping threads look again whether they have slept enough.
+  void wake() {
+    { const std::lock_guard lock(sleep_mutex); }
+    woken.notify_all();
+  }
+
   rcl_clock_t rcl_clock{};
-  std::mutex mutex;
+  std::mutex mutex;  // held while the clock jumps; taken before sleep_mutex
+  std::mutex sleep_mutex;
+  std::condition_variable woken;
+  bool cancelled = false;
 };
 
 Clock::Clock(rcl_clock_type_t clock_type) : impl_(std::make_shared<Impl>(clock_type)) {}
@@ -42,19 +68,45 @@ Time Clock::now() const {
 }
 
 bool Clock::sleep_until(Time until, Context::SharedPtr context) {
-  if (!context || !context->is_valid()) {
-    throw std::runtime_error("context cannot be slept with because it's invalid");
-  }
+  require_valid(context);
   if (until.get_clock_type() != get_clock_type()) {
     throw std::runtime_error("until's clock type does not match this clock's type");
   }
-  // A loop, because the system's clock may be set during the sleep.
-  for (Time current = now(); current < until; current = now()) {
-    if (!context->sleep_for((until - current).to_chrono<std::chrono::nanoseconds>())) {
-      return false;
-    }
+  return sleep(until, context);
+}
+
+bool Clock::sleep(const Time& until, const Context::SharedPtr& context) {
+  const std::shared_ptr<Impl> impl = impl_;
+  const auto wake = [impl] { impl->wake(); };
+  JumpHandler::SharedPtr jump_handler;
+  bool simulated = false;
+  if (get_clock_type() == RCL_ROS_TIME) {
+    const rcl_jump_threshold_t every_jump{.on_clock_change = true, .min_forward = {1}, .min_backward = {-1}};
+    jump_handler = create_jump_callback(
+        nullptr, [wake](const rcl_time_jump_t&) { wake(); }, every_jump);
+    simulated = ros_time_is_active();
   }
-  return context->is_valid();
+  const OnShutdownCallbackHandle shutdown_handle = context->add_on_shutdown_callback(wake);
+  const auto is_other_time = [&] { return jump_handler && ros_time_is_active() != simulated; };
+
+  bool cancelled = false;
+  {
+    std::unique_lock lock(impl->sleep_mutex);
+    const auto is_over = [&] { return impl->cancelled || !context->is_valid() || is_other_time() || now() >= until; };
+    while (!is_over()) {
+      const std::chrono::nanoseconds nanoseconds(until.nanoseconds());
+      if (simulated) {
+        impl->woken.wait(lock);
+      } else if (get_clock_type() == RCL_STEADY_TIME) {
+        impl->woken.wait_until(lock, std::chrono::steady_clock::time_point(nanoseconds));
+      } else {
+        impl->woken.wait_until(lock, std::chrono::system_clock::time_point(nanoseconds));
+      }
+    }
+    cancelled = std::exchange(impl->cancelled, false);
+  }
+  context->remove_on_shutdown_callback(shutdown_handle);
+  return !cancelled && context->is_valid() && !is_other_time() && now() >= until;
 }
 
 bool Clock::sleep_for(Duration duration, Context::SharedPtr context) {
@@ -66,16 +118,14 @@ bool Clock::started() const {
 }
 
 bool Clock::wait_until_started(Context::SharedPtr context) {
-  return wait_until_started(Duration::max(), std::move(context));
+  require_valid(context);
+  require_ros_time(*this);
+  return started() || sleep_until(Time(0, 1, RCL_ROS_TIME), std::move(context)) || started();
 }
 
 bool Clock::wait_until_started(const Duration& timeout, Context::SharedPtr context, const Duration& wait_tick_ns) {
-  if (!context || !context->is_valid()) {
-    throw std::runtime_error("context cannot be slept with because it's invalid");
-  }
-  if (get_clock_type() != RCL_ROS_TIME) {
-    throw std::runtime_error("only a clock of ROS time can be waited for");
-  }
+  require_valid(context);
+  require_ros_time(*this);
   // Simulated time cannot measure how long it takes to start.
   Clock steady(RCL_STEADY_TIME);
   const Time begin = steady.now();
@@ -85,6 +135,14 @@ bool Clock::wait_until_started(const Duration& timeout, Context::SharedPtr conte
     }
   }
   return true;
+}
+
+void Clock::cancel_sleep_or_wait() {
+  {
+    const std::lock_guard lock(impl_->sleep_mutex);
+    impl_->cancelled = true;
+  }
+  impl_->woken.notify_all();
 }
 
 JumpHandler::SharedPtr Clock::create_jump_callback(JumpHandler::pre_callback_t pre_callback,

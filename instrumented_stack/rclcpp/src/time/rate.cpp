@@ -39,7 +39,8 @@ bool Rate::sleep() {
     }
     return false;
   }
-  return clock_->sleep_for(next_interval - now);
+  // Not sleep_until(): it throws if the context has ended, which may happen between any two calls of a program's loop.
+  return clock_->sleep(next_interval, contexts::get_global_default_context());
 }
 
 void Rate::reset() {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/time.hpp"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "rclcpp/duration.hpp"
 
@@ -11,6 +13,10 @@ namespace rclcpp {
 namespace {
 
 constexpr int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+// The last point in time, and the longest duration, that a message holds.
+constexpr int64_t kMaxOfMessage =
+    std::numeric_limits<int32_t>::max() * kNanosecondsPerSecond + (kNanosecondsPerSecond - 1);
 
 int64_t sum(int64_t a, int64_t b) {
   int64_t result = 0;
@@ -23,18 +29,20 @@ int64_t sum(int64_t a, int64_t b) {
   return result;
 }
 
-int64_t difference(int64_t a, int64_t b) {
+// `what` is "time" or "duration".
+int64_t difference(int64_t a, int64_t b, const std::string& what) {
   int64_t result = 0;
   if (__builtin_sub_overflow(a, b, &result)) {
     if (b < 0) {
-      throw std::overflow_error("subtraction leads to int64_t overflow");
+      throw std::overflow_error(what + " subtraction leads to int64_t overflow");
     }
-    throw std::underflow_error("subtraction leads to int64_t underflow");
+    throw std::underflow_error(what + " subtraction leads to int64_t underflow");
   }
   return result;
 }
 
-// Seconds rounded down, plus the remaining nanoseconds, as messages require.
+// Seconds rounded down, plus the remaining nanoseconds, as messages require. What a message can't hold becomes the
+// largest or the smallest value of its fields.
 template <typename MessageT>
 MessageT to_message(int64_t nanoseconds) {
   int64_t seconds = nanoseconds / kNanosecondsPerSecond;
@@ -43,10 +51,17 @@ MessageT to_message(int64_t nanoseconds) {
     rest += kNanosecondsPerSecond;
     --seconds;
   }
-  if (seconds > std::numeric_limits<int32_t>::max() || seconds < std::numeric_limits<int32_t>::min()) {
-    throw std::out_of_range("time does not fit into the seconds of a message");
-  }
   MessageT message;
+  if (seconds > std::numeric_limits<int32_t>::max()) {
+    message.sec = std::numeric_limits<int32_t>::max();
+    message.nanosec = std::numeric_limits<uint32_t>::max();
+    return message;
+  }
+  if (seconds < std::numeric_limits<int32_t>::min()) {
+    message.sec = std::numeric_limits<int32_t>::min();
+    message.nanosec = 0;
+    return message;
+  }
   message.sec = static_cast<int32_t>(seconds);
   message.nanosec = static_cast<uint32_t>(rest);
   return message;
@@ -72,7 +87,7 @@ Duration Duration::from_rmw_time(rmw_time_t duration) {
 }
 
 Duration Duration::max() {
-  return from_nanoseconds(std::numeric_limits<rcl_duration_value_t>::max());
+  return from_nanoseconds(kMaxOfMessage);
 }
 
 Duration& Duration::operator=(const builtin_interfaces::msg::Duration& message) {
@@ -99,12 +114,15 @@ Duration Duration::operator+(const Duration& other) const {
 }
 
 Duration Duration::operator-(const Duration& other) const {
-  return from_nanoseconds(difference(nanoseconds_, other.nanoseconds_));
+  return from_nanoseconds(difference(nanoseconds_, other.nanoseconds_, "duration"));
 }
 
 Duration Duration::operator*(double scale) const {
+  if (!std::isfinite(scale)) {
+    throw std::runtime_error("abnormal scale in rclcpp::Duration");
+  }
   const long double scaled = static_cast<long double>(nanoseconds_) * static_cast<long double>(scale);
-  if (!(scaled < static_cast<long double>(std::numeric_limits<int64_t>::max()))) {  // also if scale is not a number
+  if (scaled > static_cast<long double>(std::numeric_limits<int64_t>::max())) {
     throw std::overflow_error("duration scaling leads to int64_t overflow");
   }
   if (scaled < static_cast<long double>(std::numeric_limits<int64_t>::min())) {
@@ -114,13 +132,13 @@ Duration Duration::operator*(double scale) const {
 }
 
 Time::Time(int32_t seconds, uint32_t nanoseconds, rcl_clock_type_t clock_type)
-    : Time(int64_t{seconds} * kNanosecondsPerSecond + nanoseconds, clock_type) {}
-
-Time::Time(int64_t nanoseconds, rcl_clock_type_t clock_type) : nanoseconds_(nanoseconds), clock_type_(clock_type) {
-  if (nanoseconds < 0) {
+    : Time(int64_t{seconds} * kNanosecondsPerSecond + nanoseconds, clock_type) {
+  if (seconds < 0) {
     throw std::runtime_error("cannot store a negative time point in rclcpp::Time");
   }
 }
+
+Time::Time(int64_t nanoseconds, rcl_clock_type_t clock_type) : nanoseconds_(nanoseconds), clock_type_(clock_type) {}
 
 Time::Time(const builtin_interfaces::msg::Time& message, rcl_clock_type_t clock_type)
     : Time(message.sec, message.nanosec, clock_type) {}
@@ -129,7 +147,7 @@ Time::Time(const rcl_time_point_t& time_point)
     : nanoseconds_(time_point.nanoseconds), clock_type_(time_point.clock_type) {}
 
 Time Time::max(rcl_clock_type_t clock_type) {
-  return Time(std::numeric_limits<int64_t>::max(), clock_type);
+  return Time(kMaxOfMessage, clock_type);
 }
 
 Time& Time::operator=(const builtin_interfaces::msg::Time& message) {
@@ -144,19 +162,19 @@ double Time::seconds() const {
   return static_cast<double>(nanoseconds_) / static_cast<double>(kNanosecondsPerSecond);
 }
 
-void Time::require_same_clock(const Time& other, const char* operation) const {
+void Time::require_same_clock(const Time& other) const {
   if (clock_type_ != other.clock_type_) {
-    throw std::runtime_error(std::string("can't ") + operation + " times with different time sources");
+    throw std::runtime_error("can't compare times with different time sources");
   }
 }
 
 bool Time::operator==(const Time& other) const {
-  require_same_clock(other, "compare");
+  require_same_clock(other);
   return nanoseconds_ == other.nanoseconds_;
 }
 
 bool Time::operator<(const Time& other) const {
-  require_same_clock(other, "compare");
+  require_same_clock(other);
   return nanoseconds_ < other.nanoseconds_;
 }
 
@@ -165,12 +183,15 @@ Time Time::operator+(const Duration& duration) const {
 }
 
 Time Time::operator-(const Duration& duration) const {
-  return Time(difference(nanoseconds_, duration.nanoseconds()), clock_type_);
+  return Time(difference(nanoseconds_, duration.nanoseconds(), "time"), clock_type_);
 }
 
 Duration Time::operator-(const Time& other) const {
-  require_same_clock(other, "subtract");
-  return Duration::from_nanoseconds(difference(nanoseconds_, other.nanoseconds_));
+  if (clock_type_ != other.clock_type_) {
+    throw std::runtime_error("can't subtract times with different time sources [" + std::to_string(clock_type_) +
+                             " != " + std::to_string(other.clock_type_) + "]");
+  }
+  return Duration::from_nanoseconds(difference(nanoseconds_, other.nanoseconds_, "time"));
 }
 
 }  // namespace rclcpp

@@ -89,13 +89,28 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
         }
       }
     };
+    auto check = [weak = weak_from_this()](const std::vector<Parameter>& parameters) {
+      rcl_interfaces::msg::SetParametersResult result;
+      const auto self = weak.lock();
+      for (const Parameter& parameter : parameters) {
+        if (self && parameter.get_name() == kParameter && parameter.get_type() == PARAMETER_BOOL &&
+            parameter.as_bool() && !self->can_simulate()) {
+          result.reason = "use_sim_time parameter can't be true while clocks are not all of RCL_ROS_TIME type";
+          return result;
+        }
+      }
+      result.successful = true;
+      return result;
+    };
     // Called without our lock: setting a parameter calls back under the lock of the node's parameters.
+    auto check_callback = node_parameters->add_on_set_parameters_callback(std::move(check));
     auto callback = node_parameters->add_post_set_parameters_callback(std::move(on_change));
     {
       const std::lock_guard lock(mutex_);
       node_base_ = std::move(node_base);
       node_topics_ = std::move(node_topics);
       node_parameters_ = std::move(node_parameters);
+      parameter_check_ = std::move(check_callback);
       parameter_callback_ = std::move(callback);
     }
     use_sim_time(enabled);
@@ -104,6 +119,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   void detach_node() {
     use_sim_time(false);
     const std::lock_guard lock(mutex_);
+    parameter_check_.reset();
     parameter_callback_.reset();
     node_base_.reset();
     node_topics_.reset();
@@ -111,10 +127,10 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   }
 
   void attach_clock(const Clock::SharedPtr& clock) {
-    if (clock->get_clock_type() != RCL_ROS_TIME) {
-      throw std::invalid_argument("cannot attach a clock of another type than RCL_ROS_TIME to a time source");
-    }
     const std::lock_guard lock(mutex_);
+    if (subscription_) {
+      require_ros_time(*clock);
+    }
     clocks_.push_back(clock);
     if (subscription_) {
       enable(*clock, true);
@@ -126,11 +142,18 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     const std::lock_guard lock(mutex_);
     const auto found = std::find(clocks_.begin(), clocks_.end(), clock);
     if (found != clocks_.end()) {
-      enable(*clock, false);
+      if (clock->get_clock_type() == RCL_ROS_TIME) {
+        enable(*clock, false);
+      }
       clocks_.erase(found);
     }
   }
 
+  bool can_simulate() const {
+    const std::lock_guard lock(mutex_);
+    return std::all_of(clocks_.begin(), clocks_.end(),
+                       [](const Clock::SharedPtr& clock) { return clock->get_clock_type() == RCL_ROS_TIME; });
+  }
   bool get_use_clock_thread() const {
     const std::lock_guard lock(mutex_);
     return use_clock_thread_;
@@ -152,6 +175,11 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     const std::lock_guard lock(mutex_);
     if (enabled == (subscription_ != nullptr) || (enabled && !node_base_)) {
       return;
+    }
+    if (enabled) {
+      for (const Clock::SharedPtr& clock : clocks_) {
+        require_ros_time(*clock);
+      }
     }
     if (!enabled) {
       for (const Clock::SharedPtr& clock : clocks_) {
@@ -197,6 +225,12 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     }
   }
 
+  static void require_ros_time(const Clock& clock) {
+    if (clock.get_clock_type() != RCL_ROS_TIME) {
+      throw std::invalid_argument("ros_time_active_ can't be true while clock is not of RCL_ROS_TIME type");
+    }
+  }
+
   static void enable(Clock& clock, bool enabled) {
     const std::lock_guard lock(clock.get_clock_mutex());
     if (enabled) {
@@ -218,6 +252,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   node_interfaces::NodeTopicsInterface::SharedPtr node_topics_;
   node_interfaces::NodeParametersInterface::SharedPtr node_parameters_;
   std::vector<Clock::SharedPtr> clocks_;
+  node_interfaces::OnSetParametersCallbackHandle::SharedPtr parameter_check_;
   node_interfaces::PostSetParametersCallbackHandle::SharedPtr parameter_callback_;
   // Set while time is simulated. The thread is destroyed first.
   Subscription<rosgraph_msgs::msg::Clock>::SharedPtr subscription_;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "context/context_impl.hpp"
+#include "participant/abandoned_memory.hpp"
 #include "rmw/error_handling.h"
 #include "types/identifier.hpp"
 
@@ -86,6 +87,7 @@ rmw_ret_t rmw_init(const rmw_init_options_t* options, rmw_context_t* context) tr
     RMW_SET_ERROR_MSG("context is initialized already");
     return RMW_RET_INVALID_ARGUMENT;
   }
+  rmw_fastrtps::remove_abandoned_memory();
   auto impl = std::make_unique<rmw_context_impl_s>(context);
   rmw_init_options_t copy = rmw_get_zero_initialized_init_options();
   if (const rmw_ret_t result = rmw_init_options_copy(options, &copy); result != RMW_RET_OK) {
