@@ -17,7 +17,6 @@
 #include "object_state.hpp"
 #include "tracetools/events.h"
 #include "tracetools/events_ext.h"
-#include "tracetools/tracetools.h"
 
 /// Which events begin and end which objects, and how their arguments are kept for a state dump.
 namespace tracetools {
@@ -122,9 +121,9 @@ TRACETOOLS_EVENT_TABLE(CHECK_EVENT, )
 TRACETOOLS_EXT_EVENT_TABLE(CHECK_EVENT, )
 #undef CHECK_EVENT
 
-/// Whether an event changes the kept events.
+/// Whether an event changes the kept events, and is none of them.
 template <typename Event>
-inline constexpr bool is_noted = is_init_event<Event> || Ends<Event>::value || is_transition<Event>;
+inline constexpr bool is_noted = Ends<Event>::value || is_transition<Event>;
 
 /// A copy of an argument that outlives the call.
 template <typename Argument>
@@ -149,43 +148,58 @@ struct Kept<const std::uint8_t*> {  // a gid
 };
 
 /// Keeps a link between messages. A node may link several pairs, so no link replaces another.
-inline void keep_message_link(void (*record)(const void**, std::size_t, const void**, std::size_t), const void** subs,
-                              std::size_t num_subs, const void** pubs, std::size_t num_pubs) {
+template <typename Recorder>
+void keep_message_link(Recorder recorder, const void** subs, std::size_t num_subs, const void** pubs,
+                       std::size_t num_pubs) {
   std::vector<ObjectKey> objects;
   for (std::size_t i = 0; i < num_subs; ++i) objects.push_back({ObjectKind::kSubscription, subs[i]});
   for (std::size_t i = 0; i < num_pubs; ++i) objects.push_back({ObjectKind::kPublisher, pubs[i]});
-  if (objects.empty()) return;
-  ObjectState::instance().keep(std::move(objects), nullptr,
-                               [record, kept_subs = std::vector<const void*>(subs, subs + num_subs),
-                                kept_pubs = std::vector<const void*>(pubs, pubs + num_pubs)]() mutable {
-                                 record(kept_subs.data(), kept_subs.size(), kept_pubs.data(), kept_pubs.size());
-                               });
+  // A link of nothing belongs to no object, and no object could end it.
+  if (objects.empty()) objects.push_back({ObjectKind::kContext, nullptr});
+  ObjectState::instance().keep(
+      {.objects = std::move(objects),
+       .name = nullptr,
+       .tracepoint = recorder.tracepoint,
+       .counted = recorder.counted,
+       .record = [recorder, kept_subs = std::vector<const void*>(subs, subs + num_subs),
+                  kept_pubs = std::vector<const void*>(pubs, pubs + num_pubs)](const Probe& probe) mutable {
+         recorder(probe, kept_subs.data(), kept_subs.size(), kept_pubs.data(), kept_pubs.size());
+       }});
 }
 
-/// Keeps the current state of a state machine, because no init event records it.
-inline void keep_lifecycle_state(const void* state_machine, const char* /*start_label*/, const char* goal_label) {
-  ObjectState::instance().keep({{ObjectKind::kStateMachine, state_machine}}, "rcl_lifecycle_state",
-                               [state_machine, label = Kept<const char*>(goal_label)] {
-                                 ros_trace_ext_rcl_lifecycle_state(state_machine, label.get());
-                               });
+/// An event with copies of its arguments.
+template <typename Recorder, typename... Arguments>
+InitEvent kept_event(ObjectKey object, const char* name, Recorder recorder, Arguments... arguments) {
+  return {.objects = {object},
+          .name = name,
+          .tracepoint = recorder.tracepoint,
+          .counted = recorder.counted,
+          .record = [recorder, kept = std::tuple(Kept<Arguments>(arguments)...)](const Probe& probe) {
+            std::apply([&](const auto&... each) { recorder(probe, each.get()...); }, kept);
+          }};
 }
 
-/// Keeps an init event, and forgets an object that ends. Does nothing for other events. `record` writes the event with
-/// these arguments, if a session wants it.
-template <typename Event, typename Function, typename... Arguments>
-void note(const char* name, Function record, Arguments... arguments) {
-  if constexpr (Begins<Event>::value) {
-    const void* object = std::get<Begins<Event>::argument>(std::tie(arguments...));
-    ObjectState::instance().keep({{Begins<Event>::kind, object}}, name,
-                                 [record, kept = std::tuple(Kept<Arguments>(arguments)...)] {
-                                   std::apply([&](const auto&... each) { record(each.get()...); }, kept);
-                                 });
-  } else if constexpr (is_message_link<Event>) {
-    keep_message_link(record, arguments...);
-  } else if constexpr (Ends<Event>::value) {
+/// Records an init event, and keeps it for sessions that start later.
+template <typename Event, typename Recorder, typename... Arguments>
+void keep(const char* name, Recorder recorder, Arguments... arguments) {
+  if constexpr (is_message_link<Event>) {
+    keep_message_link(recorder, arguments...);
+  } else {
+    const void* const object = std::get<Begins<Event>::argument>(std::tie(arguments...));
+    ObjectState::instance().keep(kept_event({Begins<Event>::kind, object}, name, recorder, arguments...));
+  }
+}
+
+/// Forgets an object that ends, and keeps the current state of a state machine, because no init event records it. Does
+/// nothing for other events. `state` records ros2_ext:rcl_lifecycle_state.
+template <typename Event, typename Recorder, typename... Arguments>
+void note(Recorder state, Arguments... arguments) {
+  if constexpr (Ends<Event>::value) {
     ObjectState::instance().forget({Ends<Event>::kind, arguments...});
   } else if constexpr (is_transition<Event>) {
-    keep_lifecycle_state(arguments...);
+    const auto& [state_machine, start_label, goal_label] = std::tie(arguments...);
+    ObjectState::instance().keep_for_dumps(kept_event({ObjectKind::kStateMachine, state_machine}, "rcl_lifecycle_state",
+                                                      state, state_machine, goal_label));
   }
 }
 

@@ -3,82 +3,57 @@
 #define TRACETOOLS__OBJECT_STATE_HPP_
 
 #include <cstddef>
-#include <functional>
 #include <list>
 #include <mutex>
 #include <unordered_map>
 #include <vector>
 
-/// The init events of every living object of this process. They are kept so that they can be recorded again for a
-/// session that starts late: a state dump. Without it, the runtime events of such a session would contain addresses
-/// that nothing in its trace explains.
+#include "init_event.hpp"
+#include "session_memory.hpp"
+
+/// The objects that live in this process, as their init events described them. Runtime events identify objects only by
+/// address, so a session that starts now needs these events.
 ///
-/// An init event belongs to one or more objects and is forgotten at the end of any of them. Events are recorded again
-/// in their original order, by the calling thread. All functions may be called from any thread.
+/// A session has each init event once: when it is fired, or in a dump into this session alone. All functions may be
+/// called from any thread.
 namespace tracetools {
-
-/// Objects of different kinds may share an address: a struct and its first member.
-enum class ObjectKind {
-  kContext,
-  kNode,
-  kRmwPublisher,
-  kPublisher,
-  kRmwSubscription,
-  kSubscription,
-  kRclcppSubscription,
-  kRmwService,
-  kService,
-  kRmwClient,
-  kClient,
-  kTimer,
-  kCallback,
-  kStateMachine,
-  kIntraProcessBuffer,
-  kRingBuffer,
-};
-
-struct ObjectKey {
-  ObjectKind kind;
-  const void* address;
-  bool operator==(const ObjectKey&) const = default;
-};
 
 class ObjectState {
  public:
   /// The state of the process. It is never destroyed, because threads may fire events until the very end.
   static ObjectState& instance();
 
-  /// Keeps an init event of `objects`, at least one; `record` writes it again. It replaces the event of the same `name`
-  /// about the same first object. Call it before recording the event, so that a new session does not miss it. If a
-  /// session starts meanwhile, the event is recorded twice, which is harmless.
-  ///
-  /// `name` must live as long as the process. An event without a name (null) replaces no other.
-  void keep(std::vector<ObjectKey> objects, const char* name, std::function<void()> record);
+  /// Keeps an init event, and records it into all sessions that want it. It replaces the event of the same name about
+  /// the same first object.
+  void keep(InitEvent event);
+  /// Keeps an event that only state dumps record.
+  void keep_for_dumps(InitEvent event);
 
   /// The object ends. Call this before recording the end.
   void forget(ObjectKey object);
 
-  /// Records all events again, between ros2_ext:state_dump_begin and state_dump_end; does nothing if there are none.
-  /// Objects neither begin nor end meanwhile: threads that try must wait.
-  void record_again();
+  /// Records the events that the session does not have, between ros2_ext:state_dump_begin and state_dump_end. A session
+  /// that starts has none. A session that resumes lacks those that were fired while it paused. A session that asks
+  /// again without a pause gets all again. Does nothing if the session records none of them, or wants no dumps. Objects
+  /// neither begin nor end meanwhile: threads that try must wait. Returns the number of these events.
+  std::size_t dump_to(Session* session);
 
  private:
-  struct InitEvent {
-    std::vector<ObjectKey> objects;
-    const char* name;
-    std::function<void()> record;
-  };
   using InitEvents = std::list<InitEvent>;
 
   struct HashKey {
     std::size_t operator()(const ObjectKey& key) const noexcept;
   };
 
+  InitEvent& insert(InitEvent event);
   void erase(InitEvents::iterator event);
+  void record_live(InitEvent& event);
 
   std::mutex mutex_;
   InitEvents events_;
+  std::uint64_t last_number_ = 0;
   std::unordered_map<ObjectKey, std::vector<InitEvents::iterator>, HashKey> of_object_;
+  SessionMemory sessions_;
 };
 
 }  // namespace tracetools

@@ -14,7 +14,8 @@
 #include "deadline.hpp"
 #include "event_counters.hpp"
 #include "object_state.hpp"
-#include "state_dump_request.h"
+#include "registration_watch.hpp"
+#include "state_dump_request.hpp"
 
 namespace tracetools {
 namespace {
@@ -42,15 +43,18 @@ bool is_verbose() {
   return environment_says_yes("TRACETOOLS_VERBOSE");
 }
 
-// Sessions that start later also record the objects that live then.
-void offer_state_dumps(void* provider) {
-  const auto on_state_dump = reinterpret_cast<decltype(&tracetools_provider_on_state_dump)>(
-      dlsym(provider, "tracetools_provider_on_state_dump"));
-  const bool offered = on_state_dump && on_state_dump([] { ObjectState::instance().record_again(); }) == 0;
+// Sessions that start later also record the objects that live then. False if that is not possible.
+bool offer_state_dumps() {
+  const bool offered = on_state_dump([](Session* session) {
+    const bool first = session_reaches_process();
+    const std::size_t dumped = ObjectState::instance().dump_to(session);
+    if (first) make_good(dumped);
+  });
   if (!offered && is_verbose()) {
     std::fputs("tracetools: this lttng-ust cannot ask for the state of objects: start sessions before processes\n",
                stderr);
   }
+  return offered;
 }
 
 // Runs when the library is loaded, before main and before the static objects of libraries that link it. The probes are
@@ -63,16 +67,21 @@ void offer_state_dumps(void* provider) {
     }
     return;
   }
-  // RTLD_GLOBAL, because the tracepoints of this library look up the symbols of the probes.
-  void* provider = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL);
+  begin_counting();
+  if (!offer_state_dumps()) session_reaches_process();  // it is unknown when a session does
+  void* provider = nullptr;
+  {
+    const RegistrationWatch watch;
+    // RTLD_GLOBAL, because the tracepoints of this library look up the symbols of the probes.
+    provider = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL);
+  }
   if (provider == nullptr) {
     std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
     return;
   }
   loaded = true;
-  begin_counting();
+  count_missed_events();
   read_deadlines();
-  offer_state_dumps(provider);
 }
 
 }  // namespace

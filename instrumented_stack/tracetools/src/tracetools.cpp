@@ -27,15 +27,16 @@ bool ros_trace_runtime_status(void) {
 
 #else
 
+// The tracepoints are defined here. These macros must come before any header of LTTng.
+#define LTTNG_UST_TRACEPOINT_DEFINE
+#define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
 #include "deadline.hpp"
 #include "event_counters.hpp"
 #include "init_events.hpp"
-
-#define LTTNG_UST_TRACEPOINT_DEFINE
-#define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
 #include "provider.h"
 #include "provider_ext.h"
 #include "provider_loader.hpp"
+#include "provider_session.h"
 
 // The provider must be written literally, because LTTng's macros paste the name before expanding it.
 #define RECORD_IF_ENABLED(name, ...)                                  \
@@ -54,13 +55,17 @@ bool ros_trace_runtime_status(void) {
   } while (false)
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 
-// Keeps events for a session that starts late. Does nothing if no session can start.
-#define NOTE(record, name, ...)                                                                                        \
-  if constexpr (tracetools::is_noted<tracetools::event::name>) {                                                       \
-    if (tracetools::provider_is_loaded()) {                                                                            \
-      tracetools::note<tracetools::event::name>(#name,                                                                 \
-                                                [](auto... values) { record(values...); } __VA_OPT__(, ) __VA_ARGS__); \
-    }                                                                                                                  \
+// For sessions that start late. Does nothing if no session can start.
+#define KEEP(provider, name, ...)                                                                                     \
+  if (tracetools::provider_is_loaded()) {                                                                             \
+    tracetools::keep<tracetools::event::name>(#name, TRACETOOLS_RECORDER(provider, name) __VA_OPT__(, ) __VA_ARGS__); \
+  }
+#define NOTE(name, ...)                                                                                           \
+  if constexpr (tracetools::is_noted<tracetools::event::name>) {                                                  \
+    if (tracetools::provider_is_loaded()) {                                                                       \
+      tracetools::note<tracetools::event::name>(TRACETOOLS_RECORDER(ros2_ext, rcl_lifecycle_state) __VA_OPT__(, ) \
+                                                    __VA_ARGS__);                                                 \
+    }                                                                                                             \
   }
 
 // Deadlines are watched whether or not a session records.
@@ -121,25 +126,33 @@ inline void fetch_followers<tracetools::event::rclcpp_executor_get_next_ready>()
 
 // Usually no session records, and the code of these functions is no longer in the processor's caches when a message
 // comes. So the check takes a few instructions in each, side by side, and the recording code is kept apart.
-#define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments, RECORD)                  \
-  template <typename... Arguments>                                                               \
-  [[gnu::noinline]] static void record_##prefix##_##name(Arguments... values) {                  \
-    RECORD(name, values...);                                                                     \
-    watch<tracetools::event::name>(values...);                                                   \
-  }                                                                                              \
-  [[gnu::hot]] void prefix##_##name parameters {                                                 \
-    NOTE(record_##prefix##_##name, name, WITHOUT_PARENTHESES arguments)                          \
-    fetch_followers<tracetools::event::name>();                                                  \
-    if (lttng_ust_tracepoint_enabled(provider, name) || is_watched<tracetools::event::name>()) { \
-      record_##prefix##_##name arguments;                                                        \
-    }                                                                                            \
-  }                                                                                              \
-  bool prefix##_enabled_##name(void) {                                                           \
-    return IS_WANTED(name, lttng_ust_tracepoint_enabled(provider, name));                        \
-  }                                                                                              \
-  void prefix##_do_##name parameters {                                                           \
-    NOTE(record_##prefix##_##name, name, WITHOUT_PARENTHESES arguments)                          \
-    record_##prefix##_##name arguments;                                                          \
+#define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments, RECORD)                    \
+  template <typename... Arguments>                                                                 \
+  [[gnu::noinline]] static void record_##prefix##_##name(Arguments... values) {                    \
+    RECORD(name, values...);                                                                       \
+    watch<tracetools::event::name>(values...);                                                     \
+  }                                                                                                \
+  [[gnu::hot]] void prefix##_##name parameters {                                                   \
+    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                            \
+      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                          \
+    } else {                                                                                       \
+      NOTE(name, WITHOUT_PARENTHESES arguments)                                                    \
+      fetch_followers<tracetools::event::name>();                                                  \
+      if (lttng_ust_tracepoint_enabled(provider, name) || is_watched<tracetools::event::name>()) { \
+        record_##prefix##_##name arguments;                                                        \
+      }                                                                                            \
+    }                                                                                              \
+  }                                                                                                \
+  bool prefix##_enabled_##name(void) {                                                             \
+    return IS_WANTED(name, lttng_ust_tracepoint_enabled(provider, name));                          \
+  }                                                                                                \
+  void prefix##_do_##name parameters {                                                             \
+    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                            \
+      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                          \
+    } else {                                                                                       \
+      NOTE(name, WITHOUT_PARENTHESES arguments)                                                    \
+      record_##prefix##_##name arguments;                                                          \
+    }                                                                                              \
   }
 
 #define DEFINE_EVENT(name, parameters, arguments) \
