@@ -90,7 +90,7 @@ FieldClassPtr integer_type(const std::vector<TsdlEntry>& entries, bool native_is
   if (integer.size == 0 || integer.size > 64) fail_at_line(line, fmt::format("an integer of {} bits", integer.size));
   if (integer.alignment == 0) integer.alignment = integer.size % kByte == 0 ? kByte : 1;
   integer.access = access_of(integer);
-  return std::make_shared<FieldClass>(std::move(integer));
+  return complete(std::move(integer));
 }
 
 FieldClassPtr real_type(const std::vector<TsdlEntry>& entries, bool native_is_big_endian, std::size_t line) {
@@ -105,14 +105,14 @@ FieldClassPtr real_type(const std::vector<TsdlEntry>& entries, bool native_is_bi
     }
   }
   if (real.size != 32 && real.size != 64) fail_at_line(line, fmt::format("a number of {} bits", real.size));
-  return std::make_shared<FieldClass>(std::move(real));
+  return complete(std::move(real));
 }
 
 FieldClassPtr string_type() {
   FieldClass string;
   string.kind = FieldKind::kString;
   string.alignment = kByte;
-  return std::make_shared<FieldClass>(std::move(string));
+  return complete(std::move(string));
 }
 
 }  // namespace tracing::ctf

@@ -82,6 +82,14 @@ HeaderLayout header_layout(const FieldClass& structure, bool is_big_endian) {
 
 }  // namespace
 
+namespace {
+
+bool is_simple(const StructureDecoder& decoder) {
+  return decoder.is_simple() && decoder.size() <= EventLayout::kMostSimpleFields;
+}
+
+}  // namespace
+
 StreamLayout::StreamLayout(const TraceClass& trace, const StreamDeclaration& stream)
     : event_context_(stream.event_context) {
   if (!stream.event_header) refuse("there is none");
@@ -94,6 +102,7 @@ StreamLayout::StreamLayout(const TraceClass& trace, const StreamDeclaration& str
     const EventDeclaration& event = trace.events[i];
     if (event.stream_id != stream.id) continue;
     auto layout = std::make_unique<EventLayout>(event, i);
+    layout->is_simple = is_simple(event_context_) && is_simple(layout->context) && is_simple(layout->payload);
     if (event.id < kDenseIds) {
       if (event.id >= dense_.size()) dense_.resize(event.id + 1);
       dense_[event.id] = std::move(layout);

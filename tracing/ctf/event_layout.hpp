@@ -37,12 +37,15 @@ struct HeaderLayout {
 };
 
 struct EventLayout {
+  static constexpr std::size_t kMostSimpleFields = 256;
   EventLayout(const EventDeclaration& event, std::size_t number)
       : declaration(event), index(number), context(event.context), payload(event.payload) {}
   const EventDeclaration& declaration;
   std::size_t index;  // of the declaration in the trace
   StructureDecoder context;
   StructureDecoder payload;
+  // The contexts of the stream, those of the event, and the payload are simple and have not too many fields.
+  bool is_simple = false;
 };
 
 class StreamLayout {

@@ -71,14 +71,27 @@ struct FieldClass {
   std::uint64_t length = 0;  // of an array
   std::string path;          // the field that holds a sequence's length or selects a variant's option
 
+  // What complete() finds out.
+  std::uint32_t depth = 1;       // levels of types, one inside another
+  std::uint64_t fields = 1;      // of the type with all types in it; an array's element counts once
+  std::uint64_t least_bits = 0;  // that a field takes; 0 for some, such as a sequence without elements
+
   bool is_number() const {
     return kind == FieldKind::kInteger || kind == FieldKind::kEnumeration || kind == FieldKind::kReal;
   }
   // An array or a sequence that is read as a string.
   bool is_characters() const {
     return (kind == FieldKind::kArray || kind == FieldKind::kSequence) && element->kind == FieldKind::kInteger &&
-           element->is_text && element->size == 8;
+           element->is_text && element->size == 8 && element->alignment == 8;
   }
 };
+
+// Types with more levels or fields than these are in no trace of a tracer. To read them would take more stack, or more
+// time, than there is.
+inline constexpr std::uint32_t kMostLevels = 64;
+inline constexpr std::uint64_t kMostFields = 1 << 16;
+
+// Each type is made with this function. The types in it are complete already.
+FieldClassPtr complete(FieldClass type);
 
 }  // namespace tracing::ctf

@@ -63,10 +63,18 @@ class MetadataParser {
     }
   }
 
+  // Headers, contexts and fields are structures.
+  static FieldClassPtr structure_of(const TsdlEntry& entry) {
+    if (!entry.type || entry.type->kind != FieldKind::kStructure) {
+      fail_at_line(entry.line, fmt::format("'{}' is no structure", entry.name));
+    }
+    return entry.type;
+  }
+
   void parse_trace() {
     for (const TsdlEntry& entry : types_.parse_block()) {
       if (entry.name == "uuid") trace_.uuid = entry.value.text;
-      if (entry.name == "packet.header") trace_.packet_header = entry.type;
+      if (entry.name == "packet.header") trace_.packet_header = structure_of(entry);
       if ((entry.name == "major" && entry.value.number != 1) || (entry.name == "minor" && entry.value.number != 8)) {
         fail_at_line(entry.line, "not CTF 1.8");
       }
@@ -98,9 +106,9 @@ class MetadataParser {
     StreamDeclaration stream;
     for (const TsdlEntry& entry : types_.parse_block()) {
       if (entry.name == "id") stream.id = number_of(entry);
-      if (entry.name == "packet.context") stream.packet_context = entry.type;
-      if (entry.name == "event.header") stream.event_header = entry.type;
-      if (entry.name == "event.context") stream.event_context = entry.type;
+      if (entry.name == "packet.context") stream.packet_context = structure_of(entry);
+      if (entry.name == "event.header") stream.event_header = structure_of(entry);
+      if (entry.name == "event.context") stream.event_context = structure_of(entry);
     }
     trace_.streams[stream.id] = stream;
   }
@@ -111,8 +119,8 @@ class MetadataParser {
       if (entry.name == "name") event.name = entry.value.text;
       if (entry.name == "id") event.id = number_of(entry);
       if (entry.name == "stream_id") event.stream_id = number_of(entry);
-      if (entry.name == "context") event.context = entry.type;
-      if (entry.name == "fields") event.payload = entry.type;
+      if (entry.name == "context") event.context = structure_of(entry);
+      if (entry.name == "fields") event.payload = structure_of(entry);
     }
     trace_.events.push_back(std::move(event));
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of a stream file, which is mapped into memory.
+// The packets of a stream file.
 #pragma once
+
+#include <sys/types.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -14,35 +16,35 @@
 
 namespace tracing::ctf {
 
-// A whole file for reading. The kernel reads its pages when they are touched.
-class MappedFile {
+// A stream file, of which parts are read. It is not mapped into memory: a mapped file that gets shorter meanwhile, or
+// that fails to be read, ends the program with SIGBUS. No descriptor stays open, because a trace may have more files
+// than a process may open.
+class StreamFile {
  public:
   // Throws std::system_error.
-  explicit MappedFile(const std::filesystem::path& path);
-  ~MappedFile();
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
+  explicit StreamFile(std::filesystem::path path);
 
-  const std::uint8_t* begin() const { return begin_; }
-  const std::uint8_t* end() const { return begin_ + size_; }
-  std::size_t size() const { return size_; }
-  // The bytes from `begin` to `end` are not needed any more.
-  void forget(const std::uint8_t* begin, const std::uint8_t* end) const;
+  const std::filesystem::path& path() const { return path_; }
+  std::size_t size() const { return size_; }  // when it was found
+  // Reads `count` bytes from `at` on. Throws DamagedPacket when they are not there any more.
+  void read(std::uint8_t* to, std::size_t count, std::size_t at) const;
 
  private:
-  const std::uint8_t* begin_ = nullptr;
+  std::filesystem::path path_;
   std::size_t size_ = 0;
+  dev_t device_ = 0;  // another program may put another file in its place
+  ino_t inode_ = 0;
 };
 
 // The description of a packet in its header. Bits count from the beginning of the packet, times are values of the
 // stream's clock.
 struct Packet {
-  const MappedFile* file = nullptr;
-  const std::uint8_t* begin = nullptr;
+  const StreamFile* file = nullptr;
+  std::uint64_t offset = 0;        // where the packet begins in the file, in bytes
   std::uint64_t events_bit = 0;    // where the first event begins
   std::uint64_t content_bits = 0;  // where the last event ends; if the packet is cut, where the file ends
   std::uint64_t size_bits = 0;     // with padding
-  bool is_cut = false;             // the file ends before the packet does
+  bool is_cut = false;             // the file ends before the packet's content does
   std::uint64_t stream_id = 0;
   std::optional<std::uint64_t> stream_instance_id;
   std::optional<std::uint64_t> time_begin;
@@ -57,14 +59,13 @@ struct Packet {
 struct PacketList {
   std::vector<Packet> packets;
   std::string problem;
+  bool ends_early = false;      // the last packet of the list ends behind the end of the file
+  bool is_short = false;        // the file ends within a packet, which may be the last one of the list
+  bool is_undescribed = false;  // the metadata do not describe the packet behind the last one of the list
 };
-PacketList find_packets(const TraceClass& trace, const MappedFile& file);
 
-// The same for a caller that needs no events. It reads only the first bytes of each packet and maps nothing: a file
-// that gets shorter meanwhile, or that fails to be read, is a problem of the list and no signal. A packet has no `file`
-// and no `begin`, and the one that ends behind the end of the file is left out. Stops when `give_up` returns true.
-// Throws std::system_error when the file can't be opened.
-PacketList find_packet_headers(const TraceClass& trace, const std::filesystem::path& path,
-                               const std::function<bool()>& give_up);
+// Reads only the first bytes of each packet. A file that gets shorter meanwhile, or that fails to be read, is a problem
+// of the list. Stops when `give_up` returns true. Throws std::system_error when the file can't be opened.
+PacketList find_packets(const TraceClass& trace, const StreamFile& file, const std::function<bool()>& give_up = {});
 
 }  // namespace tracing::ctf

@@ -3,13 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
 namespace tracing::ctf {
 namespace {
 
-constexpr std::uint64_t kByte = 8;  // bits
+constexpr std::uint64_t kByte = 8;           // bits
+constexpr std::uint64_t kBlock = 4096;       // bytes
+constexpr std::uint64_t kMargin = 4096;      // bytes; longer than nearly all events
+constexpr std::size_t kWindow = 128 << 10;   // bytes
+constexpr std::size_t kLargest = 256 << 20;  // bytes; no event is larger
 
 std::uint64_t aligned(std::uint64_t bit, std::uint32_t alignment) {
   return (bit + alignment - 1) & ~std::uint64_t{alignment - 1};
@@ -18,7 +23,10 @@ std::uint64_t aligned(std::uint64_t bit, std::uint32_t alignment) {
 }  // namespace
 
 StreamCursor::StreamCursor(const StreamLayout& layout, std::vector<Packet> packets)
-    : layout_(layout), nanosecond_clock_(layout.clock().frequency == 1'000'000'000), packets_(std::move(packets)) {
+    : layout_(layout),
+      nanosecond_clock_(layout.clock().frequency == 1'000'000'000),
+      packets_(std::move(packets)),
+      places_(3 * EventLayout::kMostSimpleFields) {
   if (nanosecond_clock_) nanosecond_offset_ = static_cast<std::uint64_t>(layout.clock().nanoseconds(0));
 }
 
@@ -32,11 +40,12 @@ StreamCursor::Item StreamCursor::next() {
       lost_ = loss.count;
       return loss.kind;
     }
-    if (at_ < limit_) {
+    if (at_ < limit_ || !is_last_window_) {
       try {
         read_event();
       } catch (...) {
         at_ = limit_;
+        is_last_window_ = true;
         throw;
       }
       return Item::kEvent;
@@ -46,21 +55,37 @@ StreamCursor::Item StreamCursor::next() {
 }
 
 bool StreamCursor::open_packet() {
-  if (next_packet_ > 0) {
-    const Packet& done = packets_[next_packet_ - 1];
-    done.file->forget(done.begin, done.begin + done.content_bits / kByte);
+  if (next_packet_ == packets_.size()) {
+    window_ = {};
+    return false;
   }
-  if (next_packet_ == packets_.size()) return false;
   const Packet& packet = packets_[next_packet_];
   find_losses(packet);
   ++next_packet_;
-  begin_ = packet.begin;
+  // An empty window; read_event() moves it.
+  window_offset_ = 0;
   at_ = packet.events_bit;
-  limit_ = packet.content_bits;
-  end_ = begin_ + (limit_ + kByte - 1) / kByte;
-  file_end_ = packet.file->end();
+  limit_ = at_;
+  is_last_window_ = packet.content_bits == packet.events_bit;
   if (packet.time_begin) cycles_ = *packet.time_begin;
   return true;
+}
+
+// Makes the window begin at the next event, or shortly before it.
+void StreamCursor::move_window(std::size_t size) {
+  const std::uint64_t content_bytes = (packet().content_bits + kByte - 1) / kByte;
+  // Alignments count from the beginning of the packet; none is larger than a block.
+  const std::uint64_t offset = (window_offset_ + at_ / kByte) / kBlock * kBlock;
+  const std::uint64_t count = std::min<std::uint64_t>(size, content_bytes - offset);
+  // Numbers are read as whole words, also at the end of the window.
+  if (window_.size() < count + sizeof(std::uint64_t)) window_.resize(count + sizeof(std::uint64_t));
+  packet().file->read(window_.data(), count, packet().offset + offset);
+  at_ -= (offset - window_offset_) * kByte;
+  window_offset_ = offset;
+  is_last_window_ = offset + count == content_bytes;
+  begin_ = window_.data();
+  end_ = begin_ + count;
+  limit_ = is_last_window_ ? packet().content_bits - offset * kByte : count * kByte;
 }
 
 void StreamCursor::find_losses(const Packet& packet) {
@@ -87,8 +112,7 @@ void StreamCursor::find_losses(const Packet& packet) {
 std::uint64_t StreamCursor::number(std::uint64_t header, HeaderLayout::Number place) const {
   const std::uint64_t bit = header + place.bit;
   const std::uint8_t* const byte = begin_ + bit / kByte;
-  if (!layout_.header().is_big_endian && std::endian::native == std::endian::little && bit % kByte + place.size <= 64 &&
-      byte + sizeof(std::uint64_t) <= file_end_) {
+  if (!layout_.header().is_big_endian && std::endian::native == std::endian::little && bit % kByte + place.size <= 64) {
     std::uint64_t value = 0;
     std::memcpy(&value, byte, sizeof value);
     value >>= bit % kByte;
@@ -109,6 +133,21 @@ void StreamCursor::advance_clock(std::uint64_t value, std::uint32_t bits) {
 }
 
 void StreamCursor::read_event() {
+  if (!is_last_window_ && limit_ - at_ < kMargin * kByte) move_window(kWindow);
+  const std::uint64_t cycles = cycles_;
+  // Where a large event does not fit into the window, a larger window is tried.
+  for (std::size_t size = 2 * kWindow;; size *= 2) {
+    try {
+      return decode_event();
+    } catch (const DamagedPacket&) {
+      if (is_last_window_ || size > kLargest) throw;
+    }
+    cycles_ = cycles;
+    move_window(size);
+  }
+}
+
+void StreamCursor::decode_event() {
   const HeaderLayout& layout = layout_.header();
   const std::uint64_t header = aligned(at_, layout.alignment);
   const HeaderLayout::Form* form = &layout.short_form;
@@ -122,11 +161,37 @@ void StreamCursor::read_event() {
   advance_clock(number(header, form->time), form->time.size);
   time_ns_ = nanoseconds(cycles_);
   event_ = layout_.event(id);
-  if (event_ == nullptr) throw DamagedPacket(fmt::format("an event has the unknown number {}", id));
+  if (event_ == nullptr) throw UndescribedPacket(fmt::format("an event has the unknown number {}", id));
   read_structures(header + form->end);
 }
 
+// Returns the first byte behind the structure.
+inline const std::uint8_t* StreamCursor::read_simple(const StructureDecoder& decoder, const std::uint8_t* at,
+                                                     StructureDecoder::Place* places, Record& record) {
+  record.decoder = &decoder;
+  record.base = at;
+  record.fields = nullptr;
+  if (const auto size = decoder.fixed_size()) {
+    if (*size > static_cast<std::size_t>(end_ - at)) throw DamagedPacket("an event goes beyond the end of its packet");
+    record.places = decoder.fixed_places();
+    return at + *size;
+  }
+  record.places = places;
+  const std::uint8_t* const behind = decoder.decode(at, end_, places);
+  if (behind == nullptr) throw DamagedPacket("an event goes beyond the end of its packet");
+  return behind;
+}
+
 void StreamCursor::read_structures(std::uint64_t bit) {
+  if (event_->is_simple) [[likely]] {
+    constexpr std::size_t kEach = EventLayout::kMostSimpleFields;
+    const std::uint8_t* at = begin_ + (bit + kByte - 1) / kByte;
+    at = read_simple(layout_.event_context(), at, places_.data(), stream_context_);
+    at = read_simple(event_->context, at, places_.data() + kEach, event_context_);
+    at = read_simple(event_->payload, at, places_.data() + 2 * kEach, payload_);
+    at_ = static_cast<std::uint64_t>(at - begin_) * kByte;
+    return;
+  }
   struct Part {
     const StructureDecoder& decoder;
     Record& record;
@@ -135,37 +200,6 @@ void StreamCursor::read_structures(std::uint64_t bit) {
   const Part parts[] = {{layout_.event_context(), stream_context_, "stream.event.context"},
                         {event_->context, event_context_, "event.context"},
                         {event_->payload, payload_, "event.fields"}};
-  if (parts[0].decoder.is_simple() && parts[1].decoder.is_simple() && parts[2].decoder.is_simple()) [[likely]] {
-    const std::uint8_t* at = begin_ + (bit + kByte - 1) / kByte;
-    std::size_t used = 0;
-    for (const Part& part : parts) {
-      if (part.decoder.size() == 0) {
-        part.record = {};
-        continue;
-      }
-      part.record.decoder = &part.decoder;
-      part.record.base = at;
-      part.record.fields = nullptr;
-      if (const auto size = part.decoder.fixed_size()) {
-        if (*size > static_cast<std::size_t>(end_ - at))
-          throw DamagedPacket("an event goes beyond the end of its packet");
-        part.record.places = part.decoder.fixed_places();
-        at += *size;
-        continue;
-      }
-      // Places of an earlier part must stay at their addresses.
-      constexpr std::size_t kMost = 256;
-      if (places_.size() < 3 * kMost) places_.resize(3 * kMost);
-      if (part.decoder.size() > kMost) throw DamagedPacket("an event has too many fields");
-      StructureDecoder::Place* const places = places_.data() + used;
-      at = part.decoder.decode(at, end_, places);
-      if (at == nullptr) throw DamagedPacket("an event goes beyond the end of its packet");
-      part.record.places = places;
-      used += kMost;
-    }
-    at_ = static_cast<std::uint64_t>(at - begin_) * kByte;
-    return;
-  }
   arena_.reset();
   std::vector<FieldScope> scopes;
   std::vector<Field> structures;

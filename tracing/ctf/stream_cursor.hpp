@@ -61,9 +61,13 @@ class StreamCursor {
 
  private:
   bool open_packet();
+  void move_window(std::size_t size);
+  void decode_event();
   void find_losses(const Packet& packet);
   void read_event();
   void read_structures(std::uint64_t bit);
+  const std::uint8_t* read_simple(const StructureDecoder& decoder, const std::uint8_t* at,
+                                  StructureDecoder::Place* places, Record& record);
   std::uint64_t number(std::uint64_t header, HeaderLayout::Number place) const;
   void advance_clock(std::uint64_t value, std::uint32_t bits);
   std::int64_t nanoseconds(std::uint64_t cycles) const {
@@ -85,12 +89,14 @@ class StreamCursor {
   std::size_t next_packet_ = 0;
   std::vector<Loss> losses_;  // to be reported before the events of the packet, the last one first
 
-  // The open packet.
+  // A window of the open packet's content. Bits count from the beginning of the window.
+  std::vector<std::uint8_t> window_;
+  std::uint64_t window_offset_ = 0;  // bytes from the beginning of the packet
+  bool is_last_window_ = true;       // the window reaches the end of the content
   const std::uint8_t* begin_ = nullptr;
-  const std::uint8_t* end_ = nullptr;  // of the content, rounded up to bytes
-  const std::uint8_t* file_end_ = nullptr;
-  std::uint64_t at_ = 0;     // bits
-  std::uint64_t limit_ = 0;  // bits
+  const std::uint8_t* end_ = nullptr;  // of the content in the window, rounded up to bytes
+  std::uint64_t at_ = 0;               // bits
+  std::uint64_t limit_ = 0;            // bits
   std::uint64_t cycles_ = 0;
 
   std::int64_t time_ns_ = 0;

@@ -131,38 +131,11 @@ void FieldArena::reset() {
 
 namespace {
 
-// The fewest bits that a field of this type takes. It is 0 for some, such as a sequence without elements.
-std::uint64_t smallest_size(const FieldClass& type) {
-  constexpr std::uint64_t kHuge = std::uint64_t{1} << 60;  // more than any packet has
-  std::uint64_t size = 0;
-  switch (type.kind) {
-    case FieldKind::kString:
-      return kByte;
-    case FieldKind::kStructure:
-      for (const FieldMember& member : type.members) size = std::min(kHuge, size + smallest_size(*member.type));
-      return size;
-    case FieldKind::kVariant:
-      size = type.members.empty() ? 0 : kHuge;
-      for (const FieldMember& option : type.members) size = std::min(size, smallest_size(*option.type));
-      return size;
-    case FieldKind::kArray:
-      size = smallest_size(*type.element);
-      return size != 0 && type.length > kHuge / size ? kHuge : size * type.length;
-    case FieldKind::kSequence:
-      return 0;
-    default:
-      return type.size;
-  }
-}
-
 class GeneralDecoder {
  public:
   GeneralDecoder(const std::uint8_t* packet, std::uint64_t begin, std::uint64_t limit,
                  const std::vector<FieldScope>& scopes, FieldArena& arena)
-      : packet_(packet), at_(begin), limit_(limit), scopes_(scopes), arena_(arena) {
-    constexpr std::uint64_t kUsual = 1 << 16;
-    empty_left_ = kUsual + (limit > begin ? limit - begin : 0) / kByte;
-  }
+      : packet_(packet), at_(begin), limit_(limit), scopes_(scopes), arena_(arena) {}
 
   Field decode(const FieldClass& type) {
     align(type.alignment);
@@ -262,13 +235,13 @@ class GeneralDecoder {
 
   // A damaged count must not allocate more fields than the rest of the packet can hold.
   void check_count(const FieldClass& element, std::uint64_t count) {
-    const std::uint64_t size = smallest_size(element);
-    if (size == 0) {
-      if (count > empty_left_) throw DamagedPacket("an array goes beyond the end of its packet");
-      empty_left_ -= count;
-    } else if (at_ > limit_ || count > (limit_ - at_) / size) {
-      if (count > 0) throw DamagedPacket("an array goes beyond the end of its packet");
+    const std::uint64_t bits = element.least_bits;
+    if (count > 0 && bits > 0 && (at_ > limit_ || count > (limit_ - at_) / bits)) {
+      throw DamagedPacket("an array goes beyond the end of its packet");
     }
+    std::uint64_t& left = bits == 0 ? empty_left_ : elements_left_;
+    if (count > left) throw DamagedPacket("an array has too many elements");
+    left -= count;
   }
 
   // The field that a path names: a member of the structures around, the innermost first, or a path from a scope.
@@ -309,7 +282,9 @@ class GeneralDecoder {
   const std::vector<FieldScope>& scopes_;
   FieldArena& arena_;
   const Open* open_ = nullptr;
-  std::uint64_t empty_left_ = 0;  // how many more elements that may take no bits can be there
+  // How many more elements of structures, arrays and strings the fields may have, and how many that may take no bits.
+  std::uint64_t elements_left_ = 1 << 20;
+  std::uint64_t empty_left_ = 1 << 10;
 };
 
 }  // namespace

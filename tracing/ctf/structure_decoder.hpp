@@ -25,6 +25,13 @@ class DamagedPacket : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The metadata do not describe the packet or an event in it. In a trace that is still being written they may do so
+// later.
+class UndescribedPacket : public DamagedPacket {
+ public:
+  using DamagedPacket::DamagedPacket;
+};
+
 // Structures that the lengths and variants of later structures may refer to, by the beginning of a path.
 struct FieldScope {
   std::string_view path;  // "stream.event.context"

@@ -22,4 +22,11 @@ std::optional<std::int64_t> TraceClass::environment_number(const std::string& na
   return number ? std::optional(*number) : std::nullopt;
 }
 
+std::string TraceClass::environment_text(const std::string& name) const {
+  const auto found = environment.find(name);
+  if (found == environment.end()) return {};
+  const auto* const text = std::get_if<std::string>(&found->second);
+  return text ? *text : std::string();
+}
+
 }  // namespace tracing::ctf

@@ -61,6 +61,8 @@ struct TraceClass {
 
   // The value of an entry of the environment that is a number.
   std::optional<std::int64_t> environment_number(const std::string& name) const;
+  // The value of an entry of the environment that is a text; empty when there is none.
+  std::string environment_text(const std::string& name) const;
 };
 
 // Reads the text of a metadata file. Throws UnsupportedTrace, with the line, for text that it can't read.

@@ -69,8 +69,8 @@ std::int64_t TsdlCursor::take_number() {
   const bool negative = take_if("-");
   if (!negative) take_if("+");
   if (peek().kind != Token::Kind::kNumber) fail(fmt::format("expected a number, found '{}'", peek().text));
-  const auto number = static_cast<std::int64_t>(take().number);
-  return negative ? -number : number;
+  const std::uint64_t number = take().number;
+  return static_cast<std::int64_t>(negative ? 0 - number : number);
 }
 
 }  // namespace tracing::ctf

@@ -8,7 +8,22 @@
 
 namespace tracing::ctf {
 
+class TypeParser::Level {
+ public:
+  explicit Level(TypeParser& parser) : level_(parser.level_) {
+    if (level_ == kMostLevels) parser.cursor_.fail(fmt::format("more than {} types inside one another", kMostLevels));
+    ++level_;
+  }
+  ~Level() { --level_; }
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+
+ private:
+  std::uint32_t& level_;
+};
+
 std::vector<TsdlEntry> TypeParser::parse_block() {
+  const Level level(*this);
   cursor_.take();
   cursor_.expect("{");
   scopes_.emplace_back();
@@ -48,6 +63,7 @@ void TypeParser::parse_type_alias() {
 }
 
 FieldClassPtr TypeParser::parse_type() {
+  const Level level(*this);
   const Token& word = cursor_.peek();
   if (word.is("integer")) {
     const std::vector<TsdlEntry> entries = parse_block();
@@ -153,7 +169,7 @@ std::vector<EnumerationRange> TypeParser::parse_ranges() {
       range.first = range.last = cursor_.take_number();
       if (cursor_.take_if("...")) range.last = cursor_.take_number();
     }
-    next = range.last + 1;
+    next = static_cast<std::int64_t>(static_cast<std::uint64_t>(range.last) + 1);
     ranges.push_back(std::move(range));
     if (!cursor_.peek().is("}")) cursor_.expect(",");
   }
@@ -202,7 +218,7 @@ FieldMember TypeParser::parse_declarator(FieldClassPtr type) {
   for (auto array = dimensions.rbegin(); array != dimensions.rend(); ++array) {
     array->alignment = member.type->alignment;
     array->element = std::move(member.type);
-    member.type = std::make_shared<FieldClass>(std::move(*array));
+    member.type = checked(std::move(*array));
   }
   return member;
 }
@@ -220,9 +236,18 @@ FieldClassPtr TypeParser::named(const std::string& name) const {
 }
 
 FieldClassPtr TypeParser::declare(const std::string& name, FieldClass type) {
-  auto declared = std::make_shared<FieldClass>(std::move(type));
+  FieldClassPtr declared = checked(std::move(type));
   if (!name.empty()) scopes_.back()[name] = declared;
   return declared;
+}
+
+FieldClassPtr TypeParser::checked(FieldClass type) const {
+  FieldClassPtr complete_type = complete(std::move(type));
+  if (complete_type->depth > kMostLevels) {
+    cursor_.fail(fmt::format("more than {} types inside one another", kMostLevels));
+  }
+  if (complete_type->fields > kMostFields) cursor_.fail(fmt::format("a type with more than {} fields", kMostFields));
+  return complete_type;
 }
 
 }  // namespace tracing::ctf

@@ -2,6 +2,7 @@
 // Reads the types of metadata by recursive descent, as far as tracers use them, and the blocks in which types stand.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ class TypeParser {
   FieldClassPtr parse_type();
 
  private:
+  // Counts the types and blocks around the cursor.
+  class Level;
   // The types by name, visible in the block that declares them and in the blocks inside it.
   using Scope = std::map<std::string, FieldClassPtr>;  // "uint32_t", "struct packet_context"
 
@@ -41,10 +44,12 @@ class TypeParser {
   FieldClassPtr known_type(const std::string& name) const;  // null: unknown
   FieldClassPtr named(const std::string& name) const;
   FieldClassPtr declare(const std::string& name, FieldClass type);
+  FieldClassPtr checked(FieldClass type) const;
 
   TsdlCursor& cursor_;
   const bool is_big_endian_;
   std::vector<Scope> scopes_;
+  std::uint32_t level_ = 0;
 };
 
 }  // namespace tracing::ctf

@@ -46,30 +46,6 @@ std::optional<TimeBound> TimeBound::parse(std::string_view text) {
   return TimeBound{static_cast<std::int64_t>(timegm(&date)) * kSecond + *ns, false};
 }
 
-bool matches_pattern(std::string_view pattern, std::string_view text) {
-  // The place to continue when the text after the last star does not match: one character later.
-  std::size_t star = std::string_view::npos;
-  std::size_t behind_star = 0;
-  std::size_t at = 0;
-  std::size_t next = 0;
-  while (next < text.size()) {
-    if (at < pattern.size() && pattern[at] == '*') {
-      star = at++;
-      behind_star = next;
-    } else if (at < pattern.size() && (pattern[at] == '?' || pattern[at] == text[next])) {
-      ++at;
-      ++next;
-    } else if (star != std::string_view::npos) {
-      at = star + 1;
-      next = ++behind_star;
-    } else {
-      return false;
-    }
-  }
-  while (at < pattern.size() && pattern[at] == '*') ++at;
-  return at == pattern.size();
-}
-
 bool EventFilter::accepts_name(const EventClass& event_class) {
   if (events.empty()) return true;
   if (event_class.id >= names_.size()) names_.resize(event_class.id + 1, -1);
@@ -100,6 +76,11 @@ bool EventFilter::is_behind(const Event& event) {
 }
 
 bool EventFilter::accepts(const Event& event) {
+  if (!nodes.empty()) {
+    // It learns from all events, also from those that are not wanted.
+    if (!node_filter_) node_filter_ = std::make_unique<NodeFilter>(nodes);
+    if (!node_filter_->accepts(event)) return false;
+  }
   if (begin && event.timestamp_ns < absolute(*begin, event)) return false;
   if (is_behind(event)) return false;
   if (!accepts_name(*event.event_class)) return false;

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tracing/read/field_expression.hpp"
+#include "tracing/read/node_filter.hpp"
+#include "tracing/reader/event_pattern.hpp"
 
 namespace tracing {
 
@@ -22,14 +25,12 @@ struct TimeBound {
   static std::optional<TimeBound> parse(std::string_view text);
 };
 
-// `*` stands for any characters, `?` for one.
-bool matches_pattern(std::string_view pattern, std::string_view text);
-
 class EventFilter {
  public:
   // One entry of each list must match; an empty list accepts all events.
   std::vector<std::string> events;           // patterns of names
   std::vector<std::string> processes;        // process ids, or patterns of names as `procname` has them
+  std::vector<std::string> nodes;            // patterns of names, as NodeFilter has them
   std::vector<FieldExpression> expressions;  // all must hold
   std::optional<TimeBound> begin;            // included
   std::optional<TimeBound> end;              // not included
@@ -42,7 +43,10 @@ class EventFilter {
   void restart() {
     names_.clear();
     first_ns_.reset();
+    node_filter_.reset();
   }
+  // Null if all events of any node are wanted, or no event has come yet.
+  const NodeFilter* node_filter() const { return node_filter_.get(); }
 
  private:
   std::int64_t absolute(const TimeBound& bound, const Event& event);
@@ -51,6 +55,7 @@ class EventFilter {
 
   std::vector<std::int8_t> names_;  // by EventClass::id: 1 accepted, 0 not, -1 not known yet
   std::optional<std::int64_t> first_ns_;
+  std::unique_ptr<NodeFilter> node_filter_;
 };
 
 }  // namespace tracing

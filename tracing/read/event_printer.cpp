@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <ctime>
@@ -113,6 +114,24 @@ void append_json(Buffer& out, const FieldValue& value) {
   out.push_back(value.is_structure() ? '}' : ']');
 }
 
+// All contexts but those that have a place of their own. `separator` stands between them.
+template <class AppendOne>
+void append_contexts(Buffer& out, const Event& event, char separator, AppendOne append_one) {
+  const std::vector<std::string>& names = event.event_class->contexts;
+  bool is_first = true;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (has_own_place(names[i])) continue;
+    if (!is_first) out.push_back(separator);
+    is_first = false;
+    append_one(names[i], event.context(i));
+  }
+}
+
+bool has_contexts(const Event& event) {
+  const std::vector<std::string>& names = event.event_class->contexts;
+  return !std::all_of(names.begin(), names.end(), has_own_place);
+}
+
 const char* lost_what(const Loss& loss) {
   return loss.kind == Loss::Kind::kEvents ? "events" : "packets";
 }
@@ -136,6 +155,15 @@ class TextPrinter : public EventPrinter {
       fmt::format_to(std::back_inserter(line_), " [{}", *event.vpid);
       if (event.vtid) fmt::format_to(std::back_inserter(line_), "/{}", *event.vtid);
       line_.push_back(']');
+    }
+    if (has_contexts(event)) {
+      append(line_, " {");
+      append_contexts(line_, event, ' ', [this](std::string_view name, const FieldValue& value) {
+        append(line_, name);
+        line_.push_back('=');
+        append_text(line_, value);
+      });
+      line_.push_back('}');
     }
     const std::vector<std::string>& fields = event.event_class->fields;
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -188,6 +216,15 @@ class JsonPrinter : public EventPrinter {
       append(line_, R"(,"procname":)");
       append_quoted(line_, *event.procname);
     }
+    if (has_contexts(event)) {
+      append(line_, R"(,"contexts":{)");
+      append_contexts(line_, event, ',', [this](std::string_view name, const FieldValue& value) {
+        append_quoted(line_, name);
+        line_.push_back(':');
+        append_json(line_, value);
+      });
+      line_.push_back('}');
+    }
     append(line_, R"(,"fields":{)");
     const std::vector<std::string>& fields = event.event_class->fields;
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -232,10 +269,13 @@ class CsvPrinter : public EventPrinter {
     fmt::format_to(std::back_inserter(line_), ",{},{},{},", cell(event.cpu_id), cell(event.vpid), cell(event.vtid));
     append_cell(event.procname.value_or(""));
     std::vector<std::string> cells(columns_.size());
-    for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) {
-      const auto column = columns_.find(event.event_class->fields[i]);
-      if (column != columns_.end()) cells[column->second] = text_of(event.field(i));
-    }
+    const auto set = [&](const std::string& name, const FieldValue& value) {
+      const auto column = columns_.find(name);
+      if (column != columns_.end()) cells[column->second] = text_of(value);
+    };
+    const EventClass& recorded = *event.event_class;
+    for (std::size_t i = 0; i < recorded.contexts.size(); ++i) set(recorded.contexts[i], event.context(i));
+    for (std::size_t i = 0; i < recorded.fields.size(); ++i) set(recorded.fields[i], event.field(i));
     for (const std::string& text : cells) {
       line_.push_back(',');
       append_cell(text);
@@ -279,6 +319,10 @@ class CsvPrinter : public EventPrinter {
 };
 
 }  // namespace
+
+bool has_own_place(const std::string& context) {
+  return context == "vpid" || context == "vtid" || context == "procname";
+}
 
 void write_out(std::FILE* out, std::string_view text) {
   errno = 0;

@@ -22,6 +22,9 @@ struct OutputClosed {
 // Writes the text and what `out` still holds. Throws OutputClosed.
 void write_out(std::FILE* out, std::string_view text);
 
+// A context that every format has a place for. All others are printed beside the fields.
+bool has_own_place(const std::string& context);
+
 class EventPrinter {
  public:
   explicit EventPrinter(std::FILE* out) : out_(out) {}
@@ -40,14 +43,16 @@ class EventPrinter {
 };
 
 // `2026-01-01 00:00:00.000000000 +0.000000250 ros2:callback_start cpu 0 ping [71/71] callback=0x7f is_intra_process=0`,
-// where the second number is the time since the previous event.
+// where the second number is the time since the previous event. Other contexts stand as {vppid=70} before the fields.
 std::unique_ptr<EventPrinter> make_text_printer(std::FILE* out);
 
-// {"time_ns":…,"event":"ros2:callback_start","cpu_id":0,"vpid":71,"vtid":71,"procname":"ping","fields":{…}}
+// {"time_ns":…,"event":"ros2:callback_start","cpu_id":0,"vpid":71,"vtid":71,"procname":"ping","fields":{…}}, with
+// "contexts":{…} before the fields if there are others.
 std::unique_ptr<EventPrinter> make_json_printer(std::FILE* out);
 
 // A header line, then one line for each event: time_ns, event, cpu_id, vpid, vtid, procname, then `fields`, the names
-// of all fields of all events. Losses go to the standard error output.
+// of all fields and other contexts of all events. Where an event has both of one name, the field counts. Losses go to
+// the standard error output.
 std::unique_ptr<EventPrinter> make_csv_printer(std::FILE* out, std::vector<std::string> fields);
 
 }  // namespace tracing

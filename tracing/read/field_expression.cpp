@@ -55,21 +55,7 @@ bool accepts(Operator comparison, std::partial_ordering order) {
   }
 }
 
-std::optional<Number> number_of(const FieldValue& field) {
-  if (const auto value = field.integer()) return Number(*value);
-  if (const auto value = field.unsigned_integer()) return Number(*value);
-  if (const auto value = field.real()) return Number(*value);
-  return std::nullopt;
-}
-
-// `a.b[2]`
-struct Path {
-  using Part = std::variant<std::string, std::size_t>;
-  std::string first;
-  std::vector<Part> rest;
-};
-
-std::optional<FieldValue> inside(FieldValue field, const Path::Part& part) {
+std::optional<FieldValue> inside(FieldValue field, const FieldPath::Part& part) {
   if (field.is_variant()) field = field[0];
   if (const auto* const index = std::get_if<std::size_t>(&part)) {
     return field.is_array() && *index < field.size() ? std::optional(field[*index]) : std::nullopt;
@@ -81,6 +67,45 @@ std::optional<FieldValue> inside(FieldValue field, const Path::Part& part) {
   return std::nullopt;
 }
 
+FieldContent content_of(const FieldValue& field) {
+  FieldContent content;
+  content.label = field.enumeration_label();
+  if (const auto number = field.integer()) {
+    content.value = *number;
+  } else if (const auto large = field.unsigned_integer()) {
+    content.value = *large;
+  } else if (const auto real = field.real()) {
+    content.value = *real;
+  } else if (const auto text = field.string()) {
+    content.value = *text;
+  } else {
+    content.value = FieldParts{field.size()};
+  }
+  return content;
+}
+
+std::optional<FieldContent> look_up_in(const Event& event, const FieldPath& path) {
+  if (path.rest.empty()) {
+    if (path.first == "procname") {
+      return event.procname ? std::optional(FieldContent{*event.procname, {}}) : std::nullopt;
+    }
+    const auto* const context = path.first == "vpid"     ? &event.vpid
+                                : path.first == "vtid"   ? &event.vtid
+                                : path.first == "cpu_id" ? &event.cpu_id
+                                                         : nullptr;
+    if (context != nullptr) return *context ? std::optional(FieldContent{**context, {}}) : std::nullopt;
+  }
+  std::optional<FieldValue> field = event.field(path.first);
+  if (!field) field = event.context(path.first);
+  for (const FieldPath::Part& part : path.rest) {
+    if (!field) return std::nullopt;
+    field = inside(*field, part);
+  }
+  if (!field) return std::nullopt;
+  if (field->is_variant()) field = (*field)[0];
+  return content_of(*field);
+}
+
 }  // namespace
 
 struct FieldExpression::Node {
@@ -88,48 +113,48 @@ struct FieldExpression::Node {
   Kind kind = Kind::kComparison;
   std::vector<std::unique_ptr<const Node>> parts;  // all nodes but comparisons have parts
 
-  Path path;
+  FieldPath path;
   Operator comparison = Operator::kIsTrue;
   Value value;
   std::regex pattern;
 
-  bool holds(const Event& event) const {
+  template <class Find>
+  bool holds(const Find& find) const {
     switch (kind) {
       case Kind::kOr:
-        return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part->holds(event); });
+        return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part->holds(find); });
       case Kind::kAnd:
-        return std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return part->holds(event); });
+        return std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return part->holds(find); });
       case Kind::kNot:
-        return !parts.front()->holds(event);
+        return !parts.front()->holds(find);
       case Kind::kComparison:
-        return compares(event);
+        return compares(find(path));
     }
     return false;
   }
 
+  void add_fields(std::vector<std::string>& names) const {
+    for (const auto& part : parts) part->add_fields(names);
+    if (kind == Kind::kComparison && std::find(names.begin(), names.end(), path.first) == names.end()) {
+      names.push_back(path.first);
+    }
+  }
+
  private:
-  bool compares(const Event& event) const {
-    if (path.rest.empty()) {
-      if (path.first == "procname") return event.procname && accepts_text(*event.procname);
-      const auto* const context = path.first == "vpid"     ? &event.vpid
-                                  : path.first == "vtid"   ? &event.vtid
-                                  : path.first == "cpu_id" ? &event.cpu_id
-                                                           : nullptr;
-      if (context != nullptr) return *context && accepts_number(Number(**context));
-    }
-    std::optional<FieldValue> field = event.field(path.first);
-    for (const Path::Part& part : path.rest) {
-      if (!field) return false;
-      field = inside(*field, part);
-    }
-    if (!field) return false;
-    if (field->is_variant()) field = (*field)[0];
-    if (const auto label = field->enumeration_label(); label && std::holds_alternative<std::string>(value)) {
-      return accepts_text(*label);
-    }
-    if (const auto number = number_of(*field)) return accepts_number(*number);
-    if (const auto text = field->string()) return accepts_text(*text);
-    return comparison == Operator::kIsTrue && field->size() > 0;
+  bool compares(const std::optional<FieldContent>& content) const {
+    if (!content) return false;
+    if (content->label && std::holds_alternative<std::string>(value)) return accepts_text(*content->label);
+    return std::visit(
+        [this]<class Content>(const Content& held) {
+          if constexpr (std::is_same_v<Content, std::string_view>) {
+            return accepts_text(held);
+          } else if constexpr (std::is_same_v<Content, FieldParts>) {
+            return comparison == Operator::kIsTrue && held.count > 0;
+          } else {
+            return accepts_number(Number(held));
+          }
+        },
+        content->value);
   }
 
   bool accepts_number(const Number& number) const {
@@ -252,8 +277,8 @@ class Parser {
     return std::string(text_.substr(begin, at_ - begin));
   }
 
-  Path parse_path() {
-    Path path;
+  FieldPath parse_path() {
+    FieldPath path;
     path.first = parse_name();
     for (;;) {
       if (take(".")) {
@@ -338,7 +363,17 @@ FieldExpression& FieldExpression::operator=(FieldExpression&&) noexcept = defaul
 FieldExpression::~FieldExpression() = default;
 
 bool FieldExpression::holds(const Event& event) const {
-  return root_->holds(event);
+  return root_->holds([&event](const FieldPath& path) { return look_up_in(event, path); });
+}
+
+bool FieldExpression::holds(const LookUp& look_up) const {
+  return root_->holds(look_up);
+}
+
+std::vector<std::string> FieldExpression::fields() const {
+  std::vector<std::string> names;
+  root_->add_fields(names);
+  return names;
 }
 
 }  // namespace tracing

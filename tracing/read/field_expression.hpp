@@ -5,15 +5,21 @@
 //   and        = not { "&&" not }        operator   = == != < <= > >= =~ (a regular expression that matches somewhere)
 //   not        = "!" not | "(" expression ")" | comparison
 //
-// A field is a field of the payload, a member of one of its structures (`a.b`), an element (`gid[0]`), or one of
-// `cpu_id`, `vpid`, `vtid` and `procname`. A comparison with a field that the event does not have is false. A field
-// alone is true if the event has it and it is not 0, false or empty.
+// A field is a field of the payload, a member of one of its structures (`a.b`), an element (`gid[0]`), `cpu_id`, or a
+// context such as `vpid`, if the payload has no field of this name. A comparison with a field that the event does not
+// have is false. A field alone is true if the event has it and it is not 0, false or empty.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "tracing/reader/event.hpp"
 
@@ -29,6 +35,22 @@ class ExpressionError : public std::runtime_error {
   std::size_t column_;
 };
 
+// Where a value is in an event: a field, then a member or an element of what stands there, and so on.
+struct FieldPath {
+  using Part = std::variant<std::string, std::size_t>;
+  std::string first;
+  std::vector<Part> rest;
+};
+
+// What stands there. Anything that is neither a number nor a text counts by the number of its parts.
+struct FieldParts {
+  std::size_t count = 0;
+};
+struct FieldContent {
+  std::variant<std::int64_t, std::uint64_t, double, std::string_view, FieldParts> value;
+  std::optional<std::string_view> label;  // of an enumeration; a text is compared with the label
+};
+
 class FieldExpression {
  public:
   // Throws ExpressionError.
@@ -38,6 +60,12 @@ class FieldExpression {
   ~FieldExpression();
 
   bool holds(const Event& event) const;
+  // The same for an event that is stored in another way. `look_up` returns nothing for a field that the event lacks.
+  using LookUp = std::function<std::optional<FieldContent>(const FieldPath&)>;
+  bool holds(const LookUp& look_up) const;
+
+  // The first names of all paths in the expression, in their order, each once.
+  std::vector<std::string> fields() const;
 
   struct Node;
 

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -65,7 +67,7 @@ class CountingSink : public tracing::TraceSink {
   std::uint64_t lost_events = 0;
   std::uint64_t lost_packets = 0;
   bool lost_unknown = false;
-  std::set<std::string> fields;
+  std::set<std::string> fields;  // and contexts
 
   void on_event(const tracing::Event& event) override {
     if (filter_.is_behind(event)) throw tracing::EndOfReading();
@@ -78,6 +80,9 @@ class CountingSink : public tracing::TraceSink {
     if (counts_[id]++ == 0) {
       names_[id] = event.name();
       fields.insert(event.event_class->fields.begin(), event.event_class->fields.end());
+      const std::vector<std::string>& contexts = event.event_class->contexts;
+      std::copy_if(contexts.begin(), contexts.end(), std::inserter(fields, fields.end()),
+                   [](const std::string& context) { return !tracing::has_own_place(context); });
     }
     if (left_ && --*left_ == 0) throw Enough();
   }
@@ -105,16 +110,47 @@ int print_error(const tracing::TraceReadError& error) {
   return print_error(error.what(), error.remedy());
 }
 
+// Of such a trace only the complete packets are read.
+void say_what_is_open(const tracing::TraceReader& reader) {
+  for (const std::filesystem::path& directory : reader.open_directories()) {
+    const std::string note =
+        fmt::format("launch trace read: note: the trace '{}' is still being written; what is complete is read\n",
+                    directory.string());
+    std::fputs(note.c_str(), stderr);
+  }
+}
+
+void say_that_there_is_no_such_node(const tracing::EventFilter& filter) {
+  if (filter.nodes.empty() || (filter.node_filter() != nullptr && filter.node_filter()->has_match())) return;
+  const std::vector<std::string> names =
+      filter.node_filter() == nullptr ? std::vector<std::string>() : filter.node_filter()->names();
+  const std::string there = names.empty() ? "no nodes" : fmt::format("{}", fmt::join(names, ", "));
+  std::fputs(fmt::format("launch trace read: warning: no node is called '{}'; what was read has {}\n",
+                         fmt::join(filter.nodes, "' or '"), there)
+                 .c_str(),
+             stderr);
+}
+
 // Reads as much as possible and returns the exit code.
 int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
+  bool lacks_descriptions = false;
   try {
     tracing::TraceReader reader(arguments.directories);
+    say_what_is_open(reader);
     if (arguments.limit != 0) reader.read(sink);
+    lacks_descriptions = reader.lacks_descriptions();
   } catch (const tracing::TraceReadError& error) {
     return print_error(error);
   } catch (const Enough&) {
     return kSuccess;
   }
+  if (lacks_descriptions) {
+    std::fputs(
+        "launch trace read: note: events that LTTng has not described yet are left out; it describes them when a "
+        "traced program ends or the session is stopped\n",
+        stderr);
+  }
+  if (arguments.limit != 0) say_that_there_is_no_such_node(arguments.filter);
   return kSuccess;
 }
 
@@ -187,6 +223,9 @@ int main(int argc, char** argv) {
   app.add_option("--event", arguments.filter.events, "Only events of these names; * and ? stand for other characters")
       ->allow_extra_args(false);
   app.add_option("--process", arguments.filter.processes, "Only of these processes: ids, or names with * and ?")
+      ->allow_extra_args(false);
+  app.add_option("--node", arguments.filter.nodes,
+                 "Only of these nodes: events of their objects, and all while their callbacks run; names with * and ?")
       ->allow_extra_args(false);
   app.add_option("--where", expressions,
                  "Only events for which this holds, such as 'queue_depth > 3 && topic_name =~ \"scan\"'")

@@ -2,11 +2,13 @@
 // Reads the traces that our own decoder does not know, with libbabeltrace2. Private to the reader.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "tracing/reader/trace_sink.hpp"
+#include "tracing/reader/event.hpp"
 
 namespace tracing {
 
@@ -16,8 +18,11 @@ class BabeltraceReader {
   BabeltraceReader(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& traces);
   ~BabeltraceReader();
 
-  // As TraceReader::read().
-  void read(TraceSink& sink);
+  // As in TraceReader.
+  TraceItem next();
+  void throw_damage() const;
+  const std::vector<std::string>& damage() const;
+  const std::deque<TraceDescription>& traces() const;
 
  private:
   struct Implementation;

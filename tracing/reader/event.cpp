@@ -8,10 +8,22 @@
 
 namespace tracing {
 
+namespace {
+
+std::optional<std::size_t> index_in(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
 std::optional<std::size_t> EventClass::index_of(std::string_view field) const {
-  const auto found = std::find(fields.begin(), fields.end(), field);
-  if (found == fields.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - fields.begin());
+  return index_in(fields, field);
+}
+
+std::optional<std::size_t> EventClass::index_of_context(std::string_view context) const {
+  return index_in(contexts, context);
 }
 
 std::optional<std::uint64_t> FieldValue::foreign_unsigned_integer() const {
@@ -59,6 +71,10 @@ bool FieldValue::is_hexadecimal() const {
   return bt_field_class_type_is(bt_field_class_get_type(type), BT_FIELD_CLASS_TYPE_INTEGER) &&
          bt_field_class_integer_get_preferred_display_base(type) ==
              BT_FIELD_CLASS_INTEGER_PREFERRED_DISPLAY_BASE_HEXADECIMAL;
+}
+
+bool FieldValue::is_foreign_enumeration() const {
+  return bt_field_class_type_is(bt_field_get_class_type(foreign_), BT_FIELD_CLASS_TYPE_ENUMERATION);
 }
 
 bool FieldValue::is_array() const {
@@ -125,6 +141,20 @@ std::optional<FieldValue> Event::field(std::string_view field_name) const {
   const std::optional<std::size_t> index = event_class->index_of(field_name);
   if (!index) return std::nullopt;
   return field(*index);
+}
+
+FieldValue Event::context(std::size_t index) const {
+  const bool is_of_stream = index < event_class->stream_contexts;
+  const std::size_t member = is_of_stream ? index : index - event_class->stream_contexts;
+  if (record != nullptr) return FieldValue((is_of_stream ? *stream_context : *event_context)[member]);
+  const bt_field* const structure = is_of_stream ? foreign_stream_context : foreign_event_context;
+  return FieldValue(bt_field_structure_borrow_member_field_by_index_const(structure, member));
+}
+
+std::optional<FieldValue> Event::context(std::string_view context_name) const {
+  const std::optional<std::size_t> index = event_class->index_of_context(context_name);
+  if (!index) return std::nullopt;
+  return context(*index);
 }
 
 }  // namespace tracing

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,10 +16,21 @@
 
 #include "tracing/ctf/field.hpp"
 #include "tracing/ctf/stream_cursor.hpp"
+#include "tracing/ctf/trace_class.hpp"
+#include "tracing/reader/recording.hpp"
 
 struct bt_field;  // libbabeltrace2's
 
 namespace tracing {
+
+// A trace: what one tracer recorded on one machine, in one or several directories.
+struct TraceDescription {
+  std::vector<std::filesystem::path>
+      directories;   // the chunks of a rotated session and several snapshots are one trace
+  std::string uuid;  // empty: it has none
+  // As the tracer describes itself: "hostname", "domain" ("ust" or "kernel"), "tracer_name", …
+  std::map<std::string, ctf::EnvironmentValue> environment;
+};
 
 // One data stream of a trace: in LTTng, the buffers of one channel on one CPU.
 struct Stream {
@@ -32,8 +45,14 @@ struct EventClass {
   std::size_t id = 0;               // counts from 0 within one reader: an index for the caller's own tables
   std::size_t trace = 0;            // as in Stream
   std::vector<std::string> fields;  // of the payload, in order
+  // What the tracer recorded beside the payload, such as "vpid" or "perf_thread_instructions". The contexts of all
+  // events of a stream come first, then those of this event alone.
+  std::vector<std::string> contexts;
+  std::size_t stream_contexts = 0;       // the number of the former
+  const Recording* recording = nullptr;  // lives as long as the reader; null in an event that no reader made
 
   std::optional<std::size_t> index_of(std::string_view field) const;
+  std::optional<std::size_t> index_of_context(std::string_view context) const;
 };
 
 // The value of one field. Asking for another type than was recorded gives nullopt.
@@ -52,6 +71,9 @@ class FieldValue {
   std::optional<std::string_view> string() const;
 
   bool is_hexadecimal() const;  // an integer that the trace wants in hexadecimal, such as a pointer
+  bool is_enumeration() const {
+    return foreign_ == nullptr ? direct_.type->kind == ctf::FieldKind::kEnumeration : is_foreign_enumeration();
+  }
   bool is_array() const;
   bool is_structure() const;
   bool is_variant() const;
@@ -63,6 +85,7 @@ class FieldValue {
   std::optional<std::string_view> enumeration_label() const;  // the first label of the value, if it has one
 
  private:
+  bool is_foreign_enumeration() const;
   std::optional<std::uint64_t> foreign_unsigned_integer() const;
   std::optional<std::int64_t> foreign_integer() const;
 
@@ -83,10 +106,17 @@ struct Event {
   // One of the two holds the fields, for field().
   const ctf::Record* record = nullptr;
   const bt_field* foreign_payload = nullptr;
+  // The same for context().
+  const ctf::Record* stream_context = nullptr;
+  const ctf::Record* event_context = nullptr;
+  const bt_field* foreign_stream_context = nullptr;
+  const bt_field* foreign_event_context = nullptr;
 
   std::string_view name() const { return event_class->name; }
   FieldValue field(std::size_t index) const;  // index < event_class->fields.size()
   std::optional<FieldValue> field(std::string_view field_name) const;
+  FieldValue context(std::size_t index) const;  // index < event_class->contexts.size()
+  std::optional<FieldValue> context(std::string_view context_name) const;
 };
 
 // Events that the tracer could not keep, according to the trace itself.
@@ -100,6 +130,13 @@ struct Loss {
   std::optional<std::int64_t> begin_ns;  // the loss lies within this time range, if the trace tells it
   std::optional<std::int64_t> end_ns;
   std::optional<std::uint64_t> count;  // nullopt: some, but the number is unknown
+};
+
+// What a reader gives next: an event or a loss, or neither at the end.
+struct TraceItem {
+  const Event* event = nullptr;
+  const Loss* loss = nullptr;
+  explicit operator bool() const { return event != nullptr || loss != nullptr; }
 };
 
 }  // namespace tracing

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "tracing/reader/babeltrace.hpp"
-#include "tracing/reader/trace_sink.hpp"
+#include "tracing/reader/event.hpp"
 
 namespace tracing {
 
@@ -18,13 +18,17 @@ class MessageTranslator {
   MessageTranslator();
   ~MessageTranslator();
 
-  void translate(const bt_message* message, TraceSink& sink);
+  // Nothing for other messages. An item is valid until the next call, and as long as its message.
+  TraceItem translate(const bt_message* message);
+
+  // Those that have given a message, in this order.
+  const std::deque<TraceDescription>& traces() const { return traces_; }
 
  private:
   struct KnownClass;
 
-  void translate_event(const bt_message* message, TraceSink& sink);
-  void translate_loss(const bt_message* message, Loss::Kind kind, TraceSink& sink);
+  TraceItem translate_event(const bt_message* message);
+  TraceItem translate_loss(const bt_message* message, Loss::Kind kind);
   const KnownClass& known_class(const bt_event* event);
   const Stream& known_stream(const bt_stream* stream);
   std::size_t known_trace(const bt_trace* trace);
@@ -32,8 +36,11 @@ class MessageTranslator {
   std::unordered_map<const bt_event_class*, std::unique_ptr<KnownClass>> classes_;
   std::deque<Stream> streams_;
   std::unordered_map<const bt_stream*, const Stream*> stream_index_;
-  std::unordered_map<const bt_trace*, std::size_t> traces_;
+  std::deque<TraceDescription> traces_;
+  std::unordered_map<const bt_trace*, std::size_t> trace_index_;
   std::deque<babeltrace::StreamReference> stream_references_;  // keeps the addresses above from being reused
+  Event event_;
+  Loss loss_;
 };
 
 }  // namespace tracing

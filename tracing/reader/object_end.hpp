@@ -29,11 +29,12 @@ struct ObjectEnd {
     kRmwClient,
     kRclTimer,
     kRclcppCallback,
+    kRclLifecycleStateMachine,
   };
   Kind kind = Kind::kRclNode;
   Handle handle = 0;
 
-  static constexpr std::array<std::pair<std::string_view, Kind>, 12> kKinds{{
+  static constexpr std::array<std::pair<std::string_view, Kind>, 13> kKinds{{
       {"ros2_ext:rcl_node_fini", Kind::kRclNode},
       {"ros2_ext:rmw_publisher_fini", Kind::kRmwPublisher},
       {"ros2_ext:rcl_publisher_fini", Kind::kRclPublisher},
@@ -46,6 +47,7 @@ struct ObjectEnd {
       {"ros2_ext:rmw_client_fini", Kind::kRmwClient},
       {"ros2_ext:rcl_timer_fini", Kind::kRclTimer},
       {"ros2_ext:rclcpp_callback_fini", Kind::kRclcppCallback},
+      {"ros2_ext:rcl_lifecycle_state_machine_fini", Kind::kRclLifecycleStateMachine},
   }};
 
   bool operator==(const ObjectEnd&) const = default;

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 
+#include "tracing/ctf/metadata_text.hpp"
+#include "tracing/ctf/trace_class.hpp"
+#include "tracing/ctf/tsdl_tokens.hpp"
 #include "tracing/reader/trace_read_error.hpp"
 
 namespace tracing {
@@ -33,25 +37,22 @@ std::vector<fs::path> trace_directories(const fs::path& directory) {
   return found;
 }
 
-// The identity of the trace in a directory, as the plugin reads it from the metadata. It is the path when the trace has
-// no identity or can't be read; the reading itself then reports the error.
-std::string identity(const bt_component_class_source* ctf_fs, const fs::path& directory) {
-  babeltrace::Value parameters(bt_value_map_create());
-  babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "type", "directory"), "bt_value_map_insert");
-  babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "input", directory.c_str()),
-                    "bt_value_map_insert");
-  const babeltrace::QueryExecutor query(bt_query_executor_create(
-      bt_component_class_source_as_component_class_const(ctf_fs), "babeltrace.support-info", parameters.get()));
-  const bt_value* answer = nullptr;
-  if (bt_query_executor_query(query.get(), &answer) != BT_QUERY_EXECUTOR_QUERY_STATUS_OK) {
-    bt_current_thread_clear_error();
-    return directory;
+// The identity in the metadata of a directory. It is the path when the trace has no identity or can't be read; the
+// reading itself then reports the error. libbabeltrace2 has a query for it, which leaves the file open in 2.0.4.
+std::string identity(const fs::path& directory) {
+  try {
+    const std::vector<ctf::Token> tokens = ctf::tsdl_tokens(ctf::read_metadata(directory / kMetadata));
+    const auto is_trace_block = [](const ctf::Token& word, const ctf::Token& next) {
+      return word.is("trace") && next.is("{");
+    };
+    auto token = std::adjacent_find(tokens.begin(), tokens.end(), is_trace_block);
+    for (; tokens.end() - token > 2 && !token->is("}"); ++token) {
+      if (token[0].is("uuid") && token[1].is("=")) return token[2].text;
+    }
+  } catch (const ctf::UnsupportedTrace&) {
+    // The other reader may know it.
   }
-  const babeltrace::ConstValue owned(answer);
-  if (!bt_value_is_map(answer)) return directory;
-  const bt_value* group = bt_value_map_borrow_entry_value_const(answer, "group");
-  if (group == nullptr || !bt_value_is_string(group)) return directory;
-  return bt_value_string_get(group);
+  return directory;
 }
 
 }  // namespace
@@ -83,12 +84,11 @@ std::vector<fs::path> find_traces(const fs::path& directory) {
   return directories;
 }
 
-std::vector<TraceDirectories> group_by_identity(const bt_component_class_source* ctf_fs,
-                                                const std::vector<fs::path>& directories) {
+std::vector<TraceDirectories> group_by_identity(const std::vector<fs::path>& directories) {
   std::vector<TraceDirectories> traces;
   std::map<std::string, std::size_t> by_identity;
   for (const fs::path& path : directories) {
-    const auto [known, is_new] = by_identity.try_emplace(identity(ctf_fs, path), traces.size());
+    const auto [known, is_new] = by_identity.try_emplace(identity(path), traces.size());
     if (is_new) traces.emplace_back();
     traces[known->second].push_back(path);
   }

@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "tracing/reader/babeltrace.hpp"
-
 namespace tracing {
 
 // Directories to be read as one trace: the chunks of a rotated session have the same identity and continue each other.
@@ -16,7 +14,6 @@ using TraceDirectories = std::vector<std::filesystem::path>;
 std::vector<std::filesystem::path> find_traces(const std::filesystem::path& directory);
 
 // One entry per trace, in the order of their paths.
-std::vector<TraceDirectories> group_by_identity(const bt_component_class_source* ctf_fs,
-                                                const std::vector<std::filesystem::path>& directories);
+std::vector<TraceDirectories> group_by_identity(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace tracing

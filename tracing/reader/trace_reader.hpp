@@ -5,6 +5,7 @@
 // merged into one sequence. A decoder of our own reads what LTTng writes; libbabeltrace2 reads everything else.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -34,6 +35,22 @@ class TraceReader {
   // Reads everything; to be called once. Throws TraceReadError on damaged data, after the sink has got all events
   // before the damage. With our own decoder it has also got the events of the other packets and streams.
   void read(TraceSink& sink);
+
+  // The same, item by item. An item is valid until the next call. The end comes even after damage: throw_damage() then
+  // throws what read() would throw.
+  TraceItem next();
+  void throw_damage() const;
+
+  // What could not be read so far, a line each.
+  const std::vector<std::string>& damage() const;
+  // Directories with files that a program was writing when the reading began. Such a trace ends with the last packet
+  // that was complete.
+  const std::vector<std::filesystem::path>& open_directories() const;
+  // A packet of such a trace, and with it what follows in its file, was left out because the metadata do not describe
+  // its events yet. LTTng writes the descriptions when a traced program ends or the session is stopped.
+  bool lacks_descriptions() const;
+  // With libbabeltrace2 only the traces that have given an item so far. The addresses stay.
+  const std::deque<TraceDescription>& traces() const;
 
  private:
   struct Implementation;

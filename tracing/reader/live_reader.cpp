@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/reader/live_reader.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "tracing/reader/babeltrace_graph.hpp"
+#include "tracing/reader/message_translator.hpp"
+#include "tracing/reader/trace_read_error.hpp"
+
+namespace tracing {
+
+namespace {
+
+using babeltrace::MessageGraph;
+
+constexpr const char* kNoDaemonRemedy =
+    "a live session goes to a relay daemon: start 'lttng-relayd', and give the session a live-timer";
+
+std::string name_of_this_machine() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+struct KnownSession {
+  std::uint64_t streams = 0;
+  std::uint64_t viewers = 0;
+};
+
+std::uint64_t number(const bt_value* map, const char* key) {
+  const bt_value* const value = bt_value_map_borrow_entry_value_const(map, key);
+  return value != nullptr && bt_value_is_unsigned_integer(value) ? bt_value_integer_unsigned_get(value) : 0;
+}
+
+bool has_text(const bt_value* map, const char* key, const std::string& text) {
+  const bt_value* const value = bt_value_map_borrow_entry_value_const(map, key);
+  return value != nullptr && bt_value_is_string(value) && bt_value_string_get(value) == text;
+}
+
+// What the relay daemon says of the session; nullopt when it does not have it.
+std::optional<KnownSession> ask_relay(const bt_component_class_source* lttng_live, const LiveAddress& address) {
+  const babeltrace::Value parameters(bt_value_map_create());
+  const std::string relay = "net://" + address.relay;
+  babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "url", relay.c_str()), "bt_value_map_insert");
+  const babeltrace::QueryExecutor query(bt_query_executor_create(
+      bt_component_class_source_as_component_class_const(lttng_live), "sessions", parameters.get()));
+  const bt_value* answer = nullptr;
+  if (bt_query_executor_query(query.get(), &answer) != BT_QUERY_EXECUTOR_QUERY_STATUS_OK) {
+    bt_current_thread_clear_error();
+    throw TraceReadError(fmt::format("no relay daemon answers at {}", relay), kNoDaemonRemedy);
+  }
+  const babeltrace::ConstValue owned(answer);
+  if (!bt_value_is_array(answer)) return std::nullopt;
+  for (std::uint64_t i = 0; i < bt_value_array_get_length(answer); ++i) {
+    const bt_value* const session = bt_value_array_borrow_element_by_index_const(answer, i);
+    if (!has_text(session, "session-name", address.session) || !has_text(session, "target-hostname", address.host)) {
+      continue;
+    }
+    return KnownSession{number(session, "stream-count"), number(session, "client-count")};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+LiveAddress live_address(const std::string& text) {
+  constexpr std::string_view kScheme = "net://";
+  LiveAddress address;
+  address.host = name_of_this_machine();
+  address.session = text;
+  if (text.find("://") == std::string::npos) return address;
+  const std::size_t host = text.find("/host/", kScheme.size());
+  const std::size_t session = host == std::string::npos ? host : text.find('/', host + 6);
+  if (!text.starts_with(kScheme) || session == std::string::npos || session + 1 == text.size()) {
+    throw TraceReadError(fmt::format("'{}' is no address of a live session", text),
+                         "write net://RELAY[:PORT]/host/HOST/SESSION, or the name of a session of this machine");
+  }
+  address.relay = text.substr(kScheme.size(), host - kScheme.size());
+  address.host = text.substr(host + 6, session - host - 6);
+  address.session = text.substr(session + 1);
+  return address;
+}
+
+struct LiveReader::Implementation {
+  LiveAddress address;
+  MessageGraph graph{"lttng-live"};
+  MessageTranslator translator;  // its references must be released before the graph
+  std::string what;
+  std::size_t next_message = 0;
+  bool is_late = false;
+  bool is_at_end = false;
+
+  MessageGraph::Fetch fetch() {
+    next_message = 0;
+    return graph.fetch(what, "the relay daemon may have ended");
+  }
+};
+
+LiveReader::LiveReader(LiveAddress address) : implementation_(std::make_unique<Implementation>()) {
+  implementation_->what = fmt::format("cannot read the live session '{}'", address.url());
+  implementation_->address = std::move(address);
+}
+
+LiveReader::~LiveReader() = default;
+
+bool LiveReader::attach() {
+  Implementation& reader = *implementation_;
+  const std::optional<KnownSession> known = ask_relay(reader.graph.source_class(), reader.address);
+  if (!known) return false;
+  if (known->viewers > 0) {
+    throw TraceReadError(reader.what + ": another viewer has attached to it",
+                         "the relay daemon has one viewer for a session; end the other one");
+  }
+  reader.is_late = known->streams > 0;
+  const babeltrace::Value parameters(bt_value_map_create());
+  bt_value* inputs = nullptr;
+  babeltrace::check(bt_value_map_insert_empty_array_entry(parameters.get(), "inputs", &inputs), "bt_value_map_insert");
+  babeltrace::check(bt_value_array_append_string_element(inputs, reader.address.url().c_str()),
+                    "bt_value_array_append");
+  babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "session-not-found-action", "end"),
+                    "bt_value_map_insert");
+  reader.graph.add_source("live", parameters.get(), reader.what, kNoDaemonRemedy);
+  // The source attaches when it is asked for messages.
+  reader.is_at_end = reader.fetch() == MessageGraph::Fetch::kEnd;
+  return true;
+}
+
+bool LiveReader::is_late() const {
+  return implementation_->is_late;
+}
+
+LiveReader::State LiveReader::next(TraceItem& item) {
+  Implementation& reader = *implementation_;
+  for (;;) {
+    while (reader.next_message < reader.graph.messages().size()) {
+      item = reader.translator.translate(reader.graph.messages()[reader.next_message++].get());
+      if (item) return State::kItem;
+    }
+    if (reader.is_at_end) return State::kEnd;
+    const MessageGraph::Fetch fetched = reader.fetch();
+    if (fetched == MessageGraph::Fetch::kNothingYet) return State::kNothingYet;
+    reader.is_at_end = fetched == MessageGraph::Fetch::kEnd;
+  }
+}
+
+}  // namespace tracing
