@@ -14,24 +14,30 @@ auto find_active(std::vector<ActiveCallback>& thread, ros2::Handle address) {
 
 }  // namespace
 
-void CallbackTracker::start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback) {
+std::optional<ActiveCallback> CallbackTracker::start(std::vector<ActiveCallback>& thread,
+                                                     const ActiveCallback& callback) {
   // An exception has left an earlier instance without an end. A callback that spins, and so runs itself in its own
   // thread, looks the same; its outer instance is lost.
-  const auto earlier = find_active(thread, callback.address);
-  if (earlier != thread.end()) {
+  std::optional<ActiveCallback> lost;
+  if (const auto earlier = find_active(thread, callback.address); earlier != thread.end()) {
     ++record(earlier->callback).unfinished;
+    lost = *earlier;
     thread.erase(earlier);
   }
   thread.push_back(callback);
+  return lost;
 }
 
-void CallbackTracker::end(std::vector<ActiveCallback>& thread, ros2::Handle address, std::int64_t time_ns) {
+std::optional<ActiveCallback> CallbackTracker::end(std::vector<ActiveCallback>& thread, ros2::Handle address,
+                                                   std::int64_t time_ns) {
   const auto active = find_active(thread, address);
-  if (active == thread.end()) return;
-  CallbackRecord& ended = record(active->callback);
-  ended.durations.add(time_ns - active->start_ns);
-  if (active->intra_process) ++ended.intra_process;
+  if (active == thread.end()) return std::nullopt;
+  const ActiveCallback instance = *active;
+  CallbackRecord& ended = record(instance.callback);
+  ended.durations.add(time_ns - instance.start_ns);
+  if (instance.intra_process) ++ended.intra_process;
   thread.erase(active);
+  return instance;
 }
 
 void CallbackTracker::abandon(const std::vector<ActiveCallback>& thread) {

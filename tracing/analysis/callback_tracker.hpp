@@ -6,11 +6,11 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 #include "tracing/analysis/duration_statistics.hpp"
-#include "tracing/analysis/object_model.hpp"
+#include "tracing/objects/object_model.hpp"
 
 namespace tracing {
 
@@ -30,10 +30,11 @@ struct CallbackRecord {
 
 class CallbackTracker {
  public:
-  // `thread`: the callbacks that run in the event's thread, innermost last. The caller keeps it between events.
-  void start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback);
-  // An end without a start is ignored; it occurs at the begin of a trace.
-  void end(std::vector<ActiveCallback>& thread, ros2::Handle address, std::int64_t time_ns);
+  // `thread`: the callbacks that run in the event's thread, innermost last. The caller keeps it between events. The
+  // result is an earlier instance that will have no end.
+  std::optional<ActiveCallback> start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback);
+  // The instance that ended. An end without a start is ignored; it occurs at the begin of a trace.
+  std::optional<ActiveCallback> end(std::vector<ActiveCallback>& thread, ros2::Handle address, std::int64_t time_ns);
   // Counts the callbacks that still run in a thread when the trace ends.
   void abandon(const std::vector<ActiveCallback>& thread);
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "tracing/analysis/duration_statistics.hpp"
-#include "tracing/analysis/object_model.hpp"
+#include "tracing/objects/object_model.hpp"
 #include "tracing/reader/execution_event.hpp"
 
 namespace tracing {
@@ -18,7 +18,7 @@ namespace tracing {
 // The object that is served. A waitable is known by its address alone: two that have the same address one after the
 // other count as one.
 struct Served {
-  Vpid vpid = 0;
+  ProcessId process = kNoProcess;
   ros2::ExecutionEvent::Kind kind = ros2::ExecutionEvent::Kind::kService;
   ObjectId id = kNoObject;   // of a service or a client; kNoObject when its initialisation is not in the trace
   ros2::Handle address = 0;  // of a waitable, and of an object without an id

@@ -4,29 +4,36 @@
 
 #include <cstdint>
 #include <map>
-#include <unordered_map>
 #include <vector>
 
 #include "tracing/analysis/results.hpp"
+#include "tracing/objects/process_table.hpp"
 #include "tracing/reader/trace_reader.hpp"
 
 namespace tracing {
 
 class OverviewCounter : public TraceSink {
  public:
-  void on_event(const Event& event) override;
+  void on_event(const Event& event) override { count(event, processes_.of(event)); }
   void on_loss(const Loss& loss) override;
 
   TraceOverview overview() const;
 
+  // For one that also needs the process of each event: counts the event and returns its process.
+  ProcessId count(const Event& event) {
+    const ProcessId process = processes_.of(event);
+    count(event, process);
+    return process;
+  }
+  const ProcessTable& processes() const { return processes_; }
+  // Where each process is in the processes of the overview; nullopt when it is not there.
+  std::vector<std::optional<ProcessIndex>> places() const;
+
  private:
-  struct Process {
-    std::optional<std::int64_t> vpid;
-    std::string name;
-    bool named_by_main_thread = false;
-  };
   struct CountedClass {
     std::string name;
+    bool of_launcher = false;
+    std::uint64_t by_launcher = 0;
     std::size_t trace = 0;
     std::vector<std::uint64_t> by_process;  // in the order of processes_
   };
@@ -36,17 +43,14 @@ class OverviewCounter : public TraceSink {
     std::optional<std::int64_t> vpid;
   };
 
-  std::size_t process_of(const Event& event);
-  std::vector<std::size_t> processes_that_lost(const CountedLoss& loss) const;
+  void count(const Event& event, ProcessId process);
+  std::vector<ProcessId> order() const;
+  std::vector<ProcessId> processes_that_lost(const CountedLoss& loss) const;
 
   std::uint64_t events_ = 0;
   std::optional<std::int64_t> begin_ns_;
   std::int64_t end_ns_ = 0;
-  std::vector<Process> processes_;
-  std::unordered_map<std::int64_t, std::size_t> process_index_;
-  std::optional<std::size_t> without_vpid_;
-  std::optional<std::int64_t> last_vpid_;  // consecutive events often come from one process
-  std::size_t last_process_ = 0;
+  ProcessTable processes_;
   std::vector<CountedClass> classes_;          // by EventClass::id
   std::map<std::string, CountedLoss> losses_;  // by stream
 };

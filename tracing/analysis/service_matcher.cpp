@@ -76,6 +76,14 @@ void ServiceMatcher::finish() {
 }
 
 void ServiceMatcher::end(const Call& call) {
+  if (sink_ != nullptr && call.sent_ns && call.received_ns) {
+    sink_->on_call({.client = call.client,
+                    .service = call.service,
+                    .sent_ns = *call.sent_ns,
+                    .taken_ns = call.taken_ns.value_or(0),
+                    .answered_ns = call.answered_ns.value_or(0),
+                    .received_ns = *call.received_ns});
+  }
   CallRecord& record = records_[{call.client, call.service}];
   ++record.requests;
   if (call.received_ns || (!call.sent_ns && call.answered_ns)) ++record.responses;

@@ -14,7 +14,8 @@
 #include <utility>
 
 #include "tracing/analysis/duration_statistics.hpp"
-#include "tracing/analysis/object_model.hpp"
+#include "tracing/analysis/execution_sink.hpp"
+#include "tracing/objects/object_model.hpp"
 
 namespace tracing {
 
@@ -30,6 +31,9 @@ struct CallRecord {
 
 class ServiceMatcher {
  public:
+  // Tells `sink`, unless it is null, each call whose response was taken.
+  explicit ServiceMatcher(ExecutionSink* sink = nullptr) : sink_(sink) {}
+
   // A call without a response is remembered until this many newer calls have begun. That bounds the memory.
   static constexpr std::size_t kRemembered = 16'384;
 
@@ -67,6 +71,7 @@ class ServiceMatcher {
   void end_now(const Key& key);  // a key of calls_
   void end(const Call& call);
 
+  ExecutionSink* sink_;
   std::unordered_map<Key, Call, HashKey> calls_;  // calls that have no response yet, or no client in the trace
   std::deque<Key> oldest_first_;                  // the keys of calls_, and of some calls that have ended
   std::map<Pair, CallRecord> records_;

@@ -8,10 +8,14 @@
 // After a TraceReadError finish() still gives the results of the events before the damage.
 #pragma once
 
+#include <utility>
+
+#include "tracing/analysis/allocation_decoder.hpp"
 #include "tracing/analysis/overview_counter.hpp"
 #include "tracing/analysis/results.hpp"
 #include "tracing/analysis/ros2_analysis.hpp"
 #include "tracing/analysis/start_tracker.hpp"
+#include "tracing/reader/lifecycle_state.hpp"
 #include "tracing/reader/ros2_decoder.hpp"
 #include "tracing/reader/trace_reader.hpp"
 
@@ -19,10 +23,21 @@ namespace tracing {
 
 class TraceAnalysis : public TraceSink {
  public:
+  // Tells `sink`, unless it is null, what happened while the trace is read. The sink must outlive the analysis.
+  // `chains` are those that the user has named.
+  explicit TraceAnalysis(ExecutionSink* sink = nullptr, std::vector<ChainDefinition> chains = {})
+      : ros2_(sink, std::move(chains)) {}
   void on_event(const Event& event) override;
   void on_loss(const Loss& loss) override;
 
+  // To be called once, at the end. Tells the sink what was not finished.
   TraceResults finish();
+
+  // What the ids of the sink refer to.
+  const ObjectModel& objects() const { return ros2_.model(); }
+  const std::vector<ProcessObject>& processes() const { return overview_.processes().processes(); }
+  // Where each process is in TraceResults::overview.processes; nullopt when it is not there.
+  std::vector<std::optional<ProcessIndex>> places() const { return overview_.places(); }
 
  private:
   OverviewCounter overview_;
@@ -32,6 +47,8 @@ class TraceAnalysis : public TraceSink {
   ros2::Decoder decoder_{[this](const std::string& problem) { warnings_.push_back(problem); }};
   ros2::ObjectEndDecoder ends_;
   ros2::ExecutionEventDecoder executions_;
+  ros2::LifecycleStateDecoder lifecycle_states_;
+  AllocationDecoder allocations_;
   bool lacks_thread_context_ = false;
 };
 
