@@ -2,6 +2,7 @@
 // Counts the events that a trace holds of each process, for a comparison with the events that were fired.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -15,12 +16,16 @@ class RecordedProcessCounter : public TraceSink {
   void on_event(const Event& event) override;
   void on_loss(const Loss&) override {}
 
-  // {"processes": [{"vpid": …, "nodes": ["/ns/name", …], "events": {"ros2:rcl_init": 1, …}}, …]}. Events without the
-  // context vpid are left out. The reader must still exist.
+  // {"processes": [{"vpid": …, "name": …, "seconds": …, "nodes": ["/ns/name", …], "events": {"ros2:rcl_init": 1, …}},
+  // …]}. The name is that of the last thread, and the seconds are those from the first event to the last. Events
+  // without the context vpid are left out. The reader must still exist.
   std::string json() const;
 
  private:
   struct Process {
+    std::string name;
+    std::int64_t begin_ns = 0;
+    std::int64_t end_ns = 0;
     std::set<std::string> nodes;
     std::map<const EventClass*, std::uint64_t> events;
   };

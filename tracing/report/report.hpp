@@ -4,20 +4,47 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tracing/analysis/results.hpp"
+#include "tracing/report/recorded_verdict.hpp"
 
 namespace tracing {
 
 struct Report {
-  std::filesystem::path directory;  // of the trace, absolute
+  std::filesystem::path directory;  // of the trace, absolute; the first one of several
   TraceResults results;
   std::string error;  // the reason why reading stopped early; empty when all was read
+  RecordedVerdict verdict = {};
+  std::vector<std::filesystem::path> open = {};  // traces that were still being written
+  bool lacks_descriptions = false;               // TraceReader::lacks_descriptions()
 };
 
-// The sections are: trace, losses (when there are any), events, callbacks, topics, notes. Lines have at most
-// kReportWidth columns, except for longer names. Ends with a newline.
-std::string text_report(const Report& report);
+// What was not there: the sentences of the verdicts, and chains with names that never were gone through.
+std::vector<std::string> absences_of(const Report& report);
+
+// What a text report shows, and how.
+struct ReportOptions {
+  std::size_t width = 100;  // columns
+  bool color = false;
+  bool compact = false;                         // for a screen with few lines: each finding gets one line
+  std::size_t top = 5;                          // rows of a table; 0: all
+  std::string sort{};                           // one of sort_keys(); empty: by what matters most in each table
+  std::string node{};                           // only nodes that match this pattern of the shell; empty: all
+  std::string topic{};                          // likewise
+  std::pair<std::string, std::string> chain{};  // only chains from one node to another, with their steps; empty: all
+  bool events = false;                          // losses by stream, events by process
+  bool all = false;                             // everything
+};
+
+// "total", "count", "rate", "p50", "p99", "max", "name"
+const std::vector<std::string>& sort_keys();
+
+// Fits a screen: whether the trace is complete, what is most worth a look, then short tables. Lines have at most as
+// many columns as the options say; names that are too long are cut in the middle. What is shown on demand may have
+// longer lines. Ends with a newline.
+std::string text_report(const Report& report, const ReportOptions& options = {});
 
 // One JSON object, documented in docs/report_format.md. Numbers are integers where the text says so; times are
 // nanoseconds. Ends with a newline.
@@ -33,8 +60,5 @@ std::string summary_line(const TraceOverview& overview);
 
 // The part of the summary about losses: "none lost", "at least 37 events lost", "some events lost".
 std::string loss_phrase(const TraceOverview& overview);
-
-// "ping [71]"
-std::string process_label(const ProcessResult& process);
 
 }  // namespace tracing

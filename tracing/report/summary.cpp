@@ -3,8 +3,9 @@
 
 #include <set>
 
+#include "tracing/findings/quantity_text.hpp"
+#include "tracing/findings/result_labels.hpp"
 #include "tracing/report/report.hpp"
-#include "tracing/report/text_table.hpp"
 
 namespace tracing {
 
@@ -46,9 +47,12 @@ std::string summary_line(const TraceOverview& overview) {
                      doubtful_phrase(overview));
 }
 
-std::string process_label(const ProcessResult& process) {
-  const std::string name = process.name.empty() ? "process" : process.name;
-  return process.vpid ? fmt::format("{} [{}]", name, *process.vpid) : fmt::format("{} [?]", name);
+std::vector<std::string> absences_of(const Report& report) {
+  std::vector<std::string> absences = report.verdict.absences;
+  for (const std::string& chain : report.results.ros2.unseen_chains) {
+    absences.push_back(fmt::format("chain '{}': no callbacks were seen that cause one another in this order", chain));
+  }
+  return absences;
 }
 
 }  // namespace tracing

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text in columns, and quantities as people read them.
+// Text in columns.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,14 +23,5 @@ class TextTable {
   std::size_t label_width_;
   std::vector<std::size_t> widths_;
 };
-
-// Three digits and a unit: "999 ns", "1.23 us", "45.6 ms", "107 s"; never more than 7 characters below 10,000 s.
-std::string format_duration(double nanoseconds);
-
-// "2026-01-01 00:00:00.123456 UTC"
-std::string format_time(std::int64_t ns_since_epoch);
-
-// "1 event", "2 events"
-std::string format_count(std::uint64_t count, const std::string& noun);
 
 }  // namespace tracing

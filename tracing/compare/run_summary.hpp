@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is kept of a run to compare it with others, as plain data of bounded size.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tracing::compare {
+
+enum class Kind { kCallback, kHop, kChain, kCall };
+
+// "callback", "hop", "chain", "call"
+const char* kind_name(Kind kind);
+std::optional<Kind> kind_of(const std::string& name);
+
+// One quantity of one subject. Kind, subject and quantity together name it in every run: they hold no process numbers
+// and no addresses.
+struct Measurement {
+  Kind kind = Kind::kCallback;
+  // "/sensor, timer 10 ms"; "/scan to /filter"; "/sensor (timer 10 ms) -> /filter (/scan)"; "/add, asked by /client".
+  // A second one with the same name has " #2" at the end.
+  std::string subject;
+  std::string quantity;               // "duration", "interval", "latency", "response", …
+  std::vector<std::string> steps;     // of a chain: the subjects of its callbacks
+  std::uint64_t count = 0;            // of all samples
+  std::vector<std::int64_t> samples;  // nanoseconds, in the order of time; KeptSamples::kMost at most
+  bool doubtful = false;              // events of its process may be missing
+};
+
+struct RunSummary {
+  std::string directory;      // of the trace
+  std::int64_t begin_ns = 0;  // since the epoch; 0: no event
+  std::int64_t duration_ns = 0;
+  std::uint64_t events = 0;
+  std::string remark;  // why it is incomplete: "37 events lost", why reading stopped early; empty: it is complete
+  std::vector<Measurement> measurements;  // by kind, subject, quantity
+};
+
+// One side of a comparison: a trace, or a baseline with one or several runs.
+struct Runs {
+  std::string source;  // directory or file
+  std::vector<RunSummary> runs;
+};
+
+}  // namespace tracing::compare

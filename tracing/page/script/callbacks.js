@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The callbacks as a table, and of the chosen one its durations and intervals as plots.
+
+function callbacksView(data) {
+  const rows = data.callbacks.map((callback, id) => ({callback, ...callbackStatistics(data, id)}))
+    .filter(row => row.count > 0 && isChosen(data, row.callback));
+  const plots = element('div');
+  const duration = (title, value) => ({title, value, show: row => formatDuration(value(row))});
+  const table = dataTable(rows, [
+    {title: 'Node', value: row => nodeName(data, row.callback.node) || processName(data, row.callback.process)},
+    {title: 'Callback', value: row => row.callback.label, wide: true},
+    {title: 'Count', value: row => row.count, show: row => formatCount(row.count)},
+    {title: 'Rate', value: row => row.gaps.count ? 1e9 / row.gaps.mean : NaN, show: row => row.gaps.count ? `${threeDigits(1e9 / row.gaps.mean)} Hz` : '–'},
+    duration('Mean', row => row.durations.mean), duration('p50', row => row.durations.p50), duration('p99', row => row.durations.p99),
+    duration('Max', row => row.durations.max), duration('Total', row => row.durations.sum),
+    duration('Interval p50', row => row.gaps.p50), duration('Interval max', row => row.gaps.max), duration('Jitter', row => row.gaps.count ? row.gaps.stddev : NaN),
+  ], {name: 'callback', sort: 8, descending: true, isActive: row => row.id === selection.callback,
+    choose: row => select({callback: row.id === selection.callback ? null : row.id})});
+
+  function showPlots() {
+    const row = rows.find(candidate => candidate.id === selection.callback);
+    plots.replaceChildren(row ? callbackPlots(data, row) : element('p', {class: 'note'}, 'Choose a callback to see its durations and intervals over time.'));
+  }
+
+  showPlots();
+  const view = panel('Callbacks', table, element('p', {class: 'note'},
+    'Interval: from one start to the next. Jitter: the standard deviation of the interval.'));
+  view.refresh = change => {
+    if ('callback' in change) {
+      table.update();
+      showPlots();
+    }
+  };
+  return [view, plots];
+}
+
+function callbackPlots(data, row) {
+  const {callback} = row;
+  const level = callback.period > 0 ? {value: callback.period, name: 'period'} : null;
+  const name = [nodeName(data, callback.node), callback.label].filter(Boolean).join(' · ');
+  const section = panel(name,
+    callback.symbol ? element('p', {class: 'note place'}, callback.symbol) : null,
+    element('div', {class: 'plots'},
+      timePlot('Duration over time', row.times, row.values, 'duration'),
+      timePlot('Interval over time', row.starts.subarray(1), row.between, 'interval', level),
+      distributionPlot('Distribution of durations', row.durations.sorted, 'duration'),
+      distributionPlot('Distribution of intervals', row.gaps.sorted, 'interval'),
+      cumulativePlot('Durations, cumulated', row.durations.sorted, 'duration'),
+      cumulativePlot('Intervals, cumulated', row.gaps.sorted, 'interval')));
+  const slowest = row.values.indexOf(row.durations.max);
+  const list = data.instancesOf(row.id).filter(data.instances.finished);
+  if (slowest >= 0) {
+    section.append(element('p', {class: 'tools'}, element('button', {onclick: () => showInTime(data, list[slowest])},
+      `Show the longest one (${formatDuration(row.durations.max)}) in the time chart`)));
+  }
+  return section;
+}
+
+// Opens the time chart at an instance, with twenty times its duration around it.
+function showInTime(data, instance) {
+  const {start, end} = data.instances;
+  const span = Math.max(1e5, (end[instance] - start[instance]) * 20);
+  const from = Math.max(0, Math.min(start[instance] - span / 3, data.duration - span));
+  timeChartOptions.view = {begin: from, end: Math.min(from + span, Math.max(1, data.duration)), top: 0};
+  select({instance});
+  showView('time');
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quantities as people read them. Times are nanoseconds.
+
+// "999 ns", "1.23 µs", "45.6 ms", "107 s": three digits, as in the report on the terminal.
+function formatDuration(ns) {
+  if (ns === null || Number.isNaN(ns)) return '–';
+  const size = Math.abs(ns);
+  if (size < 999.5) return `${Math.round(ns)} ns`;
+  for (const [unit, factor] of [['µs', 1e3], ['ms', 1e6], ['s', 1e9]]) {
+    const value = ns / factor;
+    if (Math.abs(value) < 999.5 || unit === 's') return `${threeDigits(value)} ${unit}`;
+  }
+}
+
+function threeDigits(value) {
+  const size = Math.abs(value);
+  return value.toFixed(size < 9.995 ? 2 : size < 99.95 ? 1 : 0);
+}
+
+// A time of the trace: seconds after its begin, with as many digits as `step` needs.
+function formatTime(ns, step = 1000) {
+  const digits = Math.max(0, Math.min(9, 9 - Math.floor(Math.log10(Math.max(step, 1)))));
+  return `${(ns / 1e9).toFixed(digits)} s`;
+}
+
+function formatRate(count, ns) {
+  if (count < 2 || ns <= 0) return '–';
+  return `${threeDigits(count * 1e9 / ns)} Hz`;
+}
+
+function formatCount(count) {
+  return count.toLocaleString('en-US');
+}
+
+function plural(count, noun) {
+  return `${formatCount(count)} ${noun}${count === 1 ? '' : noun.endsWith('s') ? 'es' : 's'}`;
+}
+
+function formatPercent(share) {
+  return `${threeDigits(share * 100)} %`;
+}
