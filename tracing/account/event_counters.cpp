@@ -2,25 +2,32 @@
 #include "tracing/account/event_counters.hpp"
 
 #include <fcntl.h>
-#include <stdlib.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <mutex>
-#include <numeric>
 #include <string_view>
+#include <system_error>
 #include <tuple>
+#include <utility>
+
+#include "launcher/base/unique_fd.hpp"
+#include "tracing/account/ended_processes.hpp"
 
 namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kDirectory = "/dev/shm/launch-event-counters-";
-constexpr std::string_view kMagic = "ROS2CNT1";
+constexpr std::string_view kMagic = "ROS2CNT2";
 constexpr std::size_t kNameSize = 64;        // bytes
 constexpr std::uint64_t kMostEvents = 4096;  // a file that says more is none
 
@@ -34,6 +41,8 @@ struct Header {
   std::uint64_t end;
   std::uint64_t cpu;
   std::uint64_t blocks_used;
+  std::uint64_t reached;
+  std::uint64_t missed;
   char process[kNameSize];
 };
 
@@ -41,12 +50,19 @@ std::string text(const char* name) {
   return {name, strnlen(name, kNameSize)};
 }
 
-}  // namespace
-
-std::uint64_t EventCounts::total() const {
-  return std::accumulate(events.begin(), events.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const auto& event) { return sum + event.second; });
+// The process of the file PID-BEGIN has ended. A process in a container has another number here, but it keeps its file
+// locked as long as it runs.
+bool has_ended(const fs::path& file) {
+  const std::string name = file.filename();
+  pid_t pid = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
+  if (error != std::errc() || end == name.data() + name.size() || *end != '-' || pid <= 0) return false;
+  if (kill(pid, 0) == 0 || errno != ESRCH) return false;
+  const launch::UniqueFd opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  return opened && flock(opened.get(), LOCK_EX | LOCK_NB) == 0;
 }
+
+}  // namespace
 
 // Another process writes to it all the time.
 class EventCounters::File {
@@ -76,6 +92,8 @@ class EventCounters::File {
                        .begin = header.begin,
                        .end = load(&header.end),
                        .cpu = load(&header.cpu),
+                       .reached = load(&header.reached),
+                       .missed = load(&header.missed),
                        .events = {}};
     const std::uint64_t used = std::min<std::uint64_t>(load(&header.blocks_used), header.blocks);
     for (std::uint32_t event = 0; event < header.events; ++event) {
@@ -105,24 +123,6 @@ class EventCounters::File {
   std::size_t size_;
 };
 
-std::shared_ptr<EventCounterDirectory> EventCounterDirectory::shared() {
-  static std::mutex mutex;
-  static std::weak_ptr<EventCounterDirectory> existing;
-  const std::lock_guard lock(mutex);
-  if (std::shared_ptr<EventCounterDirectory> directory = existing.lock()) return directory;
-  std::string path = std::string(kDirectory) + "XXXXXX";
-  if (mkdtemp(path.data()) == nullptr) return nullptr;
-  auto made = std::make_shared<EventCounterDirectory>(path);
-  existing = made;
-  return made;
-}
-
-EventCounterDirectory::~EventCounterDirectory() {
-  if (!path_.string().starts_with(kDirectory)) return;  // whatever a command line says
-  std::error_code none;
-  fs::remove_all(path_, none);
-}
-
 EventCounters::EventCounters(fs::path directory) : directory_(std::move(directory)) {}
 
 EventCounters::~EventCounters() = default;
@@ -134,13 +134,38 @@ std::vector<EventCounts> EventCounters::read() {
     if (files_.contains(name)) continue;
     if (std::unique_ptr<File> file = File::open(entry.path())) files_.emplace(name, std::move(file));
   }
+  // A process may be put away meanwhile. This file is therefore read last, and is right about the processes in it.
   std::vector<EventCounts> counts;
-  counts.reserve(files_.size());
+  for (auto& [name, ended] : read_ended_processes(directory_)) {
+    files_.erase(name);
+    counts.push_back(std::move(ended));
+  }
   for (const auto& [name, file] : files_) counts.push_back(file->read());
   std::sort(counts.begin(), counts.end(), [](const EventCounts& a, const EventCounts& b) {
     return std::tie(a.begin, a.pid) < std::tie(b.begin, b.pid);
   });
   return counts;
+}
+
+void EventCounters::put_ended_processes_away(const fs::path& directory) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  utimensat(AT_FDCWD, directory.c_str(), nullptr, 0);
+  std::map<std::string, EventCounts> ended = read_ended_processes(directory);
+  std::vector<fs::path> put_away;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, none)) {
+    const std::string name = entry.path().filename();
+    if (!ended.contains(name)) {  // else a launcher was killed before it removed the file
+      if (!has_ended(entry.path())) continue;
+      const std::unique_ptr<File> file = File::open(entry.path());
+      if (!file) continue;
+      ended.emplace(name, file->read());
+    }
+    put_away.push_back(entry.path());
+  }
+  if (put_away.empty() || !write_ended_processes(directory, ended)) return;
+  for (const fs::path& file : put_away) fs::remove(file, none);
 }
 
 }  // namespace tracing

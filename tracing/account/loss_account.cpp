@@ -17,12 +17,15 @@ std::uint64_t LossAccount::lost_packets() const {
 }
 
 bool LossAccount::complete() const {
-  return !has_losses() && std::all_of(channels.begin(), channels.end(),
-                                      [](const ChannelLoss& channel) { return channel.before_first.nothing(); });
+  return !has_losses() && absences.empty() &&
+         std::all_of(channels.begin(), channels.end(),
+                     [](const ChannelLoss& channel) { return channel.before_first.nothing(); });
 }
 
 bool LossAccount::has_losses() const {
   if (cut_short || !damage.empty()) return true;
+  if (std::any_of(absences.begin(), absences.end(), [](const Absence& absence) { return absence.is_loss; }))
+    return true;
   return std::any_of(channels.begin(), channels.end(), [](const ChannelLoss& channel) {
     const BeforeFirstPacket& before = channel.before_first;
     return channel.discarded_events + channel.lost_packets + before.discarded_events != 0 ||

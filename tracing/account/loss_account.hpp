@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tracing/account/absence.hpp"
 #include "tracing/account/event_cost.hpp"
 #include "tracing/account/event_cuts.hpp"
 #include "tracing/account/process_account.hpp"
@@ -45,7 +46,7 @@ struct BeforeFirstPacket {
   bool nothing() const { return packets == 0 && discarded_events == 0; }
 };
 
-enum class LossSource { kDaemon, kPackets, kKernelRecorder };
+enum class LossSource { kDaemon, kPackets, kTracefs };
 
 // Events of a channel that the tracer could not keep: as the session daemon counts before the session is destroyed, or
 // as the packets of the trace tell (packet_losses.hpp).
@@ -83,7 +84,7 @@ enum class LossAttribution {
 struct LossAccount {
   std::uint64_t discarded_events() const;
   std::uint64_t lost_packets() const;
-  // Everything that was recorded is in the trace, and nothing was lost.
+  // Everything that was recorded is in the trace, nothing was lost, and nobody was absent.
   bool complete() const;
   // Something was lost although the user did not ask to overwrite or remove it.
   bool has_losses() const;
@@ -91,11 +92,14 @@ struct LossAccount {
   std::vector<ChannelLoss> channels;
   std::vector<ProcessAccount> processes = {};  // by the time of their beginning
   LossAttribution attribution = LossAttribution::kUnknown;
-  std::uint64_t unattributed = 0;       // lost userspace events of no process in the list
-  std::optional<EventCost> cost = {};   // of an event, on this machine
-  std::vector<EventCut> cuts = {};      // dropped on purpose: no losses
-  bool cut_short = false;               // the wait for the last data was given up
+  std::uint64_t unattributed = 0;      // lost userspace events of no process in the list
+  std::optional<EventCost> cost = {};  // of an event, on this machine
+  std::vector<EventCut> cuts = {};     // dropped on purpose: no losses
+  bool cut_short = false;              // the wait for the last data was given up
+  std::vector<Absence> absences = {};
   std::string damage = {};              // a sentence on data that is missing and was not counted, or ""
+  std::string directory = {};           // of the recording or of the snapshots; "" if it is not on this machine
+  bool of_snapshots = false;            // the session kept the newest events only, so its losses mean nothing
   std::string unwritten_verdict = {};   // why verdict.json could not be written
   std::vector<SessionStep> steps = {};  // of the end: "stop", "last data", "destroy", …
 };

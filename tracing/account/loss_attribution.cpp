@@ -4,11 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "tracing/account/packet_losses.hpp"
 #include "tracing/account/process_account.hpp"
+#include "tracing/account/recorded_events.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -77,13 +79,25 @@ RecordedProcesses parse_recorded_processes(const std::string& text) {
     RecordedProcesses recorded;
     const nlohmann::json parsed = nlohmann::json::parse(text);
     for (const nlohmann::json& process : parsed.at("processes")) {
-      recorded[process.at("vpid")] = {.nodes = process.at("nodes"), .events = process.at("events")};
+      recorded[process.at("vpid")] = {.nodes = process.at("nodes"),
+                                      .events = process.at("events"),
+                                      .name = process.value("name", ""),
+                                      .seconds = process.value("seconds", 0.0)};
     }
     return recorded;
   } catch (const nlohmann::json::exception& error) {
     throw TraceError(fmt::format("cannot count the events of the trace: {}", error.what()));
   }
 }
+
+namespace {
+
+std::optional<double> seconds_until_reached(const EventCounts& process) {
+  if (process.reached == 0) return std::nullopt;
+  return static_cast<double>(process.reached - process.begin) / kNanosecondsPerSecond;
+}
+
+}  // namespace
 
 std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, const RecordedEvents& events,
                                               std::uint64_t now) {
@@ -99,9 +113,43 @@ std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& co
                          .cpu_seconds = static_cast<double>(process.cpu) / kNanosecondsPerSecond,
                          .events = recorded,
                          .callbacks = callbacks != process.events.end() ? callbacks->second : 0,
+                         .reached_after = seconds_until_reached(process),
+                         .missed = process.missed,
                          .lost = std::nullopt});
   }
   return processes;
+}
+
+void add_uncounted_events(std::vector<ProcessAccount>& processes, const RecordedProcesses& recorded) {
+  for (const auto& [pid, process] : recorded) {
+    // The last of the programs that the process has been.
+    const auto found = std::find_if(processes.rbegin(), processes.rend(),
+                                    [pid = pid](const ProcessAccount& known) { return known.pid == pid; });
+    const bool is_known = found != processes.rend();
+    const bool counts = is_known && found->counts;
+    std::uint64_t uncounted = 0;
+    for (const auto& [event, count] : process.events) {
+      if (event.starts_with("launch:") || (counts && is_counted(event))) continue;
+      uncounted += count;
+    }
+    if (uncounted == 0) continue;
+    if (counts) {
+      found->events += uncounted;
+      continue;
+    }
+    // Known by the losses of its own buffers.
+    const std::optional<std::uint64_t> lost = is_known ? found->lost : std::nullopt;
+    if (is_known) processes.erase(std::prev(found.base()));
+    const auto callbacks = process.events.find(kCallbackEnd);
+    processes.push_back({.name = process.name,
+                         .pid = pid,
+                         .seconds = process.seconds,
+                         .events = uncounted + lost.value_or(0),
+                         .callbacks = callbacks != process.events.end() ? callbacks->second : 0,
+                         .lost = lost,
+                         .nodes = process.nodes,
+                         .counts = false});
+  }
 }
 
 void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,
@@ -114,7 +162,7 @@ void attribute_losses(LossAccount& account, const std::vector<EventCounts>& coun
     sum += lost.value_or(0);
     const bool counted = std::any_of(account.processes.begin(), account.processes.end(),
                                      [pid = pid](const ProcessAccount& process) { return process.pid == pid; });
-    if (!counted && lost.value_or(1) != 0) account.processes.push_back({.name = "", .pid = pid});
+    if (!counted && lost.value_or(1) != 0) account.processes.push_back({.name = "", .pid = pid, .counts = false});
   }
   for (ProcessAccount& process : account.processes) {
     process.lost.reset();

@@ -22,8 +22,10 @@ namespace tracing {
 
 // What a trace holds of one process.
 struct RecordedProcess {
-  std::vector<std::string> nodes;               // fully qualified
-  std::map<std::string, std::uint64_t> events;  // by name
+  std::vector<std::string> nodes = {};               // fully qualified
+  std::map<std::string, std::uint64_t> events = {};  // by name
+  std::string name = {};                             // of a thread
+  double seconds = 0;                                // from its first event to its last
 };
 using RecordedProcesses = std::map<std::int64_t, RecordedProcess>;  // by process id
 
@@ -34,6 +36,10 @@ RecordedProcesses parse_recorded_processes(const std::string& json);
 // (CLOCK_MONOTONIC, ns) is taken for the end of processes that have not told theirs.
 std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& counts, const RecordedEvents& events,
                                               std::uint64_t now);
+
+// Adds the events that processes do not count to `processes`: those of other providers than the stack's, such as
+// LTTng's helper libraries, and all events of programs that count none, but the launcher.
+void add_uncounted_events(std::vector<ProcessAccount>& processes, const RecordedProcesses& recorded);
 
 // Sets `lost` and `nodes` of `account.processes`, and its attribution.
 void attribute_losses(LossAccount& account, const std::vector<EventCounts>& counts, const RecordedEvents& events,

@@ -87,6 +87,7 @@ std::string describe_losses(const LossAccount& losses) {
     if (!earlier.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", earlier);
   }
   text += processes_that_lost(losses);
+  for (const Absence& absence : losses.absences) text += fmt::format("{}{}", text.empty() ? "" : "\n", absence.text);
   if (!losses.damage.empty()) text += fmt::format("{}{}", text.empty() ? "" : "\n", losses.damage);
   if (losses.cut_short) text += fmt::format("{}the last events were not waited for", text.empty() ? "" : "\n");
   if (text.empty()) text = "no events lost";

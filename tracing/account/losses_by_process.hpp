@@ -7,6 +7,7 @@
 
 #include "tracing/account/event_counters.hpp"
 #include "tracing/account/loss_account.hpp"
+#include "tracing/account/loss_attribution.hpp"
 #include "tracing/account/recorded_events.hpp"
 #include "tracing/account/stream_packets.hpp"
 #include "tracing/plan/trace_config.hpp"
@@ -20,11 +21,17 @@ class LossesByProcess {
  public:
   LossesByProcess(const TraceConfig& config, LossAccount& losses);
 
+  // When the session has gone: which of its rules no program had an event for, by the metadata of the recording.
+  void look_for_absent_events(const std::string& recording);
+
   // When the session has gone, its losses are counted (packet_losses.hpp), and its damage is known. Reads the trace,
-  // which takes a second for a million events; only when something was lost.
+  // at some 30 million events a second: when something was lost, or the session records events that no process counts.
   void look_into(const std::string& recording, const std::vector<Stream>& streams);
 
  private:
+  // Some of the recorded events are in no process's counts.
+  bool has_uncounted() const;
+  void attribute(const RecordedProcesses& recorded, const std::vector<Stream>& streams);
   // Userspace has lost something, and there is time to look.
   bool needed() const;
   // Files of a userspace channel have overwritten packets.

@@ -6,6 +6,7 @@
 #include <lttng/lttng.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "tracing/lttng/channels.hpp"
@@ -51,6 +52,16 @@ bool RecordedEvents::countable(const std::string& event) const {
     taken = true;
   }
   return taken;
+}
+
+bool is_our_own(const std::string& event) {
+  constexpr std::array kProviders = {"launch:", "launch_probe:", "ros2_deadline:", "ros2_session:"};
+  return std::any_of(kProviders.begin(), kProviders.end(),
+                     [&event](const char* provider) { return event.starts_with(provider); });
+}
+
+bool is_counted(const std::string& event) {
+  return event.starts_with("ros2:") || event.starts_with("ros2_ext:");
 }
 
 RecordedEvents read_recorded_events(const std::string& lttng_session_name) {

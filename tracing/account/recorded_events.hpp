@@ -27,6 +27,12 @@ struct RecordedEvents {
   bool countable(const std::string& event) const;
 };
 
+// Whether the launcher or `launch trace` adds rules of this provider by itself.
+bool is_our_own(const std::string& event);
+
+// Whether processes of the stack count the events of this name or pattern (event_counters.hpp).
+bool is_counted(const std::string& event);
+
 // What the userspace channels of the session record. Throws TraceError.
 RecordedEvents read_recorded_events(const std::string& lttng_session_name);
 

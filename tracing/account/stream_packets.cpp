@@ -81,7 +81,10 @@ class Traces {
 void add_packets(const ctf::TraceClass& trace, const fs::path& file, const std::function<bool()>& give_up,
                  std::vector<Packet>& packets) {
   try {
-    for (const ctf::Packet& packet : ctf::find_packet_headers(trace, file, give_up).packets) {
+    const ctf::StreamFile stream(file);
+    ctf::PacketList list = ctf::find_packets(trace, stream, give_up);
+    if (list.ends_early) list.packets.pop_back();
+    for (const ctf::Packet& packet : list.packets) {
       packets.push_back({.begin = packet.time_begin.value_or(0),
                          .end = packet.time_end.value_or(0),
                          .bytes = packet.content_bits / 8,

@@ -111,6 +111,10 @@ nlohmann::ordered_json process_as_json(const ProcessAccount& process, const std:
                                  {"seconds", process.seconds},
                                  {"events", process.events},
                                  {"callbacks", process.callbacks}};
+  if (process.counts) {
+    json["recorded_after_s"] = process.reached_after ? nlohmann::ordered_json(*process.reached_after) : nullptr;
+    json["missed_events"] = process.missed;
+  }
   json["lost"] = process.lost ? nlohmann::ordered_json(*process.lost) : nlohmann::ordered_json(nullptr);
   if (!process.nodes.empty()) json["nodes"] = process.nodes;
   if (!cost) return json;
@@ -157,9 +161,11 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
                                  {"complete", account.complete()},
                                  {"cut_short", account.cut_short},
                                  {"damage", account.damage},
+                                 {"absent", nlohmann::ordered_json::array()},
                                  {"discarded_events", account.discarded_events()},
                                  {"lost_packets", account.lost_packets()},
                                  {"channels", nlohmann::ordered_json::array()}};
+  for (const Absence& absence : account.absences) json["absent"].push_back(absence.text);
   for (const ChannelLoss& channel : account.channels) json["channels"].push_back(channel_as_json(channel));
   json["lost_by_process"] = {{"method", name_of(account.attribution)}, {"unattributed", account.unattributed}};
   if (account.cost) {
@@ -188,12 +194,13 @@ void write_verdict(const LossAccount& account, const std::string& session_name,
 }
 
 void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
-                            const std::vector<std::string>& reasons) {
+                            const std::vector<std::string>& reasons, const std::vector<Stream>& streams,
+                            const std::vector<Absence>& absences) {
   std::uint64_t discarded = 0;
   std::uint64_t lost = 0;
   std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t end = 0;
-  for (const Stream& stream : read_streams(directory)) {
+  for (const Stream& stream : streams) {
     const PacketLosses losses = losses_of(stream);
     discarded += losses.discarded_events;
     lost += losses.lost_packets;
@@ -202,13 +209,15 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
       end = std::max(end, packet.end);
     }
   }
-  const nlohmann::ordered_json json = {{"session", session_name},
-                                       {"reasons", reasons},
-                                       {"complete", discarded == 0 && lost == 0},
-                                       {"discarded_events", discarded},
-                                       {"lost_packets", lost},
-                                       {"begin_ns", std::min(begin, end)},
-                                       {"end_ns", end}};
+  nlohmann::ordered_json json = {{"session", session_name},
+                                 {"reasons", reasons},
+                                 {"complete", discarded == 0 && lost == 0 && absences.empty()},
+                                 {"absent", nlohmann::ordered_json::array()},
+                                 {"discarded_events", discarded},
+                                 {"lost_packets", lost},
+                                 {"begin_ns", std::min(begin, end)},
+                                 {"end_ns", end}};
+  for (const Absence& absence : absences) json["absent"].push_back(absence.text);
   write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 

@@ -33,9 +33,11 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
 // Writes kVerdictFile as a whole; a link at its place is replaced and not followed. Throws TraceError.
 void write_verdict(const LossAccount& account, const std::string& session_name, const std::filesystem::path& directory);
 
-// The same for a snapshot: session, reasons, complete, discarded_events, lost_packets, begin_ns and end_ns of the trace
-// clock. Complete is a snapshot in which nothing is missing between its first event and its last. Throws TraceError.
+// The same for a snapshot: session, reasons, complete, absent, discarded_events, lost_packets, begin_ns and end_ns of
+// the trace clock. Complete is a snapshot in which nothing is missing between its first event and its last. Throws
+// TraceError.
 void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
-                            const std::vector<std::string>& reasons);
+                            const std::vector<std::string>& reasons, const std::vector<Stream>& streams,
+                            const std::vector<Absence>& absences);
 
 }  // namespace tracing

@@ -6,15 +6,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 
 #include "tracing/account/cost_measurement.hpp"
+#include "tracing/account/counter_directory.hpp"
 #include "tracing/account/event_cost.hpp"
-#include "tracing/account/event_counters.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/loss_text.hpp"
 #include "tracing/command/enter_or_signal.hpp"
+#include "tracing/command/session_guard.hpp"
 #include "tracing/command/session_text.hpp"
 #include "tracing/command/trace_options.hpp"
 #include "tracing/plan/trace_config.hpp"
@@ -28,8 +31,9 @@ constexpr int kSuccess = 0;
 constexpr int kFailure = 1;
 constexpr int kNoLttng = 2;
 
+// Lines that nobody can read any more are no error (fmt::print would throw).
 void print_line(const std::string& line) {
-  fmt::print("{}\n", line);
+  std::fputs((line + "\n").c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -80,15 +84,55 @@ void start(const TraceOptions& options, Tracer& tracer) {
   if (!report.notes.empty()) fmt::print(stderr, "note: {}\n", report.notes);
 }
 
+void print_account(const LossAccount& losses) {
+  if (!losses.directory.empty()) print_line("trace written to: " + losses.directory);
+  print_line(fmt::format("trace is {}: {}", losses.complete() ? "complete" : "incomplete", describe_losses(losses)));
+  if (const std::string cost = describe_cost(losses); !cost.empty()) print_line(cost);
+  if (!losses.unwritten_verdict.empty()) fmt::print(stderr, "warning: {}\n", losses.unwritten_verdict);
+}
+
+void record_snapshot(const std::string& session_name, Tracer& tracer) {
+  const std::string directory = tracer.record_snapshot(session_name);
+  if (!directory.empty()) print_line("snapshot written to: " + directory);
+}
+
 void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {
   print_line("stopping & destroying tracing session");
   const LossAccount losses = tracer.finish(config, give_up);
-  print_line(describe_losses(losses));
-  if (!losses.unwritten_verdict.empty()) fmt::print(stderr, "warning: {}\n", losses.unwritten_verdict);
+  if (losses.of_snapshots) {
+    print_line(losses.directory.empty() ? "the session has ended" : "snapshots are in: " + losses.directory);
+    return;
+  }
+  print_account(losses);
   if (config.fail_on_loss && losses.has_losses()) {
     throw TraceError(fmt::format("the trace of session '{}' is incomplete", config.lttng_session_name()),
                      "use larger buffers, record fewer events, or leave out --fail-on-loss");
   }
+}
+
+// A session that existed before a launch, or a command, is not theirs.
+bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tracer) {
+  const std::vector<SessionSummary> sessions = tracer.sessions();
+  return std::any_of(sessions.begin(), sessions.end(), [&](const SessionSummary& session) {
+    return session.name == session_name && session.created < seconds;
+  });
+}
+
+// Ends the session of this command, from another process.
+std::function<void()> ending(const TraceConfig& config, Tracer& tracer) {
+  return [&config, &tracer, begin = std::time(nullptr)] {
+    if (!is_older(config.lttng_session_name(), begin, tracer)) tracer.finish(config, [] { return false; });
+  };
+}
+
+// What ends the command in the middle, a signal or kill -9, ends the new session with it.
+void start_or_leave_nothing(const TraceOptions& options, Tracer& tracer) {
+  const SessionGuard guard(ending(options.config, tracer));
+  EnterOrSignal signals;
+  start(options, tracer);
+  if (!signals.take_signal()) return;
+  tracer.finish(options.config, [] { return true; });
+  throw TraceError(fmt::format("interrupted: session '{}' was ended again", options.config.lttng_session_name()));
 }
 
 EnterOrSignal::Answer ask(const std::string& prompt, EnterOrSignal& input) {
@@ -112,6 +156,7 @@ void run_interactively(const TraceOptions& options, Tracer& tracer) {
     case EnterOrSignal::Answer::kEnter:
       break;
   }
+  const SessionGuard guard(ending(options.config, tracer));
   start(options, tracer);
   ask("press enter to stop...", input);  // whatever the answer is, it ends the session
   finish(options.config, tracer, [&input] { return input.take_signal(); });
@@ -135,14 +180,6 @@ void print_calibration(const std::vector<std::string>& context_fields) {
              cost.lttng, event_cost_file().string());
 }
 
-// A session that existed before a launch is not the launch's.
-bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tracer) {
-  const std::vector<SessionSummary> sessions = tracer.sessions();
-  return std::any_of(sessions.begin(), sessions.end(), [&](const SessionSummary& session) {
-    return session.name == session_name && session.created < seconds;
-  });
-}
-
 void run_verb(const TraceOptions& options, Tracer& tracer) {
   const std::string session_name = options.config.lttng_session_name();
   switch (options.verb) {
@@ -150,16 +187,17 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       return run_interactively(options, tracer);
     case TraceVerb::kStart:
       print_session(options);
-      return start(options, tracer);
+      return start_or_leave_nothing(options, tracer);
     case TraceVerb::kPause:
       print_line("pausing tracing session");
-      return tracer.pause(session_name);
+      if (const std::optional<LossAccount> losses = tracer.pause(session_name)) print_account(*losses);
+      return;
     case TraceVerb::kResume:
       print_line("resuming tracing session");
       if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
       return tracer.resume(session_name);
     case TraceVerb::kStop: {
-      std::optional<EventCounterDirectory> counters;
+      std::optional<CounterDirectory> counters;
       if (!options.config.event_counters.empty()) counters.emplace(options.config.event_counters);
       if (options.created_since && is_older(session_name, *options.created_since, tracer)) {
         print_line(fmt::format("trace session '{}' is left as it is: it is older", session_name));
@@ -184,7 +222,7 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       return tracer.load(session_name, options.directory);
     case TraceVerb::kRecordSnapshot:
       print_line("recording snapshot of tracing session");
-      return tracer.record_snapshot(session_name);
+      return record_snapshot(session_name, tracer);
   }
 }
 
@@ -204,6 +242,8 @@ int run_trace_command(const std::vector<std::string>& arguments, Tracer& tracer)
     }
     return message->exit_code;
   }
+  // Who reads the output may go at any time, which is no reason to leave a session half made.
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     run_verb(std::get<TraceOptions>(parsed), tracer);
     return kSuccess;

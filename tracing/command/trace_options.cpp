@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <type_traits>
 
 #include "launcher/base/own_environment.hpp"
 
@@ -37,10 +39,19 @@ void add_names(CLI::App& command, const std::string& option, std::vector<std::st
       ->option_text(fmt::format("[{}…]", kind));
 }
 
+std::string not_negative(const std::string& number) {
+  return number.starts_with('-') ? fmt::format("expected a number that is not negative, got '{}'", number) : "";
+}
+
 void add_buffer_options(CLI::App& command, TraceConfig& config) {
   const auto number = [&command](const std::string& option, auto& value, const std::string& unit,
                                  const std::string& help) {
-    command.add_option(option, value, help)->option_text(unit);
+    CLI::Option* const made = command.add_option(option, value, help)->option_text(unit);
+    // The parser would take -5 for a huge number.
+    using Value = std::remove_reference_t<decltype(value)>;
+    if constexpr (std::is_unsigned_v<Value> || std::is_same_v<Value, std::optional<std::uint32_t>>) {
+      made->check(not_negative);
+    }
   };
   number("--subbuffer-size-ust", config.subbuffer_size_ust, "BYTES", "size of a sub-buffer of the userspace channel");
   command.add_flag("--init-channel", config.init_channel,
@@ -49,7 +60,8 @@ void add_buffer_options(CLI::App& command, TraceConfig& config) {
          fmt::format("number of sub-buffers for each processor (default: {})", config.subbuffer_count_ust));
   number("--read-timer-ust", config.read_timer_ust, "MICROSECONDS",
          fmt::format("time between two reads of the buffers (default: {})", config.read_timer_ust));
-  number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS", "time until a part-full sub-buffer is written");
+  number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS",
+         fmt::format("time until a part-full sub-buffer is written (default: {}; 0 in snapshot mode)", kSwitchTimer));
   number("--subbuffer-size-kernel", config.subbuffer_size_kernel, "BYTES",
          "size of a sub-buffer of the kernel channel");
   command.add_option("--overwrite-ust", config.overwrite_ust,

@@ -18,9 +18,13 @@
 #include <string_view>
 #include <system_error>
 
+#include "launcher/base/own_environment.hpp"
 #include "launcher/base/pipe.hpp"
+#include "launcher/base/process_mark.hpp"
+#include "launcher/base/process_stat.hpp"
 #include "launcher/base/replace_file.hpp"
 #include "launcher/base/spawn.hpp"
+#include "launcher/base/unique_fd.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -33,9 +37,11 @@ constexpr const char* kFolder = "kernel";
 constexpr int kLongestEnd = 30'000;  // ms
 
 std::vector<std::string> arguments_of(const fs::path& program, const std::string& session, const fs::path& recording,
-                                      const std::vector<ChannelPlan>& plans, KernelRecording what) {
+                                      const std::vector<ChannelPlan>& plans, KernelRecording what,
+                                      const std::vector<pid_t>& left_out) {
   std::vector<std::string> arguments = {program.string(), "launch-" + session, (recording / kFolder).string()};
   if (what == KernelRecording::kSnapshots) arguments.emplace_back("snapshots");
+  for (const pid_t process : left_out) arguments.insert(arguments.end(), {"leave-out", std::to_string(process)});
   std::set<std::string> fields;  // the fields of all channels, because there is one trace for all of them
   for (const ChannelPlan& plan : plans) {
     if (plan.domain != LTTNG_DOMAIN_KERNEL) continue;
@@ -52,9 +58,12 @@ std::vector<std::string> arguments_of(const fs::path& program, const std::string
 std::string start_and_listen(const std::vector<std::string>& arguments) {
   try {
     launch::Pipe pipe = launch::make_pipe();
+    launch::Environment environment = launch::own_environment();
+    environment.insert_or_assign(launch::kLeaveRunningVariable, "1");  // it ends with the session
     const pid_t pid = launch::spawn({
         .program = arguments[0],
         .argv = arguments,
+        .environment = &environment.variables(),
         .descriptors = {{STDIN_FILENO, launch::kDevNull},
                         {STDOUT_FILENO, pipe.write.get()},
                         {STDERR_FILENO, launch::kDevNull}},
@@ -82,6 +91,7 @@ constexpr std::array<std::string_view, 5> kFields = {"procname", "pid", "tid", "
 
 struct Recorder {
   pid_t pid = 0;  // 0: none
+  std::uint64_t started = 0;
   std::string state;
   std::string reason;  // of state "failed"
 };
@@ -89,37 +99,45 @@ struct Recorder {
 Recorder recorder_of(const fs::path& recording) {
   Recorder recorder;
   std::ifstream file(recording / "kernel-recorder.pid");
-  file >> recorder.pid >> recorder.state >> std::ws;
+  file >> recorder.pid >> recorder.started >> recorder.state >> std::ws;
   std::getline(file, recorder.reason);
   return recorder;
+}
+
+// A descriptor of the recorder's process (pidfd). None if the recorder has ended, also if another process has its
+// number.
+launch::UniqueFd process_of(const Recorder& recorder) {
+  launch::UniqueFd process(static_cast<int>(syscall(SYS_pidfd_open, recorder.pid, 0)));
+  if (process && launch::read_process_stat(recorder.pid).started != recorder.started) process.reset();
+  return process;
+}
+
+bool send_signal(const launch::UniqueFd& process, int signal) {
+  return process && syscall(SYS_pidfd_send_signal, process.get(), signal, nullptr, 0) == 0;
 }
 
 // Sends the signal and waits until the recorder reports that state.
 void bring_to(const std::string& state, int signal, const fs::path& recording) {
   const Recorder recorder = recorder_of(recording);
   if (recorder.pid <= 0 || recorder.state == state) return;
-  const int changes = inotify_init1(IN_CLOEXEC);
-  inotify_add_watch(changes, recording.c_str(), IN_MOVED_TO);
-  if (kill(recorder.pid, signal) != 0) {
-    close(changes);
+  const launch::UniqueFd changes(inotify_init1(IN_CLOEXEC));
+  inotify_add_watch(changes.get(), recording.c_str(), IN_MOVED_TO);
+  if (!send_signal(process_of(recorder), signal)) {
     throw TraceError(fmt::format("the kernel recorder (process {}) is gone", recorder.pid),
                      "kernel events are recorded again by another session");
   }
-  pollfd change{changes, POLLIN, 0};
+  pollfd change{changes.get(), POLLIN, 0};
   for (Recorder now; (now = recorder_of(recording)).state != state;) {
     if (now.state == "failed" && now.reason != recorder.reason) {
-      close(changes);
       throw TraceError(fmt::format("the kernel recorder cannot write a snapshot: {}", now.reason));
     }
     const int ready = poll(&change, 1, kLongestEnd);
     std::array<char, 4096> event{};
-    if (ready > 0 && read(changes, event.data(), event.size()) > 0) continue;
+    if (ready > 0 && read(changes.get(), event.data(), event.size()) > 0) continue;
     if (ready < 0 && errno == EINTR) continue;
-    close(changes);
     throw TraceError(fmt::format("the kernel recorder (process {}) does not answer", recorder.pid),
                      "kernel events go on as they were");
   }
-  close(changes);
 }
 
 }  // namespace
@@ -157,8 +175,9 @@ void take_kernel_snapshot(const fs::path& recording, const fs::path& snapshot, b
 }
 
 std::string start_kernel_recorder(const fs::path& program, const std::string& session, const fs::path& recording,
-                                  const std::vector<ChannelPlan>& plans, KernelRecording what) {
-  const std::string said = start_and_listen(arguments_of(program, session, recording, plans, what));
+                                  const std::vector<ChannelPlan>& plans, KernelRecording what,
+                                  const std::vector<pid_t>& left_out) {
+  const std::string said = start_and_listen(arguments_of(program, session, recording, plans, what, left_out));
   if (said.starts_with("ready")) return line_after(said, "warning: ");
   const std::string reason = line_after(said, "error: ");
   throw TraceError(
@@ -166,17 +185,19 @@ std::string start_kernel_recorder(const fs::path& program, const std::string& se
       line_after(said, "hint: "));
 }
 
+pid_t kernel_recorder_process(const fs::path& recording) {
+  const Recorder recorder = recorder_of(recording);
+  return process_of(recorder) ? recorder.pid : 0;
+}
+
 std::optional<std::uint64_t> finish_kernel_recorder(const fs::path& recording) {
-  const pid_t pid = recorder_of(recording).pid;
-  if (pid <= 0) return std::nullopt;
-  const int pidfd = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
-  if (pidfd >= 0) {
-    kill(pid, SIGTERM);
-    pollfd end{pidfd, POLLIN, 0};
+  const Recorder recorder = recorder_of(recording);
+  if (recorder.pid <= 0) return std::nullopt;
+  if (const launch::UniqueFd process = process_of(recorder); send_signal(process, SIGTERM)) {
+    pollfd end{process.get(), POLLIN, 0};
     while (poll(&end, 1, kLongestEnd) < 0 && errno == EINTR) {
     }
-    close(pidfd);
-    waitpid(pid, nullptr, WNOHANG);  // reaps it if it is our child
+    waitpid(recorder.pid, nullptr, WNOHANG);  // reaps it if it is our child
   }
   const fs::path result = recording / "kernel-recorder.json";
   std::ifstream file(result);

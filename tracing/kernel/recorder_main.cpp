@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// launch-kernel-recorder INSTANCE DIRECTORY [event NAME FILTER | syscall NAME | context FIELD | snapshots]…
+// launch-kernel-recorder INSTANCE DIRECTORY
+//     [event NAME FILTER | syscall NAME | context FIELD | leave-out PROCESS | snapshots]…
 //
 // Records events of the kernel into DIRECTORY until it gets SIGTERM, without modules of LTTng. SIGUSR1 pauses it, with
 // everything written; SIGUSR2 lets it go on. It prints "ready" once it records, or "error: …" and "hint: …", and closes
-// its output. While it runs, DIRECTORY/../kernel-recorder.pid holds its process id and its state, "recording" or
-// "paused"; a new file replaces this file when the state changes. At the end it writes to kernel-recorder.json there
-// what it has recorded and lost. A name that the kernel hasn't is skipped, with a "warning: …" after "ready"; if the
-// kernel has none of the names, that is an error. (Readers of CTF take every file of DIRECTORY for a stream.)
+// its output. While it runs, DIRECTORY/../kernel-recorder.pid holds its process id, the time of its start in clock
+// ticks after the boot, and its state, "recording" or "paused"; a new file replaces this file when the state changes.
+// At the end it writes to kernel-recorder.json there what it has recorded and lost. A name that the kernel hasn't is
+// skipped, with a "warning: …" after "ready"; if the kernel has none of the names, that is an error. (Readers of CTF
+// take every file of DIRECTORY for a stream.)
 //
 // With `snapshots` it writes nothing into DIRECTORY: the kernel's buffers keep the newest events. When it gets SIGRTMIN
 // it reads DIRECTORY/../kernel-recorder.request, which has a directory and on the next line "keep" or "clear". It then
@@ -21,6 +23,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -30,6 +33,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/base/process_stat.hpp"
 #include "launcher/base/replace_file.hpp"
 #include "tracing/kernel/ctf_writer.hpp"
 #include "tracing/kernel/page_history.hpp"
@@ -43,6 +47,9 @@ namespace fs = std::filesystem;
 using namespace tracing::kernel;
 
 constexpr std::size_t kLargestPage = 65536;  // sub-buffers can be made larger than a page since Linux 6.8
+
+// A page that is read may be part-full, and one more page than the buffer has belongs to the reader.
+constexpr std::size_t kPagesOfABuffer = 2 * TracefsInstance::kBufferBytes / 4096;
 
 class Descriptor {
  public:
@@ -82,12 +89,15 @@ std::vector<RingBuffer> open_buffers(const TracefsInstance& instance) {
   return buffers;
 }
 
-// Calls take(cpu, page) for every page that is there, of all processors.
+// Calls take(cpu, page) for the pages that are there, of all processors. Not for more than the buffers hold: under load
+// pages come as fast as they are read, and the recorder must look at its signals in between.
 template <class Take>
 void read_buffers(const std::vector<RingBuffer>& buffers, Take&& take) {
   static std::array<std::uint8_t, kLargestPage> page;
   for (const RingBuffer& buffer : buffers) {
-    for (ssize_t length; (length = read(buffer.file.get(), page.data(), page.size())) > 0;) {
+    for (std::size_t pages = 0; pages < kPagesOfABuffer; ++pages) {
+      const ssize_t length = read(buffer.file.get(), page.data(), page.size());
+      if (length <= 0) break;
       take(buffer.cpu, std::vector<std::uint8_t>(page.begin(), page.begin() + length));
     }
   }
@@ -115,6 +125,8 @@ struct Options {
 
 Options enable(TracefsInstance& instance, int argc, char** argv) {
   Options options;
+  // What the recorder does for its own sake would make events as fast as it reads them.
+  std::vector<std::string> left_out = {"self"};
   std::optional<UnknownNameError> unknown;
   // `name` is the form in which the warning shows it.
   const auto pass_over_unknown = [&](const std::string& name, const auto& enable_it) {
@@ -137,6 +149,9 @@ Options enable(TracefsInstance& instance, int argc, char** argv) {
     } else if (kind == "context" && i + 1 < argc) {
       options.context_fields.emplace_back(argv[i + 1]);
       i += 2;
+    } else if (kind == "leave-out" && i + 1 < argc) {
+      left_out.emplace_back(argv[i + 1]);
+      i += 2;
     } else if (kind == "snapshots") {
       options.snapshots = true;
       i += 1;
@@ -145,6 +160,7 @@ Options enable(TracefsInstance& instance, int argc, char** argv) {
     }
   }
   if (unknown && instance.formats().empty()) throw UnknownNameError(*unknown);
+  instance.leave_out(left_out);
   return options;
 }
 
@@ -162,7 +178,8 @@ std::string ready(const Options& options) {
 
 // A program that waits for a change watches the directory, because a rename puts the new file there.
 void tell_state(const fs::path& beside, const std::string& state) {
-  launch::replace_file(beside / "kernel-recorder.pid", fmt::format("{} {}\n", getpid(), state));
+  static const std::uint64_t started = launch::read_process_stat(getpid()).started;
+  launch::replace_file(beside / "kernel-recorder.pid", fmt::format("{} {} {}\n", getpid(), started, state));
 }
 
 void tell_end(const fs::path& beside, std::uint64_t events, std::uint64_t lost_events, std::uint64_t bytes) {

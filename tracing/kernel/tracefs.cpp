@@ -49,6 +49,28 @@ std::string read_file(const fs::path& path) {
   return text.str();
 }
 
+// std::ofstream wants to know where the end is, which tracefs does not tell.
+void append(const fs::path& path, const std::string& text) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int error = errno;
+  if (fd >= 0) ::close(fd);
+  if (!written) {
+    throw KernelTraceError(fmt::format("cannot write '{}' to {}: {}", text, path.string(), std::strerror(error)));
+  }
+}
+
+std::vector<std::string> threads_of(const std::vector<std::string>& processes) {
+  std::vector<std::string> threads;
+  for (const std::string& process : processes) {
+    std::error_code gone;
+    for (const fs::directory_entry& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process), gone)) {
+      threads.push_back(thread.path().filename());
+    }
+  }
+  return threads;
+}
+
 }  // namespace
 
 TracefsInstance::TracefsInstance(const std::string& name) {
@@ -145,6 +167,18 @@ std::vector<EventFormat> TracefsInstance::formats() const {
   std::vector<EventFormat> formats;
   for (const fs::path& event : enabled_) formats.push_back(parse_event_format(read_file(event / "format")));
   return formats;
+}
+
+void TracefsInstance::leave_out(const std::vector<std::string>& processes) {
+  constexpr const char* kFile = "set_event_notrace_pid";
+  constexpr const char* kFirstNamespace = "pid:[4026531836]";
+  std::error_code error;
+  if (fs::read_symlink("/proc/self/ns/pid", error) != kFirstNamespace || !fs::exists(directory_ / kFile, error)) return;
+  write("options/event-fork", "1");
+  // The second time for threads that began meanwhile, before their starter was left out.
+  for (int i = 0; i < 2; ++i) {
+    append(directory_ / kFile, fmt::format("{}", fmt::join(threads_of(processes), " ")));
+  }
 }
 
 void TracefsInstance::keep_newest() {

@@ -49,6 +49,11 @@ class TracefsInstance {
   // The enabled events, each once.
   std::vector<EventFormat> formats() const;
 
+  // What these processes, numbers or "self", do and those that they start is not recorded. A switch between one of
+  // their threads and another thread still is, so that the processor's threads stay known without a gap. Does nothing
+  // in a container, where the kernel's numbers of threads are others, and before Linux 5.7.
+  void leave_out(const std::vector<std::string>& processes);
+
   // From now on full buffers overwrite the oldest events.
   void keep_newest();
 

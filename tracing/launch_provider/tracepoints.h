@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Provider `launch`: the steps of the launcher. `time` is the CLOCK_MONOTONIC time in nanoseconds at which the step
-// happened or began, `duration` is in nanoseconds. Steps before the session exists are fired as soon as it does. `file`
-// and `line` are the place in the launch file that asked for the step, "" and 0 when there is none.
+// The payload of every event of provider `launch`, from launch_trace/launch_event_table.h.
+//
+// LTTng reads this file several times with different definitions of its macros, hence the unusual guards.
 #undef LTTNG_UST_TRACEPOINT_PROVIDER
 #define LTTNG_UST_TRACEPOINT_PROVIDER launch
 
@@ -14,87 +14,37 @@
 #include <lttng/tracepoint.h>
 #include <stdint.h>
 
-LTTNG_UST_TRACEPOINT_EVENT_CLASS(
-    launch, step,
-    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*, file, uint32_t, line),
-    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time)
-                            lttng_ust_field_integer(int64_t, duration, duration) lttng_ust_field_string(name, name)
-                                lttng_ust_field_string(file, file) lttng_ust_field_integer(uint32_t, line, line)))
+#include "launch_trace/launch_event_table.h"
+#include "tracetools/event_table.h"
 
-LTTNG_UST_TRACEPOINT_EVENT_CLASS(launch, exit_class,
-                                 LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
-                                                   exit_code, const char*, file, uint32_t, line),
-                                 LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time)
-                                                         lttng_ust_field_string(process, process)
-                                                             lttng_ust_field_integer(int32_t, pid, pid)
-                                                                 lttng_ust_field_integer(int32_t, exit_code, exit_code)
-                                                                     lttng_ust_field_string(file, file)
-                                                                         lttng_ust_field_integer(uint32_t, line, line)))
+// Arguments and fields have different names, because LTTng's macros would confuse an argument with its field.
+// clang-format off
+#define LAUNCH_PROBE(provider, name, Struct, group, ...) \
+  LTTNG_UST_TRACEPOINT_EVENT(provider, name, \
+    LTTNG_UST_TP_ARGS(LAUNCH_LIST(TRACETOOLS_EACH_FIELD(LAUNCH_ARGUMENT, __VA_ARGS__))), \
+    LTTNG_UST_TP_FIELDS(TRACETOOLS_EACH_FIELD(LAUNCH_FIELD, __VA_ARGS__)))
+// Each argument adds a comma before itself. A list drops the first comma.
+#define LAUNCH_LIST(...) LAUNCH_AFTER_FIRST_COMMA(__VA_ARGS__)
+#define LAUNCH_AFTER_FIRST_COMMA(nothing, ...) __VA_ARGS__
 
-// A launch file was read and checked.
-LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, load,
-                                    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
-                                                      file, uint32_t, line))
+#define LAUNCH_ARGUMENT(type, name) LAUNCH_ARGUMENT_##type(name##_arg)
+#define LAUNCH_ARGUMENT_string(argument) , const char *, argument
+#define LAUNCH_ARGUMENT_int32(argument) , int32_t, argument
+#define LAUNCH_ARGUMENT_uint32(argument) , uint32_t, argument
+#define LAUNCH_ARGUMENT_int64(argument) , int64_t, argument
+#define LAUNCH_ARGUMENT_uint64(argument) , uint64_t, argument
+#define LAUNCH_ARGUMENT_real(argument) , double, argument
 
-// Another launch file was included: read, checked and visited.
-LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, include,
-                                    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
-                                                      file, uint32_t, line))
+#define LAUNCH_FIELD(type, name) LAUNCH_FIELD_##type(name)
+#define LAUNCH_FIELD_string(name) lttng_ust_field_string(name, name##_arg)
+#define LAUNCH_FIELD_int32(name) lttng_ust_field_integer(int32_t, name, name##_arg)
+#define LAUNCH_FIELD_uint32(name) lttng_ust_field_integer(uint32_t, name, name##_arg)
+#define LAUNCH_FIELD_int64(name) lttng_ust_field_integer(int64_t, name, name##_arg)
+#define LAUNCH_FIELD_uint64(name) lttng_ust_field_integer(uint64_t, name, name##_arg)
+#define LAUNCH_FIELD_real(name) lttng_ust_field_float(double, name, name##_arg)
+// clang-format on
 
-// The actions of the launch file, or of a timer, were visited.
-LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, step, launch, visit,
-                                    LTTNG_UST_TP_ARGS(int64_t, time, int64_t, duration, const char*, name, const char*,
-                                                      file, uint32_t, line))
-
-// The condition that a process waits for holds: its `depends_on` of this line.
-LTTNG_UST_TRACEPOINT_EVENT(
-    launch, ready,
-    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, condition, const char*, file, uint32_t, line),
-    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
-                            lttng_ust_field_string(condition, condition) lttng_ust_field_string(file, file)
-                                lttng_ust_field_integer(uint32_t, line, line)))
-
-// A process is about to be started; it has no label until it runs.
-LTTNG_UST_TRACEPOINT_EVENT(
-    launch, spawn, LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, const char*, file, uint32_t, line),
-    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
-                            lttng_ust_field_string(file, file) lttng_ust_field_integer(uint32_t, line, line)))
-
-// The program of the process runs.
-LTTNG_UST_TRACEPOINT_EVENT(
-    launch, exec,
-    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, const char*, file, uint32_t, line),
-    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
-                            lttng_ust_field_integer(int32_t, pid, pid) lttng_ust_field_string(file, file)
-                                lttng_ust_field_integer(uint32_t, line, line)))
-
-// The process has ended; -N when signal N ended it.
-LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, exit_class, launch, exit,
-                                    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
-                                                      exit_code, const char*, file, uint32_t, line))
-
-// The process has ended and will be started again.
-LTTNG_UST_TRACEPOINT_EVENT_INSTANCE(launch, exit_class, launch, respawn,
-                                    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, pid, int32_t,
-                                                      exit_code, const char*, file, uint32_t, line))
-
-// A signal was sent to the process and its group.
-LTTNG_UST_TRACEPOINT_EVENT(
-    launch, signal,
-    LTTNG_UST_TP_ARGS(int64_t, time, const char*, process, int32_t, signal_number, const char*, file, uint32_t, line),
-    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(process, process)
-                            lttng_ust_field_integer(int32_t, signal, signal_number) lttng_ust_field_string(file, file)
-                                lttng_ust_field_integer(uint32_t, line, line)))
-
-// A class of events was dropped from the trace, because recording cost more than max-overhead. From `time` on, `events`
-// (a list of names) are no longer recorded. `rate` is that of all processes before the cut, in events a second; `share`
-// is the share of a processor.
-LTTNG_UST_TRACEPOINT_EVENT(
-    launch, cut,
-    LTTNG_UST_TP_ARGS(int64_t, time, const char*, event_class, const char*, events, uint64_t, rate, double, share),
-    LTTNG_UST_TP_FIELDS(lttng_ust_field_integer(int64_t, time, time) lttng_ust_field_string(event_class, event_class)
-                            lttng_ust_field_string(events, events) lttng_ust_field_integer(uint64_t, rate, rate)
-                                lttng_ust_field_float(double, share, share)))
+LAUNCH_EVENT_TABLE(LAUNCH_PROBE, launch)
 
 #endif
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/lttng/process_stat.hpp"
+#include "launcher/base/process_stat.hpp"
 
 namespace tracing {
 namespace {
@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kConsumer = "lttng-consumerd";
+constexpr const char* kSessionDaemon = "lttng-sessiond";
 
 pid_t number_of(const fs::path& path) {
   const std::string name = path.filename();
@@ -29,7 +30,7 @@ pid_t number_of(const fs::path& path) {
 }
 
 bool is_consumer_of(const fs::path& process, pid_t daemon) {
-  const ProcessStat stat = read_process_stat(number_of(process));
+  const launch::ProcessStat stat = launch::read_process_stat(number_of(process));
   return stat.name == kConsumer && stat.parent == daemon;
 }
 
@@ -51,21 +52,36 @@ std::vector<fs::path> candidates(pid_t daemon) {
   return found;
 }
 
+// The error of the first thread that keeps its priority, or 0.
+int prefer(const fs::path& process) {
+  std::error_code none;
+  // On Linux a nice value belongs to a thread.
+  for (const fs::directory_entry& thread : fs::directory_iterator(process / "task", none)) {
+    const auto id = static_cast<id_t>(number_of(thread.path()));
+    if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0 && errno != ESRCH) return errno;
+  }
+  return 0;
+}
+
 }  // namespace
 
-std::string prefer_consumers(pid_t daemon) {
-  std::error_code none;
+std::vector<pid_t> consumers_of(pid_t daemon) {
+  std::vector<pid_t> consumers;
   for (const fs::path& process : candidates(daemon)) {
-    if (!is_consumer_of(process, daemon)) continue;
-    // On Linux a nice value belongs to a thread.
-    for (const fs::directory_entry& thread : fs::directory_iterator(process / "task", none)) {
-      const auto id = static_cast<id_t>(number_of(thread.path()));
-      if (setpriority(PRIO_PROCESS, id, kConsumerNice) == 0 || errno == ESRCH) continue;
-      return fmt::format(
-          "LTTng's consumer keeps its priority ({}): on a machine that is busy all the time it may come too late, and "
-          "events are lost; it takes root, CAP_SYS_NICE, or `USER - nice {}` in /etc/security/limits.conf",
-          std::strerror(errno), kConsumerNice);
-    }
+    if (is_consumer_of(process, daemon)) consumers.push_back(number_of(process));
+  }
+  return consumers;
+}
+
+std::string prefer_daemons(pid_t daemon) {
+  if (launch::read_process_stat(daemon).name == kSessionDaemon) prefer(fmt::format("/proc/{}", daemon));
+  for (const pid_t consumer : consumers_of(daemon)) {
+    const int error = prefer(fmt::format("/proc/{}", consumer));
+    if (error == 0) continue;
+    return fmt::format(
+        "LTTng's consumer keeps its priority ({}): on a machine that is busy all the time it may come too late, and "
+        "events are lost; it takes root, CAP_SYS_NICE, or `USER - nice {}` in /etc/security/limits.conf",
+        std::strerror(error), kConsumerNice);
   }
   return {};
 }

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 
+#include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -29,6 +30,13 @@ std::string remedy_for(int code) {
       return "start a relay daemon there: lttng-relayd --daemonize";
     case LTTNG_ERR_NOT_SNAPSHOT_SESSION:
       return "create the session in snapshot mode";
+    // Its consumer was killed.
+    case LTTNG_ERR_FATAL:
+    case LTTNG_ERR_NO_USTCONSUMERD:
+      return fmt::format(
+          "restart lttng-sessiond: its consumer has ended, and it starts no other one. `kill {}` ends it with all its "
+          "sessions; the next trace starts a new one",
+          session_daemon_pid());
     case LTTNG_ERR_UST_CONSUMER64_FAIL:
     case LTTNG_ERR_ENABLE_CONSUMER_FAIL:
       return "lttng-consumerd did not start: check the installation of lttng-tools";
@@ -45,8 +53,12 @@ TraceError lttng_error(int code, const std::string& doing) {
 }
 
 int check_lttng(int result, const std::string& doing) {
-  if (result < 0) throw lttng_error(result, doing);
-  return result;
+  if (result >= 0) return result;
+  const TraceError error = lttng_error(result, doing);
+  if (result == -LTTNG_ERR_FATAL || result == -LTTNG_ERR_NO_USTCONSUMERD) {
+    throw ConsumerEnded(error.what(), error.remedy());
+  }
+  throw TraceError(error);
 }
 
 }  // namespace tracing

@@ -19,8 +19,10 @@
 #include <thread>
 
 #include "launcher/base/home_directory.hpp"
+#include "launcher/base/own_environment.hpp"
+#include "launcher/base/process_mark.hpp"
+#include "launcher/base/process_stat.hpp"
 #include "launcher/base/spawn.hpp"
-#include "tracing/lttng/process_stat.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
@@ -29,6 +31,7 @@ namespace {
 constexpr const char* kDaemon = "lttng-sessiond";
 // For a daemon that another process is starting: LTTng has nothing to wait on.
 constexpr std::chrono::seconds kLongestStart{10};
+constexpr std::chrono::seconds kLongestEnd{10};
 constexpr std::chrono::milliseconds kBetweenLooks{5};
 constexpr const char* kInstallRemedy = "install LTTng: sudo apt-get install lttng-tools liblttng-ust-dev";
 
@@ -85,6 +88,8 @@ class DaemonOutput {
 
 pid_t spawn_daemon(const DaemonOutput& output) {
   const int out = output.fd() >= 0 ? output.fd() : launch::kDevNull;
+  launch::Environment environment = launch::own_environment();
+  environment.insert_or_assign(launch::kLeaveRunningVariable, "1");  // others may use it when this launch has ended
   try {
     return launch::spawn({
         .program = kDaemon,
@@ -92,6 +97,7 @@ pid_t spawn_daemon(const DaemonOutput& output) {
         // for the million of many containers. Here only the descriptors that it gets are open.
         .argv = {kDaemon, "--background"},
         .search_path = true,
+        .environment = &environment.variables(),
         .descriptors = {{STDIN_FILENO, launch::kDevNull}, {STDOUT_FILENO, out}, {STDERR_FILENO, out}},
         .only_standard_descriptors = true,
         // Our session would let Ctrl-C reach it; our blocked signals would make it deaf to SIGTERM for ever.
@@ -143,7 +149,7 @@ pid_t read_pid(const std::string& pid_file) {
   return file >> pid && pid > 0 ? pid : 0;
 }
 
-void check_not_stopped(pid_t pid, const ProcessStat& process) {
+void check_not_stopped(pid_t pid, const launch::ProcessStat& process) {
   if (process.name != kDaemon || process.state != 'T') return;
   throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and does not answer", pid),
                    fmt::format("continue it with `kill -CONT {}`", pid));
@@ -154,7 +160,7 @@ void check_not_stopped(pid_t pid, const ProcessStat& process) {
 void check_daemon_is_here(const std::string& pid_file) {
   const pid_t pid = read_pid(pid_file);
   if (pid == 0) return;
-  const ProcessStat process = read_process_stat(pid);
+  const launch::ProcessStat process = launch::read_process_stat(pid);
   const bool hidden = process.name.empty() && kill(pid, 0) != 0 && errno == EPERM;  // /proc with hidepid
   if (hidden) return;
   if (process.name != kDaemon || process.state == 'Z') {
@@ -176,11 +182,31 @@ pid_t session_daemon_pid() {
 
 bool session_daemon_can_answer() {
   const pid_t pid = session_daemon_pid();
-  return pid == 0 || read_process_stat(pid).state != 'T';
+  return pid == 0 || launch::read_process_stat(pid).state != 'T';
 }
 
 void check_daemon_not_stopped() {
-  if (const pid_t pid = session_daemon_pid(); pid != 0) check_not_stopped(pid, read_process_stat(pid));
+  if (const pid_t pid = session_daemon_pid(); pid != 0) check_not_stopped(pid, launch::read_process_stat(pid));
+}
+
+bool session_daemon_is_ours() {
+  const pid_t pid = session_daemon_pid();
+  if (pid == 0 || launch::read_process_stat(pid).name != kDaemon) return false;
+  std::ifstream environment(fmt::format("/proc/{}/environ", pid));
+  const std::string mark = std::string(launch::kLeaveRunningVariable) + "=1";
+  for (std::string variable; std::getline(environment, variable, '\0');) {
+    if (variable == mark) return true;
+  }
+  return false;
+}
+
+void restart_session_daemon() {
+  const pid_t pid = session_daemon_pid();
+  if (pid != 0 && kill(pid, SIGTERM) == 0 && !launch::ends_within(pid, kLongestEnd)) {
+    throw TraceError(fmt::format("the LTTng session daemon (process {}) does not end", pid),
+                     fmt::format("end it with `kill -9 {}`", pid));
+  }
+  start_daemon();
 }
 
 bool ensure_session_daemon() {

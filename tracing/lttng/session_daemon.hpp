@@ -13,6 +13,13 @@ namespace tracing {
 // started. Blocks until the daemon is ready, about 20 ms. Throws TraceError.
 bool ensure_session_daemon();
 
+// Whether a launch, or `launch trace`, has started the daemon that serves this user, and this user may end it.
+bool session_daemon_is_ours();
+
+// Ends the daemon and starts another one. All its sessions end with it. Traced programs register with the new one.
+// Throws TraceError.
+void restart_session_daemon();
+
 // Throws unless the process of the pid file `pid_file` is a running session daemon. A socket on a shared HOME can be
 // reached from another container; its daemon would then record nothing of ours, without an error (LTTng bug 1371). A
 // missing file is accepted.

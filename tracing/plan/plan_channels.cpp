@@ -24,6 +24,8 @@ constexpr const char* kInitialisationChannel = "ros2_init";
 constexpr const char* kAllRosEvents = "ros2:*";
 constexpr const char* kLaunchEvents = "launch:*";
 constexpr const char* kCutEvent = "launch:cut";
+// Tells the processes that another session has the objects which lived before: the snapshot half (docs/tracetools.md).
+constexpr const char* kNoStateDump = "ros2_session:no_state_dump";
 constexpr const char* kKernelChannel = "kchan";
 constexpr std::uint32_t kKernelReadTimer = 200;  // µs: the consumer polls, nobody has to wake it
 constexpr std::uint64_t kFewestSubbuffers = 2;
@@ -102,11 +104,12 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   } else if (config.max_overhead > 0 && !plan.events.empty()) {
     plan.events.push_back({.pattern = kCutEvent});
   }
+  if (config.dual_runtime && !plan.events.empty()) plan.events.push_back({.pattern = kNoStateDump});
   plan.context_fields = config.context_fields_ust;
   plan.subbuffer_size = config.subbuffer_size_ust;
   plan.subbuffer_count = config.subbuffer_count_ust;
   plan.read_timer = config.read_timer_ust;
-  plan.switch_timer = config.switch_timer_ust;
+  plan.switch_timer = config.switch_timer();
   plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
   plan.blocking_timeout = config.blocking_timeout_ust;
   plan.tracefile_size = config.tracefile_size;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/plan/ros_events.hpp"
 
+#include <fmt/core.h>
+#include <fnmatch.h>
+
+#include "launcher/base/nearest_name.hpp"
 #include "tracetools/event_table.h"
 
 namespace tracing {
@@ -11,6 +15,18 @@ const std::vector<RosEvent>& all_ros_events() {
                                                    TRACETOOLS_EXT_EVENT_TABLE(TRACING_ROS_EVENT, "ros2_ext")};
 #undef TRACING_ROS_EVENT
   return events;
+}
+
+std::string why_no_ros_event(const std::string& pattern) {
+  if (!pattern.starts_with("ros2:") && !pattern.starts_with("ros2_ext:")) return "";
+  std::vector<std::string> names;
+  for (const RosEvent& event : all_ros_events()) {
+    if (fnmatch(pattern.c_str(), event.name.c_str(), 0) == 0) return "";
+    names.push_back(event.name);
+  }
+  const std::string nearest = launch::nearest_name(pattern, names);
+  return fmt::format("ROS 2 has no event '{}'{}", pattern,
+                     nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 
 const std::vector<std::string>& default_ros_events() {

@@ -36,6 +36,9 @@ struct ChannelConfig {
 // The owner of userspace buffers: a user, for all processes together, or each process.
 enum class BufferOwner { kUser, kProcess };
 
+// What a power cut takes at most, if the buffers are not full before: 5 s (docs/performance.md has the cost).
+inline constexpr std::uint32_t kSwitchTimer = 5'000'000;  // µs
+
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
 struct TraceConfig {
   std::string session_name;  // final: any time stamp already appended
@@ -54,8 +57,10 @@ struct TraceConfig {
   bool init_channel = false;              // initialisation events in a channel of their own, `ros2_init`
   std::uint64_t subbuffer_count_ust = 4;  // for each processor, a power of two
   std::uint32_t read_timer_ust =
-      50'000;                          // µs between two looks of the consumer into the buffers; 0: it is woken instead
-  std::uint32_t switch_timer_ust = 0;  // µs after which a sub-buffer is written though it is not full; 0: never
+      50'000;  // µs between two looks of the consumer into the buffers; 0: it is woken instead
+  // µs after which a sub-buffer is written though it is not full; 0: never; unset: kSwitchTimer, never in a snapshot
+  // session, which writes nothing by itself.
+  std::optional<std::uint32_t> switch_timer_ust = {};
   std::optional<bool> overwrite_ust = {};  // lose the oldest events, not the newest; unset: in a snapshot session only
   // µs that a traced thread waits for room in its buffers before an event is lost; 0: it never waits, -1: for ever.
   std::int64_t blocking_timeout_ust = 0;
@@ -79,6 +84,7 @@ struct TraceConfig {
   bool dual_runtime = false;   // the runtime half of a dual session: never a snapshot session
 
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
+  std::uint32_t switch_timer() const { return switch_timer_ust.value_or(records_snapshots() ? 0 : kSwitchTimer); }
   // The trace goes to a relay daemon: there is no directory of ours to look into.
   bool over_network() const { return !url.empty() || live_timer != 0; }
   // Of the kernel's channel, for each processor.

@@ -25,4 +25,10 @@ class SessionDaemonMissing : public TraceError {
   using TraceError::TraceError;
 };
 
+// The session daemon's consumer has ended, and the daemon starts no other one.
+class ConsumerEnded : public TraceError {
+ public:
+  using TraceError::TraceError;
+};
+
 }  // namespace tracing

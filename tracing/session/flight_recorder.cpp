@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "tracing/account/verdict.hpp"
 #include "tracing/plan/trace_error.hpp"
 #include "tracing/session/snapshot.hpp"
 
@@ -56,7 +55,7 @@ TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
     std::vector<fs::path> snapshots = snapshots_in(config_.trace_directory());
     if (snapshots.empty()) throw TraceError("LTTng has written no snapshot");
     taken.directory = snapshots.back();
-    write_snapshot_verdict(taken.directory, config_.lttng_session_name(), taken.reasons);
+    judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons);
     for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
       fs::remove_all(snapshots[oldest]);
     }

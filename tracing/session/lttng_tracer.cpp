@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 #include <lttng/lttng.h>
-#include <sys/sysinfo.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -13,34 +10,32 @@
 #include <utility>
 
 #include "launcher/base/monotonic_clock.hpp"
+#include "tracing/account/absence.hpp"
 #include "tracing/account/cost_measurement.hpp"
+#include "tracing/account/counter_directory.hpp"
 #include "tracing/account/loss_account.hpp"
+#include "tracing/account/loss_counters.hpp"
 #include "tracing/account/losses_by_process.hpp"
 #include "tracing/account/packet_losses.hpp"
+#include "tracing/account/session_pauses.hpp"
 #include "tracing/account/session_step.hpp"
 #include "tracing/account/stream_packets.hpp"
 #include "tracing/account/unwritten_data.hpp"
 #include "tracing/account/verdict.hpp"
-#include "tracing/checks/context_check.hpp"
-#include "tracing/checks/kernel_checks.hpp"
-#include "tracing/checks/setup_checks.hpp"
 #include "tracing/checks/unreachable_processes.hpp"
 #include "tracing/kernel/kernel_recorder.hpp"
-#include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/consumer_priority.hpp"
-#include "tracing/lttng/installed_program.hpp"
 #include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/relay_connection.hpp"
 #include "tracing/lttng/session_daemon.hpp"
-#include "tracing/plan/channel_plan.hpp"
-#include "tracing/plan/plan_channels.hpp"
-#include "tracing/plan/shared_memory_fit.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/plan/trace_error.hpp"
 #include "tracing/session/event_watch.hpp"
-#include "tracing/session/new_session.hpp"
+#include "tracing/session/run_watch.hpp"
 #include "tracing/session/session_details.hpp"
 #include "tracing/session/session_end.hpp"
 #include "tracing/session/session_listing.hpp"
+#include "tracing/session/session_setup.hpp"
 #include "tracing/session/session_store.hpp"
 #include "tracing/session/snapshot.hpp"
 #include "tracing/session/step_timer.hpp"
@@ -50,18 +45,54 @@
 namespace tracing {
 namespace {
 
-// A verdict that can't be written, as on a full disk, is no reason to lose the account.
+// A damaged trace is not complete, so its damage is looked for first.
 void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<Stream>& streams,
-           const std::string& name, const std::string& directory, std::uint64_t stopped) {
+           const std::string& directory, std::uint64_t stopped) {
   explain_losses(losses, streams);
   const std::string no_room = why_no_room(directory);
   find_unwritten(losses, streams, stopped, !no_room.empty());
   losses.damage = describe_damage(losses, no_room, directory);
-  by_process.look_into(directory, streams);  // a damaged trace is not complete
+  by_process.look_for_absent_events(directory);
+  by_process.look_into(directory, streams);
+}
+
+// A verdict that can't be written, as on a full disk, is no reason to lose the account.
+void write(LossAccount& losses, const std::string& session_name, const std::string& directory) {
   try {
-    write_verdict(losses, name, directory);
+    write_verdict(losses, session_name, directory);
   } catch (const TraceError& error) {
     losses.unwritten_verdict = error.what();
+  }
+}
+
+// The launch that records a session knows its counters; other programs look for them.
+TraceConfig with_counters(TraceConfig config) {
+  if (config.event_counters.empty()) {
+    config.event_counters = CounterDirectory::of_session(config.lttng_session_name());
+  }
+  return config;
+}
+
+// For a session that ended in an error: what is in its directory is not complete.
+void write_failed_verdict(const std::string& session_name, const std::string& directory, const std::string& failure) {
+  std::error_code none;
+  if (!directory.starts_with('/') || !std::filesystem::is_directory(directory, none)) return;
+  LossAccount losses;
+  losses.damage = failure;
+  try {
+    write_verdict(losses, session_name, directory);
+  } catch (const TraceError&) {
+    // The error of the session is the one to tell.
+  }
+}
+
+// Without its session nobody else would end it.
+void end_kernel_recorder(const std::string& directory) {
+  if (!directory.starts_with('/')) return;
+  try {
+    finish_kernel_recorder(directory);
+  } catch (const TraceError&) {
+    // The error of the session is the one to tell.
   }
 }
 
@@ -75,25 +106,31 @@ std::vector<Stream> streams_of(const LossAccount& losses, const std::string& dir
   return read_streams(directory, in_files, give_up);
 }
 
-// The directory of the kernel recorder of a session. It is beside the recorded trace or beside the snapshots.
-std::string recorder_directory(const std::string& name) {
-  if (const auto snapshots = snapshot_directory(name)) return *snapshots;
-  const std::optional<SessionSummary> session = find_session(name);
-  return session ? session->path : "";
+// Whether the relay daemon has gone that gets the trace of the session.
+std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
+  if (session.snapshot || session.path.empty() || session.path.starts_with('/')) return std::nullopt;
+  RelayConnection connection(relay_ports(session.path), consumers_of(session_daemon_pid()));
+  if (connection.look() != RelayConnection::State::kEnded) return std::nullopt;
+  return Absence{.text = "the relay daemon was gone before the session ended: what was recorded since then is lost",
+                 .is_loss = true};
 }
 
 class LttngTracer : public Tracer {
  public:
-  SetupReport start(const TraceConfig& config) override;
+  SetupReport start(const TraceConfig& config) override { return start_session(config); }
+  std::unique_ptr<RunWatch> watch(const TraceConfig& config, std::function<void(const std::string&)> told) override {
+    return std::make_unique<RunWatch>(config, std::move(told));
+  }
   LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) override;
-  void pause(const std::string& lttng_session_name) override;
+  std::optional<LossAccount> pause(const std::string& lttng_session_name) override;
   void resume(const std::string& lttng_session_name) override;
-  void record_snapshot(const std::string& lttng_session_name) override;
+  std::string record_snapshot(const std::string& lttng_session_name) override;
   std::vector<SessionSummary> sessions() override { return list_sessions(); }
   SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
   TraceableEvents traceable_events() override { return list_traceable_events(); }
   std::vector<std::string> unreachable_processes() override { return unreachable_process_warnings(); }
   void save(const std::string& lttng_session_name, const std::string& directory) override {
+    check_daemon_not_stopped();
     save_session(lttng_session_name, directory);
   }
   void load(const std::string& lttng_session_name, const std::string& directory) override {
@@ -101,94 +138,6 @@ class LttngTracer : public Tracer {
     load_session(lttng_session_name, directory);
   }
 };
-
-bool has_domain(const std::vector<ChannelPlan>& channels, lttng_domain_type domain) {
-  return std::any_of(channels.begin(), channels.end(),
-                     [domain](const ChannelPlan& channel) { return channel.domain == domain; });
-}
-
-// Where LTTng's kernel modules are not there but the kernel's own tracer can take their place: the kernel channels,
-// which are taken out of `channels`. Throws TraceError when neither can be used.
-std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig& config,
-                                                              std::vector<ChannelPlan>& channels,
-                                                              std::vector<std::string>& warnings) {
-  std::string why;
-  try {
-    check_kernel_tracer();
-  } catch (const TraceError& error) {
-    // Relay daemons are LTTng's own.
-    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.over_network()) throw;
-    why = error.what();
-  }
-  if (why.empty()) {
-    std::string unknown = drop_unknown_kernel_names(channels, kernel_event_names(), syscall_names());
-    if (!unknown.empty()) warnings.push_back(std::move(unknown));
-    check_kernel_context_fields(channels, kernel_modules_version());
-    return {};
-  }
-  std::vector<ChannelPlan> kernel;
-  for (const ChannelPlan& channel : channels) {
-    if (channel.domain == LTTNG_DOMAIN_KERNEL) kernel.push_back(channel);
-  }
-  check_kernel_recorder_fields(kernel);
-  std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
-  if (channels.empty()) {
-    throw TraceError("kernel events are recorded through tracefs, and only beside userspace events",
-                     "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
-  }
-  warnings.push_back(fmt::format("{}; they are recorded through tracefs instead", why));
-  return kernel;
-}
-
-SetupReport LttngTracer::start(const TraceConfig& config) {
-  SetupReport report{.trace_directory = config.destination(), .steps = {}, .warnings = {}};
-  StepTimer timer(report.steps);
-
-  check_config(config);
-  std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
-  if (has_domain(channels, LTTNG_DOMAIN_UST)) {
-    fit_into_shared_memory(channels, free_shared_memory(), static_cast<std::uint64_t>(get_nprocs_conf()),
-                           report.warnings);
-  }
-  timer.finished("checks");
-
-  report.started_daemon = ensure_session_daemon();
-  timer.finished("session daemon");
-  for (std::string& warning : context_warnings(channels)) report.warnings.push_back(std::move(warning));
-  std::vector<ChannelPlan> through_tracefs;
-  if (has_domain(channels, LTTNG_DOMAIN_KERNEL)) {
-    through_tracefs = take_kernel_channels_without_modules(config, channels, report.warnings);
-    timer.finished("kernel tracer");
-  }
-
-  const std::string session_name = config.lttng_session_name();
-  NewSession session(config);
-  if (config.records_snapshots()) {
-    add_snapshot_output(config);
-  }
-  timer.finished("create session");
-  for (const ChannelPlan& channel : channels) {
-    enable_channel(session_name, channel);
-    timer.finished("channel " + channel.channel);
-    enable_events(session_name, channel);
-    timer.finished("events " + channel.channel);
-    add_contexts(session_name, channel);
-    timer.finished("context fields " + channel.channel);
-  }
-  check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
-  timer.finished("start");
-  if (!through_tracefs.empty()) {
-    std::string unknown = start_kernel_recorder(
-        *installed_program(kKernelRecorder), session_name, recorder_directory(session_name), through_tracefs,
-        config.records_snapshots() ? KernelRecording::kSnapshots : KernelRecording::kEverything);
-    if (!unknown.empty()) report.warnings.push_back(std::move(unknown));
-    timer.finished("kernel recorder");
-  }
-  report.notes = prefer_consumers(session_daemon_pid());
-  timer.finished("consumer priority");
-  session.keep();
-  return report;
-}
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
@@ -198,8 +147,19 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   const std::optional<SessionSummary> session = find_session(name);
   // One that was paused has written its last packets before.
   const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
-  LossAccount losses = stop_and_account(name, give_up, timer);
-  LossesByProcess by_process(config, losses);
+  const std::optional<Absence> relay_daemon_gone = session ? look_for_relay_daemon(*session) : std::nullopt;
+  LossAccount losses;
+  try {
+    losses = stop_and_account(name, give_up, timer);
+  } catch (const TraceError& error) {
+    const bool is_known = session && !session->path.empty();
+    const std::string directory = is_known ? session->path : config.over_network() ? "" : config.trace_directory();
+    end_kernel_recorder(directory);
+    if (!config.records_snapshots()) write_failed_verdict(name, directory, error.what());
+    throw;
+  }
+  LossesByProcess by_process(with_counters(config), losses);
+  if (relay_daemon_gone) losses.absences.push_back(*relay_daemon_gone);
   timer.finished("losses");
   std::optional<std::uint64_t> lost_by_kernel;
   std::string kernel_failure;
@@ -208,8 +168,12 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
       lost_by_kernel = finish_kernel_recorder(recorder_directory(name));
     } catch (const TraceError& error) {
       kernel_failure = error.what();
+      losses.absences.push_back({.text = kernel_failure, .is_loss = true});
     }
   }
+  if (session) losses.of_snapshots = session->snapshot;
+  losses.directory = recorder_directory(name);
+  if (!losses.directory.starts_with('/')) losses.directory.clear();
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   std::error_code unreadable;
   const bool rotated = local && std::filesystem::exists(session->path + "/archives", unreadable);
@@ -232,35 +196,65 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     losses.channels.push_back({.domain = "kernel",
                                .channel = kKernelRecorderChannel,
                                .discarded_events = *lost_by_kernel,
-                               .counted_by = LossSource::kKernelRecorder});
+                               .counted_by = LossSource::kTracefs});
   }
+  if (readable) judge(losses, by_process, streams, session->path, stopped);
+  timer.finished("losses by process");
   const bool hurried = losses.cut_short || (give_up && give_up());
   // The first session on a machine takes some 30 ms longer to end, because of the measurement. It disturbs no process
   // then.
   if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
   timer.finished("cost of events");
-  if (readable) {
-    judge(losses, by_process, streams, name, session->path, stopped);
-  }
+  if (readable) write(losses, name, session->path);
   timer.finished("verdict");
   losses.steps = std::move(steps);
   if (!kernel_failure.empty()) throw TraceError(kernel_failure);
   return losses;
 }
 
-void LttngTracer::pause(const std::string& name) {
+std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
+  check_daemon_not_stopped();
+  const std::optional<SessionSummary> session = find_session(name);
+  const auto stopped = static_cast<std::uint64_t>(launch::monotonic_time());
   // Waits for the data, because a user who pauses wants to look at the trace.
+  note_pause(CounterDirectory::of_session(name), name);
   check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
   pause_kernel_recorder(recorder_directory(name));
+  if (!session || !session->active || session->snapshot || !session->path.starts_with('/')) return std::nullopt;
+  // So a trace that is looked at meanwhile has a verdict. The end of the session writes another one.
+  try {
+    TraceConfig config;
+    config.session_name = name;
+    LossAccount losses = read_losses(name);
+    losses.directory = session->path;
+    LossesByProcess by_process(with_counters(config), losses);
+    const std::vector<Stream> streams = streams_of(losses, session->path, {});
+    count_in_packets(losses, streams);
+    judge(losses, by_process, streams, session->path, stopped);
+    if (!losses.processes.empty()) losses.cost = try_event_cost(config.context_fields_ust);
+    write(losses, name, session->path);
+    return losses;
+  } catch (const TraceError&) {
+    return std::nullopt;  // the session has paused all the same
+  }
 }
 
 void LttngTracer::resume(const std::string& name) {
+  check_daemon_not_stopped();
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
+  note_resume(CounterDirectory::of_session(name), name);
   resume_kernel_recorder(recorder_directory(name));
 }
 
-void LttngTracer::record_snapshot(const std::string& name) {
+std::string LttngTracer::record_snapshot(const std::string& name) {
+  check_daemon_not_stopped();
   record_and_clear(name);
+  const std::optional<std::filesystem::path> directory = snapshot_directory(name);
+  if (!directory) return {};
+  const std::vector<std::filesystem::path> snapshots = snapshots_in(*directory);
+  if (snapshots.empty()) return {};
+  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"});
+  return snapshots.back().string();
 }
 
 }  // namespace

@@ -4,13 +4,18 @@
 #include <fmt/core.h>
 #include <lttng/lttng.h>
 
+#include <chrono>
 #include <filesystem>
+#include <system_error>
 
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/trace_error.hpp"
+#include "tracing/session/session_end.hpp"
 
 namespace tracing {
 namespace {
+
+constexpr std::chrono::seconds kLongestEnd{2};
 
 // Where a new recording of a trace goes. A second recording into the same directory would truncate the files of the
 // first one, so each further one gets a directory of its own inside. A reader of the trace directory reads all of them.
@@ -25,20 +30,21 @@ std::string recording_directory(const TraceConfig& config) {
   }
 }
 
-int create(const TraceConfig& config) {
+int create(const TraceConfig& config, const std::string& directory) {
   const std::string name = config.lttng_session_name();
   if (config.records_snapshots()) return lttng_create_session_snapshot(name.c_str(), nullptr);
   if (config.live_timer != 0) {
     return lttng_create_session_live(name.c_str(), config.destination().c_str(), config.live_timer);
   }
-  const std::string destination = config.over_network() ? config.destination() : recording_directory(config);
-  return lttng_create_session(name.c_str(), destination.c_str());
+  return lttng_create_session(name.c_str(), config.over_network() ? config.destination().c_str() : directory.c_str());
 }
 
 }  // namespace
 
 NewSession::NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
-  const int result = create(config);
+  const std::string directory = config.over_network() ? "" : recording_directory(config);
+  if (!std::filesystem::exists(directory)) directory_ = directory;
+  const int result = create(config, directory);
   if (result == -LTTNG_ERR_EXIST_SESS) {
     throw TraceError(fmt::format("trace session '{}' exists already", name_),
                      fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
@@ -47,7 +53,20 @@ NewSession::NewSession(const TraceConfig& config) : name_(config.lttng_session_n
 }
 
 NewSession::~NewSession() {
-  if (!kept_) lttng_destroy_session_no_wait(name_.c_str());
+  if (kept_) return;
+  if (directory_.empty()) {
+    lttng_destroy_session_no_wait(name_.c_str());
+    return;
+  }
+  // LTTng writes there until the session has gone.
+  try {
+    const auto give_up = std::chrono::steady_clock::now() + kLongestEnd;
+    destroy_session(name_, [give_up] { return std::chrono::steady_clock::now() > give_up; });
+  } catch (const TraceError&) {
+    // It has gone.
+  }
+  std::error_code none;
+  std::filesystem::remove_all(directory_, none);
 }
 
 }  // namespace tracing

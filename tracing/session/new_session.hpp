@@ -8,7 +8,8 @@
 
 namespace tracing {
 
-// A session that is destroyed again unless its set-up succeeds. Throws TraceError when it can't be created.
+// A session that is destroyed again unless its set-up succeeds, with the directory that was made for it. Throws
+// TraceError when it can't be created.
 class NewSession {
  public:
   explicit NewSession(const TraceConfig& config);
@@ -20,6 +21,7 @@ class NewSession {
 
  private:
   std::string name_;
+  std::string directory_;  // of the recording; "": it existed before, or the trace is on another machine
   bool kept_ = false;
 };
 

@@ -80,6 +80,7 @@ std::vector<TraceableEvent> userspace_events() {
 }  // namespace
 
 std::vector<SessionSummary> list_sessions() {
+  check_daemon_not_stopped();
   if (lttng_session_daemon_alive() != 1) return {};
   std::vector<SessionSummary> summaries;
   for (lttng_session& session : LttngList<lttng_session>("list the trace sessions", lttng_list_sessions)) {

@@ -9,8 +9,14 @@
 #include <charconv>
 #include <memory>
 
+#include "tracing/account/absence.hpp"
+#include "tracing/account/event_counters.hpp"
+#include "tracing/account/stream_packets.hpp"
+#include "tracing/account/verdict.hpp"
 #include "tracing/kernel/kernel_recorder.hpp"
 #include "tracing/lttng/lttng_error.hpp"
+#include "tracing/lttng/lttng_list.hpp"
+#include "tracing/session/session_listing.hpp"
 
 namespace tracing {
 namespace {
@@ -42,6 +48,13 @@ void record(const std::string& name, bool clear) {
   if (!directory) return;
   const std::vector<fs::path> snapshots = snapshots_in(*directory);
   if (!snapshots.empty()) take_kernel_snapshot(*directory, snapshots.back(), clear);
+}
+
+bool has_buffers_of_processes(const std::string& name) {
+  const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", name), lttng_list_domains,
+                                        name.c_str());
+  return std::any_of(domains.begin(), domains.end(),
+                     [](const lttng_domain& domain) { return domain.buf_type == LTTNG_BUFFER_PER_PID; });
 }
 
 }  // namespace
@@ -89,6 +102,26 @@ std::vector<fs::path> snapshots_in(const fs::path& directory) {
   std::sort(snapshots.begin(), snapshots.end(),
             [](const fs::path& a, const fs::path& b) { return number_of(a) < number_of(b); });
   return snapshots;
+}
+
+std::string recorder_directory(const std::string& name) {
+  if (const auto snapshots = snapshot_directory(name)) return *snapshots;
+  const std::optional<SessionSummary> session = find_session(name);
+  return session ? session->path : "";
+}
+
+void judge_snapshot(const fs::path& snapshot, const std::string& name, const std::string& counters,
+                    const std::vector<std::string>& reasons) {
+  const std::vector<Stream> streams = read_streams(snapshot);
+  std::vector<Absence> absences;
+  if (has_buffers_of_processes(name)) {
+    if (counters.empty()) {
+      absences.push_back({"each process has buffers of its own: programs that had ended are not in the snapshot"});
+    } else {
+      absences = absent_from_snapshot(EventCounters(counters).read(), streams);
+    }
+  }
+  write_snapshot_verdict(snapshot, name, reasons, streams, absences);
 }
 
 void record_snapshot(const std::string& name) {

@@ -4,12 +4,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/session_step.hpp"
 #include "tracing/plan/trace_config.hpp"
+#include "tracing/session/run_watch.hpp"
 #include "tracing/session/session_details.hpp"
 #include "tracing/session/traceable_events.hpp"
 
@@ -31,6 +33,9 @@ class Tracer {
   // Checks, creates, configures and starts the session. Throws TraceError with nothing left behind.
   virtual SetupReport start(const TraceConfig& config) = 0;
 
+  // Watches what the session depends on from now on (run_watch.hpp). Null if nothing does.
+  virtual std::unique_ptr<RunWatch> watch(const TraceConfig& config, std::function<void(const std::string&)> told) = 0;
+
   // Stops recording, waits until the consumer has written everything, reads the losses, destroys the session.
   // `give_up` is asked from time to time while waiting; when it says true, the session is destroyed at once, with what
   // is written by then. Leaves the verdict in the recording's directory (verdict.hpp), but for snapshot sessions, which
@@ -38,9 +43,12 @@ class Tracer {
   virtual LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) = 0;
 
   // The verbs of `launch trace`. Each throws TraceError and leaves the session as it is on error.
-  virtual void pause(const std::string& lttng_session_name) = 0;
+  // pause() gives the account of what is recorded so far, as finish() does; nothing for a session whose trace is not on
+  // this machine, for one of snapshots, and for one that was paused already.
+  virtual std::optional<LossAccount> pause(const std::string& lttng_session_name) = 0;
   virtual void resume(const std::string& lttng_session_name) = 0;
-  virtual void record_snapshot(const std::string& lttng_session_name) = 0;
+  // Gives the directory of the snapshot, with its verdict in it; "" if a relay daemon got it.
+  virtual std::string record_snapshot(const std::string& lttng_session_name) = 0;
   virtual std::vector<SessionSummary> sessions() = 0;
   virtual SessionDetails status(const std::string& lttng_session_name) = 0;
   virtual TraceableEvents traceable_events() = 0;

@@ -80,16 +80,18 @@ LossAccount FakeTracer::finish(const TraceConfig& config, const std::function<bo
   return losses;
 }
 
-void FakeTracer::pause(const std::string& lttng_session_name) {
+std::optional<LossAccount> FakeTracer::pause(const std::string& lttng_session_name) {
   record("pause " + lttng_session_name);
+  return losses_in_pause;
 }
 
 void FakeTracer::resume(const std::string& lttng_session_name) {
   record("resume " + lttng_session_name);
 }
 
-void FakeTracer::record_snapshot(const std::string& lttng_session_name) {
+std::string FakeTracer::record_snapshot(const std::string& lttng_session_name) {
   record("record_snapshot " + lttng_session_name);
+  return snapshot_directory;
 }
 
 std::vector<SessionSummary> FakeTracer::sessions() {

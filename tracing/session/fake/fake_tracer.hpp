@@ -3,6 +3,8 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -23,6 +25,8 @@ class FakeTracer : public Tracer {
   // What the calls give back or throw.
   SetupReport setup_report;  // its trace directory is filled in by start()
   LossAccount losses;
+  std::optional<LossAccount> losses_in_pause;
+  std::string snapshot_directory;
   std::vector<SessionSummary> session_list;
   TraceableEvents events;
   std::optional<TraceError> start_error;
@@ -43,10 +47,13 @@ class FakeTracer : public Tracer {
   std::optional<TraceConfig> last_config() const;
 
   SetupReport start(const TraceConfig& config) override;
+  std::unique_ptr<RunWatch> watch(const TraceConfig&, std::function<void(const std::string&)>) override {
+    return nullptr;
+  }
   LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) override;
-  void pause(const std::string& lttng_session_name) override;
+  std::optional<LossAccount> pause(const std::string& lttng_session_name) override;
   void resume(const std::string& lttng_session_name) override;
-  void record_snapshot(const std::string& lttng_session_name) override;
+  std::string record_snapshot(const std::string& lttng_session_name) override;
   std::vector<SessionSummary> sessions() override;
   SessionDetails status(const std::string& lttng_session_name) override;
   TraceableEvents traceable_events() override;
