@@ -8,10 +8,6 @@
 
 namespace launch {
 
-namespace {
-
-// Number of insertions, deletions, replacements and swaps of neighbours that lead from `from` to `to` (restricted
-// Damerau-Levenshtein distance).
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> before_last;
   std::vector<std::size_t> last(to.size() + 1);
@@ -31,8 +27,6 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   }
   return last.back();
 }
-
-}  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   // A third of the name may differ: enough for a typing error, too little for an unrelated word.

@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
+#include "launcher/base/process_mark.hpp"
 #include "launcher/base/unique_fd.hpp"
 
 namespace launch {
@@ -109,14 +111,20 @@ class StringArray {
     }
     pointers_.push_back(nullptr);
   }
-  explicit StringArray(const std::map<std::string, std::string>& variables) {
-    pointers_.reserve(variables.size() + 1);
+  StringArray(const std::map<std::string, std::string>& variables, const char* mark) {
+    pointers_.reserve(variables.size() + 2);
+    if (mark != nullptr) {
+      pointers_.push_back(const_cast<char*>(mark));
+    }
     std::size_t size = 0;
     for (const auto& [name, value] : variables) {
       size += name.size() + value.size() + 2;
     }
     text_.reserve(size);  // so that no pointer moves
     for (const auto& [name, value] : variables) {
+      if (mark != nullptr && name == kMarkVariable) {
+        continue;
+      }
       pointers_.push_back(text_.data() + text_.size());
       text_.append(name).append("=").append(value).push_back('\0');
     }
@@ -132,6 +140,11 @@ class StringArray {
   std::vector<char*> pointers_;
 };
 
+std::string own_mark() {
+  const char* const value = std::getenv(kMarkVariable);
+  return value == nullptr ? std::string() : std::string(kMarkVariable) + "=" + value;
+}
+
 }  // namespace
 
 SpawnError::SpawnError(int error, const std::string& program)
@@ -142,8 +155,10 @@ pid_t spawn(const ChildProgram& child) {
   const SpawnAttributes attributes(child);
   const StringArray argv(child.argv);
   std::optional<StringArray> variables;
+  const std::string inherited_mark = child.mark.empty() ? own_mark() : std::string();
+  const std::string& mark = child.mark.empty() ? inherited_mark : child.mark;
   if (child.environment != nullptr) {
-    variables.emplace(*child.environment);
+    variables.emplace(*child.environment, mark.empty() ? nullptr : mark.c_str());
   }
   const auto start = child.search_path ? ::posix_spawnp : ::posix_spawn;
   pid_t pid = -1;

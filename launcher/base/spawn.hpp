@@ -53,7 +53,8 @@ struct ChildProgram {
   std::vector<std::string> argv;  // the first word is the name by which the program is called
   bool search_path = false;
   const std::map<std::string, std::string>* environment = nullptr;  // nullptr: the environment of this process
-  std::string directory;                                            // "": the directory of this process
+  std::string mark;       // "LAUNCH_PROCESS=…", on top of `environment`; "": the mark of this process, if it has one
+  std::string directory;  // "": the directory of this process
   std::vector<ChildDescriptor> descriptors;
   bool only_standard_descriptors = false;  // closes all others from 3 on, even those that are not close-on-exec
   ChildGroup group = ChildGroup::kOurs;

@@ -4,10 +4,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <string_view>
@@ -61,14 +64,32 @@ const std::string& GeneratedFiles::directory() {
     if (base == nullptr || *base != '/') {
       continue;
     }
-    std::string path = std::string(base) + "/launch-XXXXXX";
-    if (::mkdtemp(path.data()) != nullptr) {  // mode 0700
+    // The guardian has to know the name before the directory exists, so mkdtemp(3) can't choose it.
+    std::uint64_t number = 0;
+    static_cast<void>(::getrandom(&number, sizeof number, 0));
+    std::string path = fmt::format("{}/launch-{:016x}", base, number);
+    if (make(path)) {
       directory_ = path;
       return directory_;
     }
     error = errno;
   }
   throw std::system_error(error, std::system_category(), "cannot create a directory for generated files");
+}
+
+bool GeneratedFiles::make(const std::string& path) {
+  if (announce_) {
+    announce_(path);
+  }
+  if (::mkdir(path.c_str(), 0700) == 0) {
+    return true;
+  }
+  const int error = errno;
+  if (withdraw_) {
+    withdraw_();
+  }
+  errno = error;
+  return false;
 }
 
 }  // namespace launch

@@ -2,6 +2,7 @@
 // Files that processes read, in a directory that only this user can enter and that ends with the launch.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "launcher/process/process_spec.hpp"
@@ -10,6 +11,12 @@ namespace launch {
 
 class GeneratedFiles {
  public:
+  // `announce` is called with the path before the directory is made, and `withdraw` if it can't be made.
+  void announce_to(std::function<void(const std::string& path)> announce, std::function<void()> withdraw) {
+    announce_ = std::move(announce);
+    withdraw_ = std::move(withdraw);
+  }
+
   GeneratedFiles() = default;
   ~GeneratedFiles();  // removes the directory with all files
   GeneratedFiles(const GeneratedFiles&) = delete;
@@ -22,7 +29,11 @@ class GeneratedFiles {
  private:
   const std::string& directory();
 
+  bool make(const std::string& path);
+
   std::string directory_;
+  std::function<void(const std::string&)> announce_;
+  std::function<void()> withdraw_;
 };
 
 }  // namespace launch

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ProcessRunner on posix_spawn(3). Never fork(2): the launcher has threads.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <linux/close_range.h>
 #include <poll.h>
 #include <signal.h>
@@ -21,6 +22,7 @@
 
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/pipe.hpp"
+#include "launcher/base/process_mark.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
@@ -48,7 +50,17 @@ void set_nonblocking(const UniqueFd& fd) {
   }
 }
 
+// The process can read its pipe itself. So the pipe has a reader as long as it has a writer, and when the launcher has
+// been killed, the process does not die of SIGPIPE before it has cleaned up: the guardian opens the pipe and reads on.
 Channel make_output_pipe() {
+  Pipe pipe = make_pipe();
+  set_nonblocking(pipe.read);
+  UniqueFd both(::open(fmt::format("/proc/self/fd/{}", pipe.write.get()).c_str(), O_RDWR | O_CLOEXEC));
+  return {std::move(pipe.read), both ? std::move(both) : std::move(pipe.write)};
+}
+
+// For a process whose descendants may go on after the launch: a full pipe without a reader would stop them.
+Channel make_plain_pipe() {
   Pipe pipe = make_pipe();
   set_nonblocking(pipe.read);
   return {std::move(pipe.read), std::move(pipe.write)};
@@ -65,6 +77,12 @@ Channel make_pseudo_terminal() {
     fail("cannot open a pseudo-terminal");
   }
   return channel;
+}
+
+Channel make_channel(const ProcessSpec& spec) {
+  return spec.emulate_tty                                   ? make_pseudo_terminal()
+         : spec.environment.contains(kLeaveRunningVariable) ? make_plain_pipe()
+                                                            : make_output_pipe();
 }
 
 std::vector<std::string> command_line(const ProcessSpec& spec) {
@@ -93,7 +111,7 @@ class PosixProcessRunner final : public ProcessRunner {
   explicit PosixProcessRunner(std::string exec_program);
 
   Process spawn(const ProcessSpec& spec) override;
-  void signal_group(const Process& process, int signal) override;
+  bool signal_group(const Process& process, int signal) override;
   ProcessExit outcome(const Process& process) override { return wait(process, WNOWAIT); }
   ProcessExit reap(const Process& process) override { return wait(process, 0); }
 
@@ -128,13 +146,14 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   const std::string program = spec.shell ? "/bin/sh" : find_program(spec);
 
   Pipe in = make_pipe();
-  Channel out = spec.emulate_tty ? make_pseudo_terminal() : make_output_pipe();
-  Channel err = spec.emulate_tty ? make_pseudo_terminal() : make_output_pipe();
 
+  Channel out = make_channel(spec);
+  Channel err = make_channel(spec);
   ChildProgram child{
       .program = program,
       .argv = command_line(spec),
       .environment = &spec.environment.variables(),
+      .mark = spec.mark,
       .directory = spec.working_directory,
       .descriptors = {{STDIN_FILENO, in.read.get()},
                       {STDOUT_FILENO, out.child.get()},
@@ -192,14 +211,18 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   return process;
 }
 
-void PosixProcessRunner::signal_group(const Process& process, int signal) {
-  if (::kill(-process.pid, signal) != 0 && errno != ESRCH && errno != EPERM) {
-    fail("cannot send a signal");
+bool PosixProcessRunner::signal_group(const Process& process, int signal) {
+  if (::kill(-process.pid, signal) != 0) {
+    if (errno != ESRCH && errno != EPERM) {
+      fail("cannot send a signal");
+    }
+    return errno != EPERM;
   }
   if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGQUIT) {
     // A stopped group (reading the terminal from the background stops it) would not see the signal.
     ::kill(-process.pid, SIGCONT);
   }
+  return true;
 }
 
 ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {

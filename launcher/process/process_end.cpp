@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "launcher/process/process_supervisor.hpp"
 #include "launcher/process/supervised_process.hpp"
 
 namespace launch {
@@ -35,23 +36,33 @@ void Supervision::terminate_now(Supervised& process) {
 }
 
 void Supervision::kill_at_last(Supervised& process) {
-  process.state = ProcessState::kKilling;
-  process.timer.reset();
-  send(process, SIGKILL, SIGTERM, process.spec.sigkill_timeout);
-  if (process.exited) {
-    reap_after_kill(process);
-    conclude(process);
-  }
+  kill(process, SIGTERM, process.spec.sigkill_timeout);
 }
 
 void Supervision::kill_now(Supervised& process) {
+  kill(process, 0, Duration{0});
+}
+
+void Supervision::kill(Supervised& process, int escalated_from, Duration waited) {
   process.state = ProcessState::kKilling;
-  process.timer.reset();
-  send(process, SIGKILL, 0, Duration{0});
+  start_timer(process, ProcessSupervisor::kHopeless);
+  send(process, SIGKILL, escalated_from, waited);
   if (process.exited) {
     reap_after_kill(process);
     conclude(process);
+  } else if (process.refused) {
+    give_up(process);
   }
+}
+
+void Supervision::give_up(Supervised& process) {
+  process.exit_source.reset();
+  process.output.close();
+  process.unreaped = false;
+  const ProcessLeft left{process.process.pid, process.refused};
+  process.process = Process{};
+  notify(process, left);
+  finish(process);
 }
 
 void Supervision::send_requested(Supervised& process) {
@@ -88,10 +99,10 @@ void Supervision::end_signalled(Supervised& process) {
   const bool again = respawns(process);
   if (process.output.is_open() && process.state != ProcessState::kKilling) {
     report_exit(process, runner.outcome(process.process), again);
-    if (process.state != ProcessState::kTerminating) {
-      process.state = ProcessState::kTerminating;
-      start_timer(process, process.spec.sigkill_timeout);
-      send(process, SIGTERM, 0, Duration{0});
+    // Its descendants got the signal, too, and have the rest of the time.
+    if (process.state == ProcessState::kRunning) {
+      process.state = ProcessState::kInterrupting;
+      start_timer(process, process.spec.sigterm_timeout);
     }
     return;
   }
@@ -140,7 +151,7 @@ void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_r
 
 void Supervision::send(Supervised& process, int signal, int escalated_from, Duration waited) {
   process.signalled = process.signalled || asks_to_end(signal);
-  runner.signal_group(process.process, signal);
+  process.refused = !runner.signal_group(process.process, signal);
   notify(process, SignalSent{signal, escalated_from, waited});
 }
 

@@ -34,6 +34,11 @@ struct SignalSent {
   int escalated_from = 0;
   Duration waited{0};
 };
+// SIGKILL has not ended it: it is left as it is, and ProcessDone follows.
+struct ProcessLeft {
+  pid_t pid;
+  bool foreign;  // it belongs to another user; else it hangs in the kernel, or its leader belongs to another user
+};
 struct ProcessDone {};  // will not run again
 
 // `spec` and `label` stay valid as long as the supervisor.
@@ -41,7 +46,7 @@ struct ProcessEvent {
   ProcessId id;
   const std::string& label;
   const ProcessSpec& spec;
-  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessDone> what;
+  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, ProcessDone> what;
 };
 
 }  // namespace launch

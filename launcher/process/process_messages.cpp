@@ -58,6 +58,12 @@ class Messages {
     say(LogLevel::kInfo, fmt::format("sending signal '{}' to process[{}]", signal_name(sent.signal), event_.label));
   }
 
+  void operator()(const ProcessLeft& left) const {
+    say(LogLevel::kError,
+        fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, left.pid,
+                    left.foreign ? "belongs to another user" : "has not ended after SIGKILL", place(event_.spec)));
+  }
+
   void operator()(const ProcessDone&) const {}
 
  private:

@@ -17,8 +17,9 @@ class ProcessRunner {
   // Throws std::system_error when it can't be started (no such program, no permission, no such directory).
   virtual Process spawn(const ProcessSpec& spec) = 0;
 
-  // Sends a signal to every process of the group of `process`. A group that is gone is not an error.
-  virtual void signal_group(const Process& process, int signal) = 0;
+  // Sends a signal to every process of the group of `process`. A group that is gone is not an error. False when each
+  // process of the group belongs to another user, so that none got the signal.
+  virtual bool signal_group(const Process& process, int signal) = 0;
 
   // How an exited process ended, without reaping it: its number, and with it the number of its group, stays reserved,
   // so that signal_group() can't hit strangers. Must only be called once its pidfd is readable.

@@ -60,7 +60,8 @@ struct GeneratedFile {
 
 // Configuration: plain data, all substitutions performed. `launch --dry-run` prints exactly this.
 struct ProcessSpec {
-  std::string name;                      // label without its number; the supervisor appends "-N"
+  std::string name;           // label without its number; the supervisor appends "-N"
+  std::string python_action;  // the name of the action of a Python launch file that asked for it; empty: another file
   std::vector<std::string> other_names;  // further names for it, such as the name of its ROS node
   std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
   Environment environment;        // complete, not a difference
@@ -76,6 +77,7 @@ struct ProcessSpec {
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
   bool traced = true;  // for RunScopes: may be recorded
+  std::string mark;    // tells the guardian about it (Guardian::mark); the supervisor sets it
   SourceRange origin;  // the launch-file line that asked for it
 };
 

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/supervised_process.hpp"
 
 namespace launch {
@@ -30,7 +31,7 @@ const std::array<std::array<Supervision::Handler, Supervision::kEvents>, Supervi
   /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart},
   /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
   /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
+  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::give_up,      &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
   /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now},
   /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::ignore,          &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive},
 }};
@@ -67,10 +68,12 @@ void Supervision::spawn(Supervised& process) {
   process.timer.reset();
   process.exited = false;
   process.signalled = false;
+  process.refused = false;
   process.request = Request::kNone;
   try {
     if (process.state == ProcessState::kStarting) {
       files.write(process.spec, process.id);
+      process.spec.mark = guardian == nullptr ? "" : guardian->mark(process.label, process.spec);
     }
     process.process = runner.spawn(process.spec);
   } catch (const std::system_error& error) {
@@ -199,6 +202,16 @@ ProcessSupervisor::~ProcessSupervisor() {
   }
 }
 
+void ProcessSupervisor::use_guardian(Guardian& guardian) {
+  impl_->guardian = &guardian;
+  auto number = std::make_shared<std::int32_t>(0);
+  impl_->files.announce_to(
+      [&guardian, number](const std::string& path) {
+        *number = guardian.add_clean_up({"/bin/rm", "-rf", "--", path});
+      },
+      [&guardian, number] { guardian.remove_clean_up(*number); });
+}
+
 void ProcessSupervisor::observe(Observer observer) {
   impl_->observers.push_back(std::move(observer));
 }
@@ -242,6 +255,22 @@ void ProcessSupervisor::shutdown() {
 
 void ProcessSupervisor::signal(ProcessId id, int signal) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kSignal, signal);
+}
+
+void ProcessSupervisor::suspend() {
+  for (const auto& process : impl_->processes) {
+    if (process->unreaped) {
+      impl_->runner.signal_group(process->process, SIGSTOP);
+    }
+  }
+}
+
+void ProcessSupervisor::resume() {
+  for (const auto& process : impl_->processes) {
+    if (process->unreaped) {
+      impl_->runner.signal_group(process->process, SIGCONT);
+    }
+  }
 }
 
 void ProcessSupervisor::stop(ProcessId id) {

@@ -6,7 +6,7 @@
 //
 // A process is supervised together with its group, so descendants count too unless they leave the group:
 // - Signals go to the group. When a process that was signalled exits before its descendants have closed its output,
-//   they get SIGTERM, and SIGKILL after sigkill_timeout; ProcessDone waits for them, ProcessExited does not.
+//   they have the rest of the timeouts, as if it still ran; ProcessDone waits for them, ProcessExited does not.
 // - When a process exits on its own, ProcessDone follows at once. Descendants that hold its output open go on, and
 //   their output is shown; they get SIGINT at shutdown and SIGKILL when the supervisor is destroyed. A respawn kills
 //   them first.
@@ -27,6 +27,7 @@
 
 namespace launch {
 
+class Guardian;
 struct Supervision;
 
 class ProcessSupervisor {
@@ -35,11 +36,17 @@ class ProcessSupervisor {
   // keep the launcher busy and flood the screen.
   static constexpr Duration kFailedStartDelay = std::chrono::seconds(1);
 
+  // A process that has not ended so long after SIGKILL never will: it belongs to another user or hangs in the kernel.
+  static constexpr Duration kHopeless = std::chrono::seconds(10);
+
   using Observer = std::function<void(const ProcessEvent&)>;
 
   // All references must outlive the supervisor.
   ProcessSupervisor(EventLoop& loop, ProcessRunner& runner, OutputRouter& output);
   ~ProcessSupervisor();  // kills what is still alive
+
+  // Tells the guardian about each process and about generated files. It must outlive the supervisor.
+  void use_guardian(Guardian& guardian);
 
   // Called for every event, in the order of registration. Observers may call start(), shutdown() and signal().
   void observe(Observer observer);
@@ -66,6 +73,10 @@ class ProcessSupervisor {
   // Sends a signal to the group of a running process (a SignalSent event follows). Nothing escalates. Ignored for a
   // process that does not run.
   void signal(ProcessId id, int signal);
+
+  // Stops all processes with SIGSTOP, as Ctrl-Z stops a program of a shell, and lets them go on.
+  void suspend();
+  void resume();
 
   // Ends one process as shutdown() ends all of them: it does not respawn, whatever its policy says.
   void stop(ProcessId id);

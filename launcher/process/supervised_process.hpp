@@ -18,6 +18,8 @@
 
 namespace launch {
 
+class Guardian;
+
 enum class SupervisionEvent {
   kStart,
   kExit,
@@ -56,6 +58,7 @@ struct Supervised {
   bool unreaped = false;  // `process` names a process, alive or a zombie, so its group may be signalled
   bool exited = false;    // a zombie, kept because descendants hold its output open
   bool signalled = false;
+  bool refused = false;  // the last signal: every process of the group belongs to another user
   Duration started{0};
   Duration ran_for{0};
   ChildOutput output;
@@ -92,6 +95,8 @@ struct Supervision {
   void terminate_now(Supervised& process);
   void kill_at_last(Supervised& process);
   void kill_now(Supervised& process);
+  void kill(Supervised& process, int escalated_from, Duration waited);
+  void give_up(Supervised& process);
   void send_requested(Supervised& process);
   void end_unasked(Supervised& process);
   void end_signalled(Supervised& process);
@@ -127,6 +132,7 @@ struct Supervision {
   std::deque<Pending> pending;
   bool handling = false;
   GeneratedFiles files;
+  Guardian* guardian = nullptr;
 };
 
 }  // namespace launch

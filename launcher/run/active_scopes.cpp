@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "launcher/process/guardian/guardian.hpp"
+
 namespace launch {
 
 namespace {

@@ -12,10 +12,11 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/visit/run_scope.hpp"
 
 namespace launch {
+
+class Guardian;
 
 class ActiveScopes {
  public:

@@ -2,6 +2,7 @@
 #include "launcher/run/event_handlers.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace launch {
 
@@ -10,6 +11,20 @@ void EventHandlers::add(EventHandler handler) {
   std::string process = handler.process;
   by_process_[std::move(process)].push_back({count_++, std::make_shared<const EventHandler>(std::move(handler))});
 }
+
+namespace {
+
+// The values that every event of a process has. An action of a Python launch file is known by a name of its own.
+EventValues about(const ProcessSpec& spec, const std::string& label, EventValues more) {
+  EventValues values = {{"process", label}};
+  if (!spec.python_action.empty()) {
+    values.emplace_back("action", spec.python_action);
+  }
+  values.insert(values.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  return values;
+}
+
+}  // namespace
 
 bool EventHandlers::remove(const std::string& name) {
   std::size_t removed = 0;
@@ -55,7 +70,7 @@ std::vector<Invocation> EventHandlers::on_event(const ProcessEvent& event) {
         event.spec, event.label,
         [](const EventHandler& handler) { return std::holds_alternative<OnProcessStart>(handler.event); },
         [&] {
-          return EventValues{{"process", event.label}, {"pid", std::to_string(started->pid)}};
+          return about(event.spec, event.label, {{"pid", std::to_string(started->pid)}});
         });
   }
   const auto exit = [&](int code, const std::string& pid) {
@@ -66,7 +81,7 @@ std::vector<Invocation> EventHandlers::on_event(const ProcessEvent& event) {
           return wanted != nullptr && wanted->exit_code.matches(code);
         },
         [&] {
-          return EventValues{{"process", event.label}, {"pid", pid}, {"exit_code", std::to_string(code)}};
+          return about(event.spec, event.label, {{"pid", pid}, {"exit_code", std::to_string(code)}});
         });
   };
   if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
@@ -90,9 +105,8 @@ std::vector<Invocation> EventHandlers::on_line(const ProcessSpec& spec, const st
         return wanted != nullptr && wanted->pattern.matches(stream, line);
       },
       [&] {
-        return EventValues{{"process", label},
-                           {"text", std::string(line)},
-                           {"stream", stream == OutputStream::kOut ? "stdout" : "stderr"}};
+        return about(spec, label,
+                     {{"text", std::string(line)}, {"stream", stream == OutputStream::kOut ? "stdout" : "stderr"}});
       });
 }
 

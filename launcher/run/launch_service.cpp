@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "launcher/base/monotonic_clock.hpp"
+#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/visit/farewell_check.hpp"
 
 namespace launch {
@@ -29,6 +30,21 @@ constexpr Duration kSameSignal = std::chrono::seconds(1);
 bool is_ignored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+// Stops this process as Ctrl-Z stops a program that does not handle SIGTSTP. Returns after SIGCONT.
+void stop_this_process() {
+  struct sigaction action {};
+  struct sigaction before {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(SIGTSTP, &action, &before);
+  sigset_t stop;
+  sigemptyset(&stop);
+  sigaddset(&stop, SIGTSTP);
+  ::raise(SIGTSTP);
+  ::pthread_sigmask(SIG_UNBLOCK, &stop, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
+  ::sigaction(SIGTSTP, &before, nullptr);
 }
 
 // "a-1, b-2 and 3 more"
@@ -74,8 +90,8 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                             .time = monotonic_time()});
                   }}),
       handlers_(
-          loop, [this](const Invocation& invocation) { visit(invocation.scope(), invocation.handler->actions); },
-          [this] { check_finished(); }, [this](const LaunchError& error) { fail(error); }),
+          loop, [this](const Invocation& invocation) { visit(invocation); }, [this] { check_finished(); },
+          [this](const LaunchError& error) { fail(error); }),
       timers_(loop, [this](TimerRequest timer) { visit(std::move(timer.scope), timer.actions); }),
       coroutines_(
           context, loop, [this] { on_coroutine_step(); }, [this](const LaunchError& error) { fail(error); }),
@@ -91,11 +107,18 @@ LaunchService::~LaunchService() {
   supervisor_.observe_output(nullptr);
 }
 
+void LaunchService::use_guardian(Guardian& guardian) {
+  guardian_ = &guardian;
+  scopes_.use_guardian(guardian);
+}
+
 int LaunchService::run(const LaunchDescription& description) {
   const auto act = [this](int signal) { on_signal(signal); };
   // `nohup launch` goes on when its terminal is closed.
   const EventLoop::SourcePtr signals = is_ignored(SIGHUP) ? loop_.on_signal({SIGINT, SIGTERM, SIGQUIT}, act)
                                                           : loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, act);
+  const EventLoop::SourcePtr stops =
+      is_ignored(SIGTSTP) ? nullptr : loop_.on_signal({SIGTSTP}, [this](int) { suspend(); });
   loop_.post([this, &description] {
     const Duration before = loop_.now();
     traverse({description.file, 0, 0}, [&] {
@@ -110,6 +133,10 @@ int LaunchService::run(const LaunchDescription& description) {
 // The events in the course of the launch.
 
 void LaunchService::on_signal(int signal) {
+  if (guardian_ != nullptr && !guardian_missed_ && !guardian_->is_alive()) {
+    on_lost_guardian();
+    return;
+  }
   if (interrupted_at_ && loop_.now() - *interrupted_at_ < kSameSignal) {
     return;
   }
@@ -143,6 +170,23 @@ void LaunchService::on_signal(int signal) {
   check_finished();
 }
 
+void LaunchService::on_lost_guardian() {
+  guardian_missed_ = true;
+  context_.message(LogLevel::kError, "launch", "launch-guardian was killed: ending the launch");
+  if (!interrupted_at_) {
+    interrupted_at_ = loop_.now();
+    shutdown("the end of launch-guardian");
+  }
+}
+
+void LaunchService::suspend() {
+  context_.message(LogLevel::kInfo, "launch", "stopping the system, SIGCONT continues it");
+  supervisor_.suspend();
+  stop_this_process();
+  supervisor_.resume();
+  context_.message(LogLevel::kInfo, "launch", "continuing the system");
+}
+
 void LaunchService::on_process_event(const ProcessEvent& event) {
   recording_.record(event);
   processes_.on_event(event);
@@ -158,7 +202,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
 void LaunchService::on_end_of_required(const ProcessEvent& event) {
   const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
   const auto* const exited = std::get_if<ProcessExited>(&event.what);
-  if (failed_to_start) {
+  if (failed_to_start || std::holds_alternative<ProcessLeft>(event.what)) {
     exit_code_ = 1;
   }
   // A process that is ended to be started again doesn't end the system.
@@ -189,6 +233,11 @@ void LaunchService::on_coroutine_step() {
 void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
   traverse(actions.empty() ? SourceRange() : actions.front()->where(),
            [&] { context_.visit_in(std::move(scope), actions); });
+}
+
+void LaunchService::visit(const Invocation& invocation) {
+  const std::vector<ActionPtr>& actions = invocation.handler->actions;
+  traverse(actions.empty() ? SourceRange() : actions.front()->where(), [&] { context_.visit(invocation); });
 }
 
 void LaunchService::traverse(const SourceRange& where, const std::function<void()>& traversal) {
@@ -302,9 +351,13 @@ void LaunchService::shutdown(const std::string& reason) {
 void LaunchService::visit_farewell(const Invocation& invocation) {
   Requests requests;
   try {
-    context_.visit_in(invocation.scope(), invocation.handler->actions);
+    context_.visit(invocation);
     requests = context_.take_requests();
-    check_farewell(requests);
+    check_farewell(requests, invocation.handler->live);
+    if (!requests.loads.empty() || !requests.transitions.empty()) {
+      context_.message(LogLevel::kWarning, "launch",
+                       "components are not loaded and states not changed any more, because the system ends");
+    }
     processes_.check(requests.commands);
   } catch (const LaunchError& error) {
     context_.take_requests();

@@ -17,7 +17,6 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/python/coroutines.hpp"
 #include "launcher/ros/ros_tasks.hpp"
@@ -32,6 +31,8 @@
 
 namespace launch {
 
+class Guardian;
+
 class LaunchService {
  public:
   using ErrorSink = std::function<void(const LaunchError&)>;
@@ -42,8 +43,9 @@ class LaunchService {
   LaunchService(const LaunchService&) = delete;
   LaunchService& operator=(const LaunchService&) = delete;
 
-  // Makes the guardian run the scopes' clean-up commands when the launcher is killed. It must outlive the service.
-  void guard_scopes(Guardian& guardian) { scopes_.use_guardian(guardian); }
+  // Makes the guardian run the scopes' clean-up commands when the launcher is killed. The launch ends when the guardian
+  // is killed. It must outlive the service.
+  void use_guardian(Guardian& guardian);
 
   // Lets a trace hold the steps of the launcher. The recorder must outlive the service.
   void record_to(LaunchRecorder& recorder) { recording_.use_recorder(recorder); }
@@ -76,12 +78,17 @@ class LaunchService {
 
   // The events in the course of the launch.
   void on_signal(int signal);
+  // The guardian is the process that a user has started. To kill it is to ask for the end.
+  void on_lost_guardian();
+  // Ctrl-Z: stops the system, and returns when it shall go on.
+  void suspend();
   void on_process_event(const ProcessEvent& event);
   void on_end_of_required(const ProcessEvent& event);
   void on_coroutine_step();
 
   // A traversal: visits, then carries out the requests. An error of the visit carries out nothing and ends the launch.
   void visit(Scope scope, const std::vector<ActionPtr>& actions);
+  void visit(const Invocation& invocation);
   void traverse(const SourceRange& where, const std::function<void()>& traversal);
   void carry_out(Requests requests);
   void start(Round round);
@@ -103,6 +110,8 @@ class LaunchService {
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
+  const Guardian* guardian_ = nullptr;
+  bool guardian_missed_ = false;
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;

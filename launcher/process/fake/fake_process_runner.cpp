@@ -107,17 +107,20 @@ Process FakeProcessRunner::spawn(const ProcessSpec& spec) {
   return process;
 }
 
-void FakeProcessRunner::signal_group(const Process& process, int signal) {
+bool FakeProcessRunner::signal_group(const Process& process, int signal) {
   signals_.push_back({process.pid, signal, loop_.now()});
   Running& running = find(process);
+  if (running.script.refuses_signals) {
+    return false;
+  }
   const bool deadly =
       signal == SIGKILL || ((signal == SIGINT || signal == SIGTERM) && !running.script.ignores.contains(signal));
   if (!deadly) {
-    return;
+    return true;
   }
   if (running.dead) {
     running.close_output();
-    return;
+    return true;
   }
   const int code = signal == SIGKILL ? -SIGKILL : running.script.exit_code_on_signal.value_or(-signal);
   if (signal == SIGKILL || running.script.dies_after == Duration{0}) {
@@ -129,6 +132,7 @@ void FakeProcessRunner::signal_group(const Process& process, int signal) {
     running.dying = true;
     running.timers.push_back(loop_.after(running.script.dies_after, [this, &running, code] { exit(running, code); }));
   }
+  return true;
 }
 
 void FakeProcessRunner::exit(Running& process, int code) {

@@ -30,6 +30,7 @@ struct FakeScript {
   // Descendants hold its output open after its exit, for this long or until SIGKILL. They ignore `ignores` as well.
   std::optional<Duration> descendants_for{};
   std::optional<int> spawn_error{};  // errno of a start that fails
+  bool refuses_signals = false;      // it belongs to another user
 };
 
 // Records the requests that it gets. The processes are not real, so their pids (from 1,000,001 on) must not be
@@ -56,7 +57,7 @@ class FakeProcessRunner final : public ProcessRunner {
   void default_script(FakeScript run);
 
   Process spawn(const ProcessSpec& spec) override;
-  void signal_group(const Process& process, int signal) override;
+  bool signal_group(const Process& process, int signal) override;
   ProcessExit outcome(const Process& process) override;
   ProcessExit reap(const Process& process) override;
 

@@ -9,59 +9,60 @@
 #include <vector>
 
 #include "launcher/base/unique_fd.hpp"
-#include "launcher/process/process_runner.hpp"
+#include "launcher/process/process_spec.hpp"
 
 namespace launch {
 
-// Owns the helper process launch-guardian, which has a session of its own, so that Ctrl-C does not reach it. When this
-// object or the whole launcher goes away, the groups that are attached get SIGTERM, and SIGKILL after the grace period.
-// Then the clean-up commands run.
+// The process above the launcher, launch-guardian. Every process that the launcher starts descends from it, and it
+// adopts each process whose parent dies (PR_SET_CHILD_SUBREAPER). It passes signals to the launcher, and ends as the
+// launcher ends. When the launcher has gone, the guardian ends what is left: SIGINT, then SIGTERM and SIGKILL after the
+// timeouts of each process. Then the clean-up commands run.
 class Guardian {
  public:
-  static constexpr Duration kGrace = std::chrono::seconds(5);
+  // Splits this process in two: the calling process becomes the guardian, and this function returns in a new process,
+  // which goes on as the launcher. Must be called while there is one thread. When the guardian is killed, the launcher
+  // gets SIGTERM. `command_line` is what ps(1) shows. Throws std::system_error; a missing program ends the process with
+  // exit code 1 and a message.
+  static Guardian put_above(const std::vector<std::string>& command_line,
+                            const std::string& program = default_program());
 
-  // Starts the helper; throws std::system_error. Make it early: it keeps the standard error output of this moment.
-  explicit Guardian(const std::string& program = default_program(), Duration grace = kGrace);
-  ~Guardian();  // waits for the helper: at once when nothing is attached, else up to the grace period
-  Guardian(const Guardian&) = delete;
-  Guardian& operator=(const Guardian&) = delete;
+  // Waits until guardian and spare are there. A process that is started earlier may survive when all three are killed
+  // at once.
+  void wait_until_ready();
 
-  // Each takes one system call. They have no effect when the helper itself was killed: the launch goes on without it.
-  void attach(pid_t group);
-  void detach(pid_t group);
+  // A number for this launch that no other launch has.
+  const std::string& id() const { return id_; }
 
-  // Adds a command, with the path of its program, that runs when the launcher has gone and the attached groups have
-  // ended. The number that it returns takes the command back. Commands run in the opposite order, each for ten seconds
-  // at most.
+  // False when somebody has killed it.
+  bool is_alive() const;
+
+  // The environment variable that tells the guardian and its spare about a process: "LAUNCH_PROCESS=…".
+  std::string mark(const std::string& label, const ProcessSpec& spec) const;
+
+  // The guardian writes there when the launcher has gone.
+  void set_log(const std::string& path);
+
+  // Adds a command, with the path of its program, that runs when the launcher has gone and the processes have ended.
+  // The number that it returns takes the command back. Commands run in the opposite order, each for ten seconds at
+  // most.
   std::int32_t add_clean_up(const std::vector<std::string>& command);
   void remove_clean_up(std::int32_t number);
 
-  // The process number of the helper.
+  // The process number of the guardian.
   pid_t pid() const { return pid_; }
 
   // ../lib/launch/launch-guardian, relative to the directory of this program.
   static std::string default_program();
 
  private:
-  UniqueFd socket_;
+  Guardian(UniqueFd records, UniqueFd ready, std::string id, pid_t pid)
+      : records_(std::move(records)), ready_(std::move(ready)), id_(std::move(id)), pid_(pid) {}
+
+  UniqueFd records_;
+  UniqueFd ready_;  // a pipe that is closed when the guardian and its spare are there
+  std::string id_;
   pid_t pid_ = -1;
   std::int32_t clean_ups_ = 0;  // numbers given so far
-};
-
-// A runner whose processes are attached to a guardian from their start until they are reaped.
-class GuardedProcessRunner final : public ProcessRunner {
- public:
-  // Both must outlive this runner.
-  GuardedProcessRunner(ProcessRunner& runner, Guardian& guardian) : runner_(runner), guardian_(guardian) {}
-
-  Process spawn(const ProcessSpec& spec) override;
-  void signal_group(const Process& process, int signal) override { runner_.signal_group(process, signal); }
-  ProcessExit outcome(const Process& process) override { return runner_.outcome(process); }
-  ProcessExit reap(const Process& process) override;
-
- private:
-  ProcessRunner& runner_;
-  Guardian& guardian_;
 };
 
 }  // namespace launch

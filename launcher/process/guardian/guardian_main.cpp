@@ -1,165 +1,233 @@
 // SPDX-License-Identifier: Apache-2.0
-// launch-guardian GRACE_MILLISECONDS: ends what a launcher leaves behind when it is killed.
+// launch-guardian: the process above the launcher (guardian.hpp, guardian_protocol.hpp).
 //
-// Standard input is a socket to the launcher, which reports each process group that it starts and each group that it
-// has ended. The socket closes when the launcher disappears, also by kill -9. Groups still known then get SIGTERM, and
-// SIGKILL when their leader has ended or the grace period is over. After that the clean-up commands run, the last one
-// first, except those that the launcher took back.
-#include <fmt/format.h>
+// It is linked statically and stays small, because each launch has it twice: a spare, in a session of its own, ends
+// everything when launcher and guardian are killed together.
 #include <poll.h>
 #include <signal.h>
-#include <sys/socket.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <map>
+#include <optional>
 #include <set>
 #include <string>
-#include <string_view>
-#include <system_error>
-#include <vector>
+#include <utility>
 
-#include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
-#include "launcher/process/guardian/guardian_protocol.hpp"
+#include "launcher/process/guardian/clean_ups.hpp"
+#include "launcher/process/guardian/gentle_end.hpp"
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using launch::GuardianRecord;
 using launch::UniqueFd;
 
-// A command that hangs must not block this program, and everything that waits for it, for ever.
-constexpr std::chrono::milliseconds kCleanUpLimit = std::chrono::seconds(10);
+constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
 
-// The groups and commands that a launcher has left behind.
-struct Remains {
-  std::set<pid_t> groups;
-  std::map<std::int32_t, std::vector<std::string>> clean_ups;
+UniqueFd open_process(pid_t pid) {
+  return UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+}
+
+void wait_for_end(const UniqueFd& process) {
+  pollfd ended{process.get(), POLLIN, 0};
+  while (::poll(&ended, 1, -1) != 1) {
+  }
+}
+
+class GuardianProcess {
+ public:
+  GuardianProcess(std::string id, pid_t launcher, int records, UniqueFd ready, std::set<pid_t> strangers);
+
+  // Returns the wait status of the launcher after everything has ended.
+  int run();
+  bool ended_all() const { return ended_all_; }
+
+ private:
+  void watch_signals();
+  void start_spare();
+  [[noreturn]] void be_spare();
+  void pass_on(const signalfd_siginfo& signal) const;
+  bool reap();  // true when the launcher has ended
+  void end_rest(launch::LaunchMembers members, const std::string& launcher_ended, int signals);
+  std::string launcher_ended() const;
+
+  const std::string id_;
+  const pid_t launcher_;
+  const int records_;
+  const pid_t group_ = ::getpgrp();
+  const pid_t session_ = ::getsid(0);
+  UniqueFd ready_;
+  std::set<pid_t> strangers_;
+  UniqueFd launcher_process_ = open_process(launcher_);
+  UniqueFd own_process_ = open_process(::getpid());
+  UniqueFd signals_;
+  pid_t spare_ = -1;
+  int status_ = 0;
+  bool ended_all_ = true;
 };
 
-std::vector<std::string> split_words(std::string_view bytes) {
-  std::vector<std::string> words;
-  for (std::size_t end; (end = bytes.find('\0')) != std::string_view::npos; bytes.remove_prefix(end + 1)) {
-    words.emplace_back(bytes.substr(0, end));
+GuardianProcess::GuardianProcess(std::string id, pid_t launcher, int records, UniqueFd ready, std::set<pid_t> strangers)
+    : id_(std::move(id)),
+      launcher_(launcher),
+      records_(records),
+      ready_(std::move(ready)),
+      strangers_(std::move(strangers)) {}
+
+int GuardianProcess::run() {
+  watch_signals();
+  start_spare();
+  for (bool ended = reap(); !ended;) {
+    signalfd_siginfo signal{};
+    if (::read(signals_.get(), &signal, sizeof signal) != sizeof signal) {
+      pollfd readable{signals_.get(), POLLIN, 0};
+      ::poll(&readable, 1, -1);
+    } else if (signal.ssi_signo == SIGCHLD) {
+      ended = reap();
+    } else {
+      pass_on(signal);
+    }
   }
-  return words;
+  strangers_.insert(spare_);
+  end_rest({.launch_id = id_, .group = group_, .session = session_, .strangers = strangers_}, launcher_ended(),
+           signals_.get());
+  ::kill(spare_, SIGKILL);
+  ::waitpid(spare_, nullptr, 0);
+  return status_;
 }
 
-Remains follow_launcher(int socket) {
-  Remains remains;
-  std::array<char, sizeof(GuardianRecord) + launch::kLongestCleanUp> message{};
-  while (true) {
-    const ssize_t size = ::recv(socket, message.data(), message.size(), 0);
-    if (size < 0 && errno == EINTR) {
-      continue;
+// All signals are blocked from the start on: the launcher has blocked them before it became this program.
+void GuardianProcess::watch_signals() {
+  sigset_t watched;
+  sigfillset(&watched);
+  // What these say is about this process alone.
+  for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGPIPE, SIGSEGV, SIGSYS, SIGTRAP, SIGTTIN, SIGTTOU}) {
+    sigdelset(&watched, signal);
+  }
+  // nohup(1) ignores SIGHUP, and the launcher shall not see it either. A blocked signal arrives even if it is ignored.
+  struct sigaction action {};
+  if (::sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) {
+    sigdelset(&watched, SIGHUP);
+  }
+  signals_.reset(::signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+void GuardianProcess::start_spare() {
+  spare_ = ::fork();
+  if (spare_ == 0) {
+    be_spare();
+  }
+  ready_.reset();
+}
+
+// Ctrl-C and the end of the terminal do not reach the session of the spare.
+void GuardianProcess::be_spare() {
+  ::setsid();
+  ::prctl(PR_SET_NAME, "guardian-spare");
+  ready_.reset();
+  wait_for_end(launcher_process_);
+  // A guardian that somebody has stopped must go on now.
+  ::syscall(SYS_pidfd_send_signal, own_process_.get(), SIGCONT, nullptr, 0);
+  wait_for_end(own_process_);
+  end_rest({.launch_id = id_, .group = group_, .session = session_, .by_mark = true, .records = records_},
+           "launcher and guardian have gone", -1);
+  ::_exit(EXIT_SUCCESS);
+}
+
+// What the terminal sends reaches the launcher without our help, because it is in our process group.
+void GuardianProcess::pass_on(const signalfd_siginfo& signal) const {
+  if (signal.ssi_code != SI_KERNEL) {
+    ::kill(launcher_, static_cast<int>(signal.ssi_signo));
+  }
+}
+
+bool GuardianProcess::reap() {
+  int status = 0;
+  for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
+    if (WIFSTOPPED(status)) {
+      // Ctrl-Z: a shell waits for us, not for the launcher. What another process stops with SIGSTOP is not our matter.
+      if (pid == launcher_ && WSTOPSIG(status) != SIGSTOP) {
+        ::raise(SIGSTOP);
+      }
+    } else if (pid == launcher_) {
+      status_ = status;
+      return true;
+    } else if (pid == spare_) {
+      start_spare();
     }
-    if (size < static_cast<ssize_t>(sizeof(GuardianRecord))) {
-      return remains;
-    }
-    GuardianRecord record{};
-    std::memcpy(&record, message.data(), sizeof record);
-    switch (record.kind) {
-      case GuardianRecord::Kind::kAttach:
-        if (record.id > 1) {  // kill(2) would take a smaller number for all processes
-          remains.groups.insert(record.id);
-        }
-        break;
-      case GuardianRecord::Kind::kDetach:
-        remains.groups.erase(record.id);
-        break;
-      case GuardianRecord::Kind::kAddCleanUp:
-        remains.clean_ups[record.id] =
-            split_words({message.data() + sizeof record, static_cast<std::size_t>(size) - sizeof record});
-        break;
-      case GuardianRecord::Kind::kRemoveCleanUp:
-        remains.clean_ups.erase(record.id);
-        break;
+  }
+  return false;
+}
+
+std::string GuardianProcess::launcher_ended() const {
+  if (!WIFSIGNALED(status_)) {
+    return "";
+  }
+  const char* const name = ::sigabbrev_np(WTERMSIG(status_));
+  return std::string("the launcher was ended by ") + (name == nullptr ? "a signal" : std::string("SIG") + name);
+}
+
+void GuardianProcess::end_rest(launch::LaunchMembers members, const std::string& launcher_ended, int signals) {
+  const launch::LeftWork work = launch::read_records(records_);
+  launch::GuardianLog log;
+  if (!work.log.empty()) {
+    log.open(work.log);
+  }
+  const std::optional<std::set<pid_t>> children = members.by_mark ? std::nullopt : launch::own_children();
+  // The end of nearly all launches: the spare is the only child.
+  if (!children || *children != members.strangers) {
+    ended_all_ = launch::GentleEnd(std::move(members), log).run(launcher_ended, signals);
+  }
+  for (auto command = work.clean_ups.rbegin(); command != work.clean_ups.rend(); ++command) {
+    if (const std::string failure = launch::run_clean_up(command->second); !failure.empty()) {
+      log.say("ERROR", failure);
     }
   }
 }
 
-void end_groups(std::set<pid_t> groups, std::chrono::milliseconds grace) {
-  std::vector<pid_t> leaders;
-  std::vector<UniqueFd> pidfds;
-  std::vector<pollfd> descriptors;
-  for (const pid_t group : groups) {
-    UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, group, 0)));
-    if (pidfd) {
-      descriptors.push_back({pidfd.get(), POLLIN, 0});
-      pidfds.push_back(std::move(pidfd));
-      leaders.push_back(group);
-    }
-    ::kill(-group, SIGTERM);
-    ::kill(-group, SIGCONT);  // a stopped group would not see the signal
+// Ends this process as the launcher has ended.
+[[noreturn]] void end_with(int status) {
+  if (WIFSIGNALED(status)) {
+    const int number = WTERMSIG(status);
+    ::prctl(PR_SET_DUMPABLE, 0);  // the core of the launcher is the one to look at
+    ::signal(number, SIG_DFL);
+    ::kill(::getpid(), number);
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, number);
+    ::sigprocmask(SIG_UNBLOCK, &one, nullptr);
+    ::_exit(kExitCodeOfSignal + number);  // process 1 of a container can't end by a signal
   }
-  const auto deadline = Clock::now() + grace;
-  std::size_t running = leaders.size();
-  while (running > 0) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0 || (::poll(descriptors.data(), descriptors.size(), static_cast<int>(left)) < 0 && errno != EINTR)) {
+  ::_exit(WEXITSTATUS(status));
+}
+
+std::set<pid_t> numbers(const char* text) {
+  std::set<pid_t> all;
+  for (char* end = nullptr; *text != '\0'; text = *end == ',' ? end + 1 : end) {
+    all.insert(static_cast<pid_t>(std::strtol(text, &end, 10)));
+    if (end == text) {
       break;
     }
-    for (std::size_t i = 0; i < descriptors.size(); ++i) {
-      if (descriptors[i].fd >= 0 && descriptors[i].revents != 0) {
-        // Descendants that outlive the leader are killed at once, before the number of the group can be reused.
-        ::kill(-leaders[i], SIGKILL);
-        groups.erase(leaders[i]);
-        descriptors[i].fd = -1;
-        --running;
-      }
-    }
   }
-  for (const pid_t group : groups) {
-    ::kill(-group, SIGKILL);
-  }
-}
-
-void clean_up(const std::vector<std::string>& command) {
-  if (command.empty()) {
-    return;
-  }
-  pid_t pid = -1;
-  try {
-    // The command would inherit the signals that this program ignores.
-    pid = launch::spawn({.program = command.front(), .argv = command, .signals = launch::ChildSignals::kFresh});
-  } catch (const std::system_error& error) {
-    fmt::print(stderr, "launch-guardian: cannot run {}: {}\n", command.front(), error.code().message());
-    return;
-  }
-  if (!launch::ends_within(pid, kCleanUpLimit)) {
-    fmt::print(stderr, "launch-guardian: '{}' takes too long: killing it\n", fmt::join(command, " "));
-    ::kill(pid, SIGKILL);
-  }
-  launch::wait_for(pid);
+  return all;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "launch-guardian is started by launch, not by hand\n");
+  if (argc < 7 || std::strcmp(argv[6], "--") != 0) {
+    std::fputs("launch-guardian is started by launch, not by hand\n", stderr);
     return EXIT_FAILURE;
   }
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) {
-    ::signal(signal, SIG_IGN);
+  GuardianProcess guardian(argv[1], std::atoi(argv[2]), std::atoi(argv[3]), UniqueFd(std::atoi(argv[4])),
+                           numbers(argv[5]));
+  const int status = guardian.run();
+  if (!guardian.ended_all() && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) {
+    return EXIT_FAILURE;
   }
-  sigset_t none;
-  sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);  // the launcher starts this program with all signals blocked
-  const Remains remains = follow_launcher(STDIN_FILENO);
-  if (const std::size_t count = remains.groups.size(); count != 0) {
-    fmt::print(stderr, "launch-guardian: the launcher has gone and left {} process group{}: ending {}\n", count,
-               count == 1 ? "" : "s", count == 1 ? "it" : "them");
-    end_groups(remains.groups, std::chrono::milliseconds(std::atol(argv[1])));
-  }
-  for (auto command = remains.clean_ups.rbegin(); command != remains.clean_ups.rend(); ++command) {
-    clean_up(command->second);
-  }
-  return EXIT_SUCCESS;
+  end_with(status);
 }

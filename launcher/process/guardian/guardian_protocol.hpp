@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages of the launcher to launch-guardian: one record for each message of a sequenced-packet socket.
+// What launch-guardian learns from the launcher. The guardian reads it when the launcher has gone, and not before:
+// nothing can be lost, and nothing makes the launcher wait.
+//
+// - The environment of each process holds its mark (process_mark.hpp). A process has it before its first instruction,
+//   and its descendants inherit it.
+// - A memory file holds the clean-up commands and the path of launch.log.
+//
+//   launch-guardian ID LAUNCHER RECORDS READY CHILDREN -- WORD…
+//
+// ID is the number of the launch, LAUNCHER the process number of the launcher, RECORDS the descriptor of the memory
+// file, READY that of a pipe that is closed when the spare guardian is out of reach of signals to the process group,
+// CHILDREN the process numbers of children that the program had before, with commas. WORD… is the command line of
+// the launcher, for a reader of ps(1).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 namespace launch {
 
+// The memory file is a series of records. The last one may be incomplete.
 struct GuardianRecord {
-  enum class Kind : std::int32_t { kAttach = 1, kDetach = 2, kAddCleanUp = 3, kRemoveCleanUp = 4 };
+  enum class Kind : std::int32_t {
+    kAddCleanUp = 1,     // the words of a command follow, each with a zero byte at its end
+    kRemoveCleanUp = 2,  // nothing follows
+    kLog = 3             // the path of launch.log follows
+  };
 
   Kind kind;
-  std::int32_t id;  // the process group, or the number of a clean-up command
+  std::int32_t id;     // of a clean-up command
+  std::uint32_t size;  // bytes that follow
 };
-
-// After the record of kAddCleanUp the words of the command follow, each with a zero byte at its end.
-constexpr std::size_t kLongestCleanUp = 8192;  // bytes of all words
 
 }  // namespace launch

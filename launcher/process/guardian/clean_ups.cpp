@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/process/guardian/clean_ups.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include "launcher/base/unique_fd.hpp"
+#include "launcher/process/guardian/guardian_protocol.hpp"
+
+namespace launch {
+namespace {
+
+// A command that hangs must not block the guardian, and everything that waits for it, for ever.
+constexpr int kLimitMilliseconds = 10'000;
+
+std::string read_whole(int file) {
+  std::string text;
+  std::array<char, 4096> buffer;  // not initialised: it is read into
+  for (ssize_t count = 0; (count = ::pread(file, buffer.data(), buffer.size(), static_cast<off_t>(text.size()))) > 0;) {
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+  return text;
+}
+
+std::vector<std::string> split_words(std::string_view bytes) {
+  std::vector<std::string> words;
+  for (std::size_t end; (end = bytes.find('\0')) != std::string_view::npos; bytes.remove_prefix(end + 1)) {
+    words.emplace_back(bytes.substr(0, end));
+  }
+  return words;
+}
+
+// Returns 0 or the error number.
+int start(const std::vector<std::string>& command, pid_t& pid) {
+  std::vector<char*> argv;
+  for (const std::string& word : command) {
+    argv.push_back(const_cast<char*>(word.c_str()));  // exec does not write, C has no way to say so
+  }
+  argv.push_back(nullptr);
+  // The guardian has blocked its signals; a program expects none to be blocked or ignored.
+  sigset_t signals;
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  sigemptyset(&signals);
+  ::posix_spawnattr_setsigmask(&attributes, &signals);
+  sigfillset(&signals);
+  ::posix_spawnattr_setsigdefault(&attributes, &signals);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  const int error = ::posix_spawn(&pid, argv[0], nullptr, &attributes, argv.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+}  // namespace
+
+LeftWork read_records(int file) {
+  LeftWork work;
+  const std::string text = read_whole(file);
+  GuardianRecord record{};
+  for (std::string_view rest = text; rest.size() >= sizeof record;) {
+    std::memcpy(&record, rest.data(), sizeof record);
+    rest.remove_prefix(sizeof record);
+    if (rest.size() < record.size) {
+      break;  // the launcher was killed while it wrote
+    }
+    const std::string_view content = rest.substr(0, record.size);
+    rest.remove_prefix(record.size);
+    switch (record.kind) {
+      case GuardianRecord::Kind::kAddCleanUp:
+        work.clean_ups[record.id] = split_words(content);
+        break;
+      case GuardianRecord::Kind::kRemoveCleanUp:
+        work.clean_ups.erase(record.id);
+        break;
+      case GuardianRecord::Kind::kLog:
+        work.log = content;
+        break;
+    }
+  }
+  return work;
+}
+
+std::string run_clean_up(const std::vector<std::string>& command) {
+  if (command.empty()) {
+    return "";
+  }
+  pid_t pid = -1;
+  if (const int error = start(command, pid)) {
+    return "cannot run " + command.front() + ": " + std::strerror(error);
+  }
+  const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+  pollfd ended{pidfd.get(), POLLIN, 0};
+  int ready = 0;
+  while ((ready = ::poll(&ended, 1, kLimitMilliseconds)) < 0 && errno == EINTR) {
+  }
+  std::string failure;
+  if (ready == 0) {
+    failure = "'";
+    for (const std::string& word : command) {
+      failure += (failure.size() == 1 ? "" : " ") + word;
+    }
+    failure += "' takes too long: killing it";
+    ::kill(pid, SIGKILL);
+  }
+  ::waitpid(pid, nullptr, 0);
+  return failure;
+}
+
+}  // namespace launch

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the launcher has left to be done, read from the records.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace launch {
+
+struct LeftWork {
+  std::map<std::int32_t, std::vector<std::string>> clean_ups;
+  std::string log;  // the path of launch.log, "" when there is none yet
+};
+
+// Reads the memory file from its beginning.
+LeftWork read_records(int file);
+
+// Runs a command. Returns what went wrong, or "". A command that takes longer than ten seconds is killed.
+std::string run_clean_up(const std::vector<std::string>& command);
+
+}  // namespace launch

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the processes of a launch in /proc.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace launch {
+
+// What the environment of a process says about it.
+struct ProcessMark {
+  bool ours = false;  // the mark has the number of this launch
+  bool leave_running = false;
+  std::int64_t sigterm_timeout = 5000;  // milliseconds
+  std::int64_t sigkill_timeout = 5000;
+  bool out_on_screen = false;
+  bool error_on_screen = false;
+  std::string label;  // "" when it is not known
+};
+
+struct FoundProcess {
+  pid_t pid = 0;
+  pid_t parent = 0;
+  pid_t group = 0;
+  pid_t session = 0;
+  std::uint64_t started = 0;  // with the process number it names a process for good
+  char state = '?';
+  bool dying = false;  // has been killed, or is about to end
+  std::string name;
+
+  bool is_dead() const { return state == 'Z' || state == 'X'; }
+};
+
+// All processes that this user can see, in the order of their numbers.
+std::vector<FoundProcess> all_processes();
+
+// The children of this process; nullopt when the kernel does not tell. Much quicker than a look at all processes.
+std::optional<std::set<pid_t>> own_children();
+
+// The processes that descend from one of `roots`, without the roots.
+std::vector<FoundProcess> descendants(const std::vector<FoundProcess>& all, const std::set<pid_t>& roots);
+
+// Reads the environment of the process. A process of another user, and one that has overwritten its environment, has
+// the mark of no launch.
+ProcessMark read_mark(pid_t pid, const std::string& launch_id);
+
+// Whether SIGKILL has been sent to the process, which has not died yet.
+bool is_being_killed(pid_t pid);
+
+}  // namespace launch
