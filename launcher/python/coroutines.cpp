@@ -27,7 +27,7 @@ void Coroutines::start(const CoroutineRequest& request) {
 }
 
 void Coroutines::cancel() {
-  if (idle()) {
+  if (running_ + background_ == 0) {
     return;
   }
   PythonHost host(*file_, context_);
@@ -37,6 +37,7 @@ void Coroutines::cancel() {
 
 void Coroutines::abandon() {
   running_ = 0;
+  background_ = 0;
   wake_up_.reset();
   timer_.reset();
 }
@@ -54,10 +55,11 @@ void Coroutines::step() {
     } catch (const LaunchError& told) {
       failure = told;
     }
-    pause = {.running = running_ - 1, .descriptor = -1, .seconds = 0};
+    pause = {.running = running_ > 0 ? running_ - 1 : 0, .background = background_, .descriptor = -1, .seconds = 0};
   }
   running_ = pause.running;
-  if (running_ == 0) {
+  background_ = pause.background;
+  if (running_ + background_ == 0) {
     wake_up_.reset();
   } else {
     if (!wake_up_ && pause.descriptor >= 0) {

@@ -25,7 +25,7 @@ class Coroutines {
       : context_(context), loop_(loop), stepped_(std::move(stepped)), fail_(std::move(fail)) {}
 
   void start(const CoroutineRequest& request);
-  // True when no coroutine runs.
+  // True when no coroutine runs but for those in the background.
   bool idle() const { return running_ == 0; }
   // Asks all coroutines to end; they may still have something to do first.
   void cancel();
@@ -41,6 +41,7 @@ class Coroutines {
   std::function<void(const LaunchError&)> fail_;
   std::shared_ptr<PythonFile> file_;  // the file that started a coroutine last; Python's calls refer to it
   std::size_t running_ = 0;
+  std::size_t background_ = 0;
   EventLoop::SourcePtr wake_up_;
   EventLoop::SourcePtr timer_;
 };

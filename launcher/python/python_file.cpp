@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "launcher/language/action_parser.hpp"
@@ -15,6 +16,9 @@
 namespace launch {
 
 namespace {
+
+// The call of a part whose only argument is a text as XML files write it.
+constexpr std::string_view kParsed = "parsed";
 
 // Throws OnlyARunCalls if the object calls a function of the launch file and the scope is one of a plan's events.
 void call_if_run(python::Object& object, const Scope& scope, const SourceRange& where) {
@@ -88,12 +92,34 @@ class NamedAction : public Action {
     std::vector<ProcessSpec>& processes = context.requests().processes;
     for (std::size_t i = before; i < processes.size(); ++i) {
       processes[i].other_names.push_back(name_);
+      processes[i].python_action = name_;
     }
   }
 
  private:
   ActionPtr action_;
   std::string name_;
+};
+
+// An event handler. As in ROS 2, it is visited in the scope that the launch has when the event happens.
+class LiveHandler : public Action {
+ public:
+  explicit LiveHandler(ActionPtr action) : Action(action->where(), {}), action_(std::move(action)) {}
+
+  Introspection introspect() const override { return action_->introspect(); }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    std::vector<EventHandler>& handlers = context.requests().handlers;
+    const std::size_t before = handlers.size();
+    context.visit(*action_);
+    for (std::size_t i = before; i < handlers.size(); ++i) {
+      handlers[i].live = true;
+    }
+  }
+
+ private:
+  ActionPtr action_;
 };
 
 }  // namespace
@@ -128,6 +154,9 @@ Entity PythonFile::make_entity(const python::Entity& entity) {
   if (!entity.process_name.empty()) {
     std::vector<ActionPtr> actions = ActionParser(registry_).parse({made});
     made.made = std::make_shared<NamedAction>(std::move(actions.front()), entity.process_name);
+  } else if (entity.tag.starts_with("on_")) {
+    std::vector<ActionPtr> actions = ActionParser(registry_).parse({made});
+    made.made = std::make_shared<LiveHandler>(std::move(actions.front()));
   }
   return made;
 }
@@ -185,11 +214,19 @@ SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRang
     return std::make_shared<PythonSubstitution>(part.object, shared_from_this(), std::move(where));
   }
   std::vector<Template> arguments;
-  for (const python::Text& argument : part.arguments) {
-    arguments.push_back(make_template(argument, where));
+  std::string name = part.text;
+  if (name == kParsed) {
+    // A text with $(…) in it is what joins its parts.
+    arguments.push_back(parse_template(LocatedText(std::string(), where)));
+    arguments.push_back(parse_template(LocatedText(part.arguments.at(0).parts.at(0).text, where)));
+    name = "string-join";
+  } else {
+    for (const python::Text& argument : part.arguments) {
+      arguments.push_back(make_template(argument, where));
+    }
   }
   for (const SubstitutionType& type : substitution_types()) {
-    if (type.name == part.text) {
+    if (type.name == name) {
       if (std::optional<std::string> wrong = wrong_number_of_arguments(type, arguments.size())) {
         throw LaunchError(std::move(*wrong), std::move(where));
       }

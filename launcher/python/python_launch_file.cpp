@@ -34,6 +34,7 @@ std::shared_ptr<const LaunchDescription> run(std::shared_ptr<const SourceFile> f
   scope.packages = outer.packages;
   scope.log_directory = outer.log_directory;
   scope.warn = outer.warn;
+  scope.unrun_commands = outer.unrun_commands;
   scope.current_file = file;
 
   const auto python_file = std::make_shared<PythonFile>(file, registry);

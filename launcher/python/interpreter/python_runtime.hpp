@@ -108,6 +108,7 @@ class Object {
 // The state of the coroutines after a step.
 struct Pause {
   std::size_t running = 0;        // how many have not ended
+  std::size_t background = 0;     // how many others have not ended, which do not keep the launch going
   int descriptor = -1;            // when it is readable, a step has something to do
   std::optional<double> seconds;  // until a step has something to do by itself
 };

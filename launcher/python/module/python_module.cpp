@@ -101,8 +101,8 @@ class CPython : public launch::python::Runtime {
   launch::python::Pause step_coroutines(launch::python::Host& host) override {
     return launch::python::run_python(host, [] {
       const auto state = py::module_::import("launch._coroutines").attr("step")().cast<py::tuple>();
-      return launch::python::Pause{state[0].cast<std::size_t>(), state[1].cast<int>(),
-                                   state[2].cast<std::optional<double>>()};
+      return launch::python::Pause{state[0].cast<std::size_t>(), state[1].cast<std::size_t>(), state[2].cast<int>(),
+                                   state[3].cast<std::optional<double>>()};
     });
   }
 

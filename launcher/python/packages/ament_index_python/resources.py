@@ -5,6 +5,21 @@ import os
 
 from ament_index_python.search_paths import get_search_paths
 
+class InvalidResourceTypeNameError(ValueError):
+    """A type of resources with a slash in its name."""
+
+
+class InvalidResourceNameError(ValueError):
+    """A resource with a slash in its name."""
+
+
+def _check(resource_type, resource_name=''):
+    if '/' in resource_type or '\\' in resource_type:
+        raise InvalidResourceTypeNameError(f"Resource type '{resource_type}' contains a slash")
+    if '/' in resource_name or '\\' in resource_name:
+        raise InvalidResourceNameError(f"Resource name '{resource_name}' contains a slash")
+
+
 _INDEX = os.path.join('share', 'ament_index', 'resource_index')
 
 
@@ -23,6 +38,7 @@ def get_resource_types():
 
 
 def get_resources(resource_type):
+    _check(resource_type)
     resources = {}
     for prefix in get_search_paths():
         folder = os.path.join(prefix, _INDEX, resource_type)
@@ -33,6 +49,7 @@ def get_resources(resource_type):
 
 
 def has_resource(resource_type, resource_name):
+    _check(resource_type, resource_name)
     for prefix in get_search_paths():
         if os.path.isfile(os.path.join(prefix, _INDEX, resource_type, resource_name)):
             return prefix

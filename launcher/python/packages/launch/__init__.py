@@ -22,6 +22,8 @@ from launch import (  # noqa: I100  after the classes that they use
     actions, conditions, descriptions, event_handlers, events, frontend, launch_description_sources, substitutions,
     utilities)
 
+InvalidLaunchFileError = launch_description_sources.InvalidLaunchFileError
+
 _names.same_module('launch.some_types', 'launch.some_actions_type', 'launch.some_entities_type',
                    'launch.some_substitutions_type')
 

@@ -41,6 +41,7 @@ class _Loop(asyncio.SelectorEventLoop):
 
 _selector = None
 _tasks = {}  # each task with the object that made its coroutine
+_background = set()  # tasks that do not keep the launch going
 
 
 def loop():
@@ -53,19 +54,52 @@ def loop():
     return _selector.loop
 
 
-def start(coroutine, owner):
-    _tasks[loop().create_task(coroutine)] = owner
+def start(coroutine, owner, background=False):
+    """Runs it. A launch ends without the end of those in the background, which are cancelled like the others."""
+    task = loop().create_task(coroutine)
+    _tasks[task] = owner
+    if background:
+        _background.add(task)
+
+
+def leave_background():
+    """From the next step on, the launch waits for the coroutine that calls this."""
+    _background.discard(asyncio.current_task())
+
+
+class Awaited:
+    """Something that is waited for beside the processes."""
+
+    def __init__(self, future):
+        self._future = future
+
+    def describe(self):
+        return 'a future'
+
+    def _start(self):
+        start(self._wait(), self)
+
+    async def _wait(self):
+        try:
+            await asyncio.wrap_future(self._future) if not asyncio.isfuture(self._future) else await self._future
+        except asyncio.CancelledError:
+            pass
 
 
 def step():
-    """(number of coroutines left, descriptor to wait for, seconds to wait or None); raises what a coroutine raised."""
+    """
+    (coroutines left, others left in the background, descriptor to wait for, seconds to wait or None).
+
+    Raises what a coroutine raised.
+    """
     _selector.turns = 0
     loop().run_forever()
     for task in [task for task in _tasks if task.done()]:
         del _tasks[task]
+        _background.discard(task)
         if not task.cancelled() and task.exception() is not None:
             raise task.exception()
-    return len(_tasks), _selector.fileno(), _selector.pause
+    return len(_tasks) - len(_background), len(_background), _selector.fileno(), _selector.pause
 
 
 def cancel():

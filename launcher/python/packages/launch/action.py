@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Action: one thing that a launch file asks for."""
 
+from launch import _dispatch
 from launch._entities import entities, entity, told_at
 from launch._values import LaunchFileError, WrongKind, reject
 from launch._places import name_of_function, of_function
@@ -33,6 +34,31 @@ class Action(LaunchDescriptionEntity):
     def condition(self):
         return getattr(self, '_condition', None)
 
+    def describe(self):
+        return repr(self)
+
+    def get_sub_entities(self):
+        return []
+
+    def describe_sub_entities(self):
+        return self.get_sub_entities() if self.condition is None else []
+
+    def describe_conditional_sub_entities(self):
+        if self.condition is None:
+            return []
+        return [(f'Conditionally included by {self.describe()}', self.get_sub_entities())]
+
+    @staticmethod
+    def parse(entity, parser):
+        """The class and the arguments that all elements of XML and YAML files share: `if` and `unless`."""
+        from launch.conditions import IfCondition, UnlessCondition
+        given = {kind: entity.get_attr(name, optional=True)
+                 for name, kind in (('if', IfCondition), ('unless', UnlessCondition))}
+        given = {kind: value for kind, value in given.items() if value is not None}
+        if len(given) == 2:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        return Action, {'condition': kind(parser.parse_substitution(value)) for kind, value in given.items()}
+
     def visit(self, context):
         if self.condition is None or self.condition.evaluate(context):
             return self.execute(context)
@@ -55,18 +81,38 @@ class Action(LaunchDescriptionEntity):
         raise LaunchFileError(f'{type(self).__name__} has no execute()')
 
     def _entities(self):
+        found = self._own_entities()
+        if getattr(self, '_is_watched', False):
+            self._tell_of_completion(found)
+        return found
+
+    def _own_entities(self):
+        if type(self).visit is not Action.visit:
+            return [entity('', self._place(), [], obj=self)]  # its visit() evaluates the condition
         if type(self).execute is Action.execute:
             return self._tags()
         return [entity('', self._place(), self._when(), obj=self)]
 
+    # OnExecutionComplete asks for it. An action is complete when it was executed, unless it takes time.
+    def _tell_of_completion(self, found):
+        from launch.events import ExecutionComplete
+        found.append(_dispatch.told_if_wanted(ExecutionComplete(action=self), self._place()))
+
     def _execute(self):
         from launch.launch_context import LaunchContext
+        context = LaunchContext._of_launch()
         with told_at(self):
-            return entities(self.execute(LaunchContext._of_launch()), self._place_of_execute())
+            if type(self).visit is not Action.visit:
+                return entities(self.visit(context), of_function(type(self).visit))
+            found = entities(self.execute(context), self._place_of_execute())
+            future = self.get_asyncio_future() if _dispatch.is_of_file(type(self).get_asyncio_future) else None
+            if future is not None:
+                context.add_completion_future(future)
+            return found
 
     # The function of the launch file that _execute() calls; a plan must not call it for an event.
     def _calls(self):
-        called = name_of_function(type(self).execute)
+        called = name_of_function(type(self).visit) or name_of_function(type(self).execute)
         function = getattr(self, '_function', None)
         if called is None and function is not None:
             return name_of_function(function) or 'a function'

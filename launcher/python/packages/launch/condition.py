@@ -16,8 +16,12 @@ class Condition(Located):
             raise NotImplementedError(f'{type(self).__name__} has no predicate')
         return self._predicate(context)
 
+    def _predicate_func(self, context):
+        """A name that files of ROS 2 call."""
+        return self.evaluate(context)
+
     def describe(self):
-        return f'{type(self).__name__}()'
+        return repr(self)
 
     # The condition as an attribute of an action: `if` or `unless`, the text, and its place.
     def _attribute(self):

@@ -49,12 +49,29 @@ class LaunchContext:
 
     def emit_event_sync(self, event):
         """Emits the event, as EmitEvent does."""
-        if not hasattr(event, '_tags'):
-            raise LaunchFileError(f'this launcher can\'t emit {type(event).__name__}')
-        _launch_engine.visit(event._tags(resolve(caller()), []))
+        from launch.actions._events import tags_of_event
+        _launch_engine.visit(tags_of_event(event, resolve(caller()), []))
 
     async def emit_event(self, event):
         self.emit_event_sync(event)
+
+    def register_event_handler(self, event_handler, append=False):
+        _launch_engine.visit(event_handler._all_tags(resolve(caller()), []))
+
+    def unregister_event_handler(self, event_handler):
+        from launch import _dispatch
+        from launch._entities import entity
+        if not _dispatch.unregister(event_handler):
+            _launch_engine.visit([entity('unregister_event_handler', resolve(caller()), [event_handler._name_of_it()])])
+
+    def would_handle_event(self, event):
+        from launch import _dispatch
+        return _dispatch.would_handle(event)
+
+    def add_completion_future(self, completion_future):
+        """The launch goes on until the future is done."""
+        from launch import _coroutines
+        _launch_engine.run_coroutine(_coroutines.Awaited(completion_future))
 
     def perform_substitution(self, substitution):
         return substitution.perform(self)
@@ -77,7 +94,7 @@ class LaunchContext:
             return {'event': types.SimpleNamespace(**values)} if values else {}
         kind = (process.ProcessExited if 'exit_code' in values else
                 process.ProcessIO if 'text' in values else process.ProcessStarted)
-        return {'event': kind(None, values)}
+        return {'event': kind(process.action_named(values), values)}
 
     @property
     def locals(self):  # noqa: A003  ROS 2's name

@@ -12,5 +12,16 @@ class LaunchDescriptionEntity(Located):
     def describe(self):
         return type(self).__name__
 
+    def describe_sub_entities(self):
+        """The entities that are visited whatever happens."""
+        return []
+
+    def describe_conditional_sub_entities(self):
+        """Pairs of a text and the entities that are visited only if what it describes happens."""
+        return []
+
+    def get_asyncio_future(self):
+        return None
+
     def _entities(self):
         raise NotImplementedError

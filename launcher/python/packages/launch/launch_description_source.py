@@ -19,7 +19,24 @@ class LaunchDescriptionSource(Located):
 
     @property
     def location(self):
-        return self._path
+        return ''.join(part if isinstance(part, str) else part.describe() for part in self._path)
+
+    def try_get_launch_description_without_context(self):
+        """The description, if it exists already or is that of a file whose path is known; None otherwise."""
+        if self._description is None and all(isinstance(part, str) for part in self._path) and self._path:
+            return self._read(''.join(self._path))
+        return self._description
+
+    def get_launch_description(self, context):
+        """The description: what a Python file returns, or one that includes a file of another format."""
+        return self._description if self._description is not None else self._read(context._perform(self._path))
+
+    def _read(self, path):
+        from launch.launch_description_sources import (
+            get_launch_description_from_any_launch_file, get_launch_description_from_python_launch_file)
+        if path.endswith('.py'):
+            return get_launch_description_from_python_launch_file(path)
+        return get_launch_description_from_any_launch_file(path)
 
 
 class _FileSource(LaunchDescriptionSource):

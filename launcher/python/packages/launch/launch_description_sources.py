@@ -62,7 +62,16 @@ def get_launch_description_from_any_launch_file(launch_file_path, **_options):
     return LaunchDescription([IncludeLaunchDescription(AnyLaunchDescriptionSource(os.fspath(launch_file_path)))])
 
 
+get_launch_description_from_frontend_launch_file = get_launch_description_from_any_launch_file
+
+
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
+    pass
+
+
 _names.one_class_modules(__name__)
+_names.same_module(__name__, __name__ + '.python_launch_file_utilities', __name__ + '.any_launch_file_utilities',
+                   __name__ + '.frontend_launch_file_utilities')
 _names.same_module('launch.launch_description_sources', 'launch.invalid_launch_file_error')
 __all__ = ['AnyLaunchDescriptionSource', 'FrontendLaunchDescriptionSource', 'LaunchDescriptionSource',
            'PythonLaunchDescriptionSource', 'XMLLaunchDescriptionSource', 'YAMLLaunchDescriptionSource']

@@ -2,6 +2,7 @@
 """Messages of launch files, in the launcher's own log."""
 
 import logging as _logging
+import os
 from logging import *  # noqa: F401,F403  as ROS 2's module does
 from logging import CRITICAL, DEBUG, ERROR, INFO, WARNING
 
@@ -44,5 +45,34 @@ class _LaunchConfig:
     def level(self, _value):
         pass  # `launch --debug` decides
 
+    def get_log_file_path(self, file_name='launch.log'):
+        return os.path.join(self.log_dir, file_name)
+
+    def get_screen_handler(self):
+        return _handler
+
+    def get_log_file_handler(self, _file_name='launch.log'):
+        return _handler
+
+    # The launcher decides how its lines look and where they go.
+    def set_screen_format(self, _format, **_options):
+        pass
+
+    def set_log_format(self, _format, **_options):
+        pass
+
 
 launch_config = _LaunchConfig()
+
+
+def get_output_loggers(process_name, output_config=None):
+    """The loggers of a process's output and errors."""
+    return get_logger(f'{process_name}-stdout'), get_logger(f'{process_name}-stderr')
+
+
+def log_launch_config(*, logger=None):
+    (logger or get_logger()).info('All log files can be found below %s', launch_config.log_dir)
+
+
+def reset():
+    """The launcher's own settings of its log stay as they are."""

@@ -34,7 +34,7 @@ def parameter_items(parameters, place):
             items.append(entity('param', place, [('name', '')], [_item(name, value, place)
                                                                  for name, value in given.items()]) if given else None)
         elif isinstance(given, Parameter):
-            items.append(_item(given.name, given._value, given._place()))
+            items.append(_item(given._name, given._value, given._place()))
         elif isinstance(given, ParameterFile):
             allowed = [('allow_substs', boolean(given._allow_substs, 'allow_substs'))] if given._allow_substs else []
             items.append(entity('param', given._place(), [('from', given._path), *allowed]))
@@ -52,7 +52,7 @@ def _item(name, value, place):
         return entity('param', place, [('name', name)], [_item(inner, item, place) for inner, item in value.items()])
     type_ = None
     if isinstance(value, ParameterValue):
-        place, type_, value = value._place(), value._type, value.value
+        place, type_, value = value._place(), value._type, value._value
     return entity('param', place, [('name', name), ('value', parameter_value(value)), ('type', type_)])
 
 

@@ -3,6 +3,7 @@
 
 from launch import _names
 from launch.launch_description_sources import XMLLaunchDescriptionSource
+from launch.frontend import Entity, Parser
 
 _names.same_module('launch.launch_description_sources', __name__ + '.launch_description_sources')
-__all__ = ['XMLLaunchDescriptionSource']
+__all__ = ['Entity', 'Parser', 'XMLLaunchDescriptionSource']

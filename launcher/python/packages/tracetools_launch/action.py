@@ -9,10 +9,10 @@ from launch.action import Action
 from tracetools_trace.tools import names
 
 
-def _attributes(given):
+def _attributes(given, what='a channel'):
     """The attributes of XML for these arguments; their names have hyphens there."""
     attributes = []
-    for name, value in mapping(given, 'a channel'):
+    for name, value in mapping(given, what):
         if isinstance(value, bool):
             value = boolean(value, name)
         elif isinstance(value, (int, float)):
@@ -26,11 +26,16 @@ def _attributes(given):
 
 
 class Trace(Action):
-    """`channels` are mappings with the attributes of <channel>; further arguments are further attributes of <trace>."""
+    """
+    `channels` and `chains` are mappings with the attributes of <channel> and <chain>.
+
+    Further arguments are further attributes of <trace>.
+    """
 
     def __init__(self, *, session_name, append_timestamp=False, base_path=None, append_trace=False, events_ust=None,
                  events_kernel=None, syscalls=None, context_fields=None, subbuffer_size_ust=None,
-                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, channels=(), **kwargs):
+                 subbuffer_size_kernel=None, snapshot_mode=False, dual_session=False, channels=(), chains=(),
+                 **kwargs):
         options = {'condition': kwargs.pop('condition', None)}
         # The arguments left in kwargs are further attributes of <trace>, with underscores.
         super().__init__(**options)
@@ -66,8 +71,10 @@ class Trace(Action):
         self._attributes += _attributes(kwargs)
         self._channels = [_attributes(channel)
                           for channel in items(channels, 'channels')]
+        self._chains = [_attributes(chain, 'a chain') for chain in items(chains, 'chains')]
 
     def _tags(self):
         place = self._place_of('channels') or self._place()
         return [entity('trace', self._place(), self._with_places([*self._attributes, *self._when()]),
-                       [entity('channel', place, channel) for channel in self._channels])]
+                       [entity('channel', place, channel) for channel in self._channels] +
+                       [entity('chain', place, chain) for chain in self._chains])]

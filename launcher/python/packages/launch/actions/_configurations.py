@@ -5,6 +5,8 @@ import _launch_engine
 from launch._entities import entity
 from launch._values import WrongKind, boolean, items, literal, mapping, number, pairs, text
 from launch.action import Action
+from launch.condition import Condition
+from launch.substitutions import parts_of
 
 
 class DeclareLaunchArgument(Action):
@@ -23,11 +25,16 @@ class DeclareLaunchArgument(Action):
 
     @property
     def default_value(self):
-        return self._default
+        return None if self._default is None else parts_of(self._default)
 
     @property
     def description(self):
-        return self._description or 'no description given'
+        given = ''.join(part if isinstance(part, str) else part.describe()
+                        for part in self._description or ('no description given',))
+        return given if self.choices is None else f'{given}. Valid choices are: {self.choices}'
+
+    def describe(self):
+        return f"DeclareLaunchArgument('{self.name}')"
 
     def _tags(self):
         choices = [entity('choice', self._place(), [('value', literal(choice, 'a choice'))])
@@ -46,6 +53,19 @@ class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
         if isinstance(default_value, bool):
             default_value = str(default_value).lower()
         super().__init__(name, default_value=default_value, **kwargs)
+
+
+class _Given:
+    """An attribute of an action, as the list of substitutions that ROS 2 makes of it."""
+
+    def __init__(self, attribute):
+        self._attribute = attribute
+
+    def __get__(self, action, _owner=None):
+        if action is None:
+            return self
+        value = dict(action._content[1])[self._attribute]
+        return value if isinstance(value, list) else parts_of((value,) if isinstance(value, str) else value)
 
 
 class _Simple(Action):
@@ -67,12 +87,15 @@ def _named(tag, values, what):
 
 
 class SetLaunchConfiguration(_Simple):
+    name = _Given('name')
+    value = _Given('value')
 
     def __init__(self, name, value, **kwargs):
         super().__init__('let', [('name', text(name, 'name')), ('value', text(value, 'value'))], **kwargs)
 
 
 class UnsetLaunchConfiguration(_Simple):
+    name = _Given('name')
 
     def __init__(self, name, **kwargs):
         super().__init__('unset', [('name', text(name, 'name'))], **kwargs)
@@ -86,18 +109,25 @@ class ResetLaunchConfigurations(_Simple):
 
 
 class SetEnvironmentVariable(_Simple):
+    name = _Given('name')
+    value = _Given('value')
 
     def __init__(self, name, value, **kwargs):
         super().__init__('set_env', [('name', text(name, 'name')), ('value', text(value, 'value'))], **kwargs)
 
 
 class UnsetEnvironmentVariable(_Simple):
+    name = _Given('name')
 
     def __init__(self, name, **kwargs):
         super().__init__('unset_env', [('name', text(name, 'name'))], **kwargs)
 
 
 class AppendEnvironmentVariable(_Simple):
+    name = _Given('name')
+    value = _Given('value')
+    prepend = _Given('prepend')
+    separator = _Given('separator')
 
     def __init__(self, name, value, prepend=False, separator=':', **kwargs):
         super().__init__('append_env', [('name', text(name, 'name')), ('value', text(value, 'value')),
@@ -117,6 +147,16 @@ class ReplaceEnvironmentVariables(_Simple):
         super().__init__('rep_env', [], _named('env', mapping(environment, 'environment'), 'environment'), **kwargs)
 
 
+class _IsCanceled(Condition):
+
+    def __init__(self, timer):
+        super().__init__()
+        self._timer = timer
+
+    def evaluate(self, context):
+        return self._timer._is_canceled
+
+
 class TimerAction(Action):
 
     def __init__(self, *, period, actions, name=None, cancel_on_shutdown=True, **kwargs):
@@ -124,19 +164,44 @@ class TimerAction(Action):
         self._period = number(period, 'period')
         self._cancel = boolean(cancel_on_shutdown, 'cancel_on_shutdown')
         self._actions = actions
+        self._is_canceled = False
+        self._unless_canceled = ('unless', _IsCanceled(self), None)
 
     _tag = 'timer'
 
     @property
+    def period(self):
+        return parts_of((self._period,) if isinstance(self._period, str) else self._period)
+
+    @property
     def actions(self):
         return self._actions
+
+    def cancel(self):
+        """The timer, if it has not fired, visits nothing."""
+        self._is_canceled = True
+
+    def handle(self, _context):
+        return self._actions
+
+    def describe(self):
+        return f'{type(self).__name__}(period={self.period}, actions=<actions>)'
+
+    def describe_conditional_sub_entities(self):
+        return [(f'{self.period} seconds pass without being canceled', self._actions)]
 
     def _tags(self):
         from launch._entities import entities
         return [entity(self._tag, self._place(),
                        self._with_places([('period', self._period), ('cancel_on_shutdown', self._cancel),
                                           *self._when()]),
-                       entities(self._actions, self._place()))]
+                       [entity('group', self._place(), [('scoped', 'false'), self._unless_canceled],
+                               entities(self._actions, self._place()))])]
+
+    # It is complete when it has fired.
+    def _tell_of_completion(self, found):
+        _tag, _place, _attributes, children, *_rest = found[-1]
+        super()._tell_of_completion(children)
 
 
 class _OfEngine(Action):

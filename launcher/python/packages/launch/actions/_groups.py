@@ -8,7 +8,7 @@ from launch._values import LaunchFileError, WrongKind, boolean, function as call
 from launch.action import Action
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources import AnyLaunchDescriptionSource
-from launch.utilities import normalize_to_list_of_substitutions
+from launch.substitutions import parts_of
 
 
 class GroupAction(Action):
@@ -21,7 +21,7 @@ class GroupAction(Action):
         self._keep = pairs(mapping(launch_configurations, 'launch_configurations'), 'launch_configurations')
 
     def get_sub_entities(self):
-        return self._actions
+        return list(self._actions)
 
     def _tags(self):
         keep = [entity('keep', self._place(), [('name', name), ('value', value)]) for name, value in self._keep]
@@ -46,7 +46,13 @@ class IncludeLaunchDescription(Action):
 
     @property
     def launch_arguments(self):
-        return self._arguments
+        return [(parts_of(name), parts_of(value)) for name, value in self._arguments]
+
+    def describe(self):
+        return f'IncludeLaunchDescription({self._source.location})'
+
+    def get_sub_entities(self):
+        return [] if self._source._description is None else [self._source._description]
 
     def _tags(self):
         place = self._place()
@@ -142,7 +148,11 @@ class _Log(Action):
 
     @property
     def msg(self):
-        return normalize_to_list_of_substitutions(self._msg)
+        return parts_of(self._msg)
+
+    @property
+    def level(self):
+        return parts_of(self._given_level)
 
     def _tags(self):
         attributes = self._with_places([('message', self._msg), *self._when()])
@@ -176,6 +186,11 @@ class Shutdown(Action):
     def __init__(self, *, reason='reason not given', **kwargs):
         super().__init__(**kwargs)
         self._reason = text(reason, 'reason')
+
+    @property
+    def event(self):
+        from launch.events import Shutdown as Event
+        return Event(reason=self._reason)
 
     def _tags(self):
         return [entity('shutdown', self._place(), [('reason', self._reason), *self._when()])]

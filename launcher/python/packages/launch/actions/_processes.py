@@ -7,11 +7,14 @@ from launch._entities import entity
 from launch._values import LaunchFileError, WrongKind, boolean, literal, mapping, number, pairs, reject, text
 from launch.action import Action
 from launch.descriptions import Executable
+from launch.substitution import Substitution
+from launch.substitutions import parts_of
 
 _OUTPUT_FORMAT = '[{this.process_description.final_name}] {line}'
 
 
 _names_given = {}
+actions_by_name = {}  # all whose processes an event can be about
 
 
 def name_of_process(action, what):
@@ -19,13 +22,11 @@ def name_of_process(action, what):
     if not isinstance(action, _Process):
         raise LaunchFileError(f'{what} must be an action that runs a process, got {type(action).__name__}')
     if action._spoken_of is None:
-        if action._was_read:
-            raise LaunchFileError(f'{what} has been visited already',
-                                  'make its event handlers before the description that holds it is returned')
         file, line, *_ = action._place() or ('', 0)
         name = f'{type(action).__name__} of {os.path.basename(file)}:{line}'
         count = _names_given[name] = _names_given.get(name, 0) + 1
         action._spoken_of = name if count == 1 else f'{name} ({count})'
+        actions_by_name[action._spoken_of] = action
     return (action._spoken_of,)
 
 
@@ -50,15 +51,71 @@ def _dependencies(given, action):
     return items
 
 
+class _Option:
+    """An option of a process as ROS 2 gives it back: a text as a list of substitutions, anything else as it is."""
+
+    def __init__(self, name, default):
+        self._name = name
+        self._default = default
+
+    def __get__(self, action, _owner=None):
+        if action is None:
+            return self
+        value = action._options.get(self._name, self._default)
+        return parts_of(text(value, self._name)) if isinstance(value, (str, Substitution, list, tuple)) else value
+
+
 class _Process(Action):
     """What programs and nodes have in common."""
+
+    shell = _Option('shell', False)
+    emulate_tty = _Option('emulate_tty', False)
+    sigterm_timeout = _Option('sigterm_timeout', '5')
+    sigkill_timeout = _Option('sigkill_timeout', '5')
+    output = _Option('output', 'log')
+
+    @property
+    def process_details(self):
+        """name, pid and cmd of the process in the event that is being handled; None before its start."""
+        return self._details
+
+    @property
+    def return_code(self):
+        return self._return_code
+
+    @property
+    def cmd(self):
+        return self.process_description.cmd
+
+    @property
+    def name(self):
+        return (self._details or {}).get('name') or self.process_description.name
+
+    @property
+    def cwd(self):
+        return self.process_description.cwd
+
+    @property
+    def env(self):
+        return self.process_description.env
+
+    @property
+    def additional_env(self):
+        return self.process_description.additional_env
+
+    def get_sub_entities(self):
+        on_exit = self._options.get('on_exit')
+        return on_exit if isinstance(on_exit, list) else []
+
+    def prepare(self, context):
+        self.process_description.prepare(context, self)
 
     _ARGUMENTS = ('name', 'cwd', 'env', 'additional_env', 'prefix', 'shell', 'sigterm_timeout', 'sigkill_timeout',
                   'emulate_tty', 'output', 'output_format', 'log_cmd', 'cached_output', 'on_exit', 'respawn',
                   'respawn_delay', 'respawn_max_retries', 'condition')
-    # Arguments that only this launcher has, named as in XML.
+    # Arguments that only this launcher has, named as in XML, with "_" for "-".
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
-                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace')
+                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace', 'leave_running')
 
     def _take(self, options, known=(), former=None):
         """Keeps the options of the process; `known` are the arguments that the caller handles itself."""
@@ -72,6 +129,8 @@ class _Process(Action):
         self._dependencies = _dependencies(options.get('depends_on'), self)
         self._spoken_of = None
         self._was_read = False
+        self._details = None
+        self._return_code = None
 
     def _process_attributes(self):
         options = self._options
@@ -90,7 +149,7 @@ class _Process(Action):
             value = options.get(name)
             if value is not None:
                 convert = boolean if isinstance(value, bool) else number
-                attributes.append((name, convert(value, name)))
+                attributes.append(({'leave_running': 'leave-running'}.get(name, name), convert(value, name)))
         if options.get('env') is not None:
             attributes.append(('clean_env', 'true'))
         return attributes + self._output() + self._on_exit() + self._when()
@@ -137,7 +196,7 @@ class _Process(Action):
         self._was_read = True
         return [*handlers, entity(tag, self._place(), self._with_places([*attributes, *self._process_attributes()]),
                                   [*self._environment_items(), *self._dependencies, *items],
-                                  process_name=self._spoken_of or '')]
+                                  process_name=name_of_process(self, 'the process')[0])]
 
     def _environment_items(self):
         place = self._place()
@@ -152,13 +211,13 @@ class ExecuteLocal(_Process):
         if not isinstance(process_description, Executable):
             raise WrongKind(f'process_description must be an Executable, got {type(process_description).__name__}')
         self._take({**process_description._options, **kwargs}, ['process_description'])
-        self._command = process_description._command
         self.process_description = process_description
 
     def _tags(self):
         name = self._options.get('name')
+        command = self.process_description._command
         return self._with_handlers(
-            'executable', [('cmd', self._command), ('name', None if name is None else text(name, 'name'))], [])
+            'executable', [('cmd', command), ('name', None if name is None else text(name, 'name'))], [])
 
 
 class ExecuteProcess(ExecuteLocal):
@@ -167,8 +226,5 @@ class ExecuteProcess(ExecuteLocal):
         of_executable = {name: kwargs.pop(name) for name in Executable._OPTIONS if name in kwargs}
         super().__init__(process_description=Executable(cmd=cmd, **of_executable), **kwargs)
 
-    @property
-    def cmd(self):
-        return self._command
 
 

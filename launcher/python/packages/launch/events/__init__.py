@@ -23,15 +23,30 @@ class Shutdown(Located, Event):
 
 
 class ExecutionComplete(Event):
-    """An event of ROS 2; the handler OnExecutionComplete gets ProcessExited here."""
+    """An action was executed, and what it has begun has ended."""
+
+    name = 'launch.events.ExecutionComplete'
+
+    def __init__(self, action, _values=None):
+        self.action = action
 
 
 class IncludeLaunchDescription(Event):
     """An event of ROS 2; an include is no event here."""
 
+    name = 'launch.events.IncludeLaunchDescription'
+
+    def __init__(self, launch_description):
+        self.launch_description = launch_description
+
 
 class TimerEvent(Event):
-    """An event of ROS 2; a timer that fires is no event here."""
+    """A timer has fired; only a handler of the launch file's own would get it, and none does."""
+
+    name = 'launch.events.TimerEvent'
+
+    def __init__(self, *, timer_action):
+        self.timer_action = timer_action
 
 
 _names.one_class_modules(__name__)

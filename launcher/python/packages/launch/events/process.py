@@ -1,27 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
 """Events of processes: those that handlers get, and those that ask something of a process."""
 
+import os
+import signal
+
 from launch import _names
+from launch._dispatch import _Step
 from launch._entities import entity
-from launch._places import Located
-from launch._values import LaunchFileError, WrongKind, text
+from launch._places import Located, name_of_function
+from launch._values import WrongKind, function, text
 from launch.event import Event
 
 
-class ProcessEvent(Event):
-    """
-    What happened to a process.
+def action_named(values):
+    """The action of the process that an event is about; None for a process of an XML or YAML file."""
+    from launch.actions._processes import actions_by_name
+    return actions_by_name.get(values.get('action'))
 
-    `action` is the action that the handler was registered for, None for a handler of every process.
-    """
+
+class ProcessEvent(Event):
+    """What happened to a process. `action` is None for a process of an XML or YAML file."""
 
     def __init__(self, action, values):
         self.action = action
+        self.execute_process_action = action
         self.process_name = values['process']
-        self.pid = int(values['pid']) if values.get('pid') else None
-        self.cmd = getattr(action, '_command', None)
+        self.pid = int(values['pid']) if values.get('pid') else (getattr(action, '_details', None) or {}).get('pid')
+        # Tests of launches learn the words of the command line when the process starts.
+        self.cmd = getattr(action, '_final_cmd', None) or getattr(action, 'cmd', None)
         self.cwd = None
         self.env = None
+        if action is not None:
+            action._details = {'action': action, 'name': self.process_name, 'pid': self.pid, 'cmd': self.cmd}
 
 
 class ProcessStarted(ProcessEvent):
@@ -36,6 +46,8 @@ class ProcessExited(ProcessEvent):
     def __init__(self, action, values):
         super().__init__(action, values)
         self.returncode = int(values['exit_code'])
+        if action is not None:
+            action._return_code = self.returncode
 
 
 class ProcessIO(ProcessEvent):
@@ -65,26 +77,58 @@ class ProcessStderr(ProcessIO):
 
 
 class _ProcessTargetedEvent(Located, Event):
+    """Asks something of the processes that the matcher accepts."""
 
     def __init__(self, *, process_matcher):
-        if not isinstance(process_matcher, _Matcher):
-            raise LaunchFileError('process_matcher must be one of this package\'s',
-                                  'write launch.events.matches_action(action)')
-        self.process_matcher = process_matcher
-        process_matcher._process()  # an action gets its name before it is read
+        self.process_matcher = function(process_matcher, 'process_matcher')
+        action = getattr(process_matcher, 'action', None)
+        if action is not None:
+            _name_of(action)  # an action gets its name before it is read
+
+    # The tag for one process, which has this name.
+    def _tag(self, place, process, when):
+        raise NotImplementedError
+
+    def _tags(self, place, when):
+        action = getattr(self.process_matcher, 'action', None)
+        if action is not None:
+            return [self._tag(place, _name_of(action), when)]
+        name = getattr(self.process_matcher, 'process_name', None)
+        if name is not None:
+            return [self._tag(place, name, when)]
+        step = _Chosen(self)
+        step._made_at = None
+        return [entity('', place, when, obj=step)]
+
+
+class _Chosen(_Step):
+    """The processes that a matcher accepts, when it is asked."""
+
+    def __init__(self, event):
+        self._event = event
+
+    def _calls(self):
+        return name_of_function(self._event.process_matcher)
+
+    def _do(self, context):
+        from launch.actions._processes import actions_by_name
+        return [self._event._tag(None, (name,), []) for name, action in list(actions_by_name.items())
+                if action._was_read and self._event.process_matcher(action)]
 
 
 ProcessTargetedEvent = _ProcessTargetedEvent
-RunningProcessEvent = ProcessEvent
+RunningProcessEvent = ProcessEvent  # the two are one here
 
 
 class ShutdownProcess(_ProcessTargetedEvent):
+    name = 'launch.events.process.ShutdownProcess'
 
-    def _tags(self, place, when):
-        return [entity('stop', place, [('process', self.process_matcher._process()), *when])]
+    def _tag(self, place, process, when):
+        return entity('stop', place, [('process', process), *when])
 
 
 class SignalProcess(_ProcessTargetedEvent):
+    name = 'launch.events.process.SignalProcess'
 
     def __init__(self, *, signal_number, process_matcher):
         super().__init__(process_matcher=process_matcher)
@@ -92,34 +136,47 @@ class SignalProcess(_ProcessTargetedEvent):
             raise WrongKind(f'signal_number must be an int or a str, got {type(signal_number).__name__}')
         self.signal = signal_number
 
-    def _tags(self, place, when):
+    @property
+    def signal_name(self):
+        return self.signal if isinstance(self.signal, str) else signal.Signals(self.signal).name
+
+    def _tag(self, place, process, when):
         number = self.signal if isinstance(self.signal, str) else str(int(self.signal))
-        return [entity('signal', place, [('process', self.process_matcher._process()), ('signal', number), *when])]
+        return entity('signal', place, [('process', process), ('signal', number), *when])
 
 
-class _Matcher(Located):
-    """Tells which process an event is for."""
+class _Matcher:
+    """A function of an action. Where it means one action or one name, the launcher finds the process itself."""
 
-    def __init__(self, process, action=None):
-        self._process = process
-        self._action = action
+    def __init__(self, accepts, action=None, process_name=None):
+        self._accepts = accepts
+        self.action = action
+        self.process_name = process_name
+
+    def __call__(self, action):
+        return self._accepts(action)
+
+
+def _name_of(action):
+    from launch.actions._processes import name_of_process
+    return name_of_process(action, 'the action to match')
 
 
 def matches_action(target_action):
-    from launch.actions._processes import name_of_process
-    return _Matcher(lambda: name_of_process(target_action, 'the action to match'), target_action)
+    return _Matcher(lambda action: action is target_action, action=target_action)
 
 
 def matches_name(name):
-    return _Matcher(lambda: text(name, 'name'))
+    return _Matcher(lambda action: (action.process_details or {}).get('name') == name, process_name=text(name, 'name'))
 
 
-def matches_pid(_pid):
-    raise LaunchFileError('a process can\'t be meant by its number here', 'write launch.events.matches_action(action)')
+def matches_pid(pid):
+    return lambda action: (action.process_details or {}).get('pid') == pid
 
 
 def matches_executable(executable):
-    return matches_name(executable)
+    return _Matcher(lambda action: os.path.basename(str((action.process_details or {}).get('name'))) == executable,
+                    process_name=text(executable, 'executable'))
 
 
 _names.one_class_modules(__name__)

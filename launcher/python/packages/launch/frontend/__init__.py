@@ -2,22 +2,32 @@
 """Names that packages use to offer their actions to XML and YAML files. Here those formats are the launcher's own."""
 
 from launch import _names
+from launch.frontend._parser import Entity, InvalidFrontendLaunchFileError, Parser
+from launch.frontend.parse_substitution import parse_if_substitutions, parse_substitution
+
+action_parse_methods = {}
+substitution_parse_methods = {}
 
 
-class Entity:
-    pass
+def _exposed(name, methods, what):
+    def decorate(exposed):
+        method = exposed.parse if isinstance(exposed, type) and hasattr(exposed, 'parse') else exposed
+        if isinstance(method, type) or not callable(method):
+            raise RuntimeError("Did not find a class method called 'parse' in the class being decorated.")
+        if methods.setdefault(name, method) != method:
+            raise RuntimeError(f'Two {what} parsing methods exposed with the same name: [{name}].')
+        return exposed
+    return decorate
 
 
-class Parser:
-    pass
+def expose_action(name):
+    """A decorator. XML and YAML files know the launcher's own actions only, so the name means nothing in them."""
+    return _exposed(name, action_parse_methods, 'action')
 
 
-def expose_action(_name):
-    return lambda cls: cls
-
-
-def expose_substitution(_name):
-    return lambda cls: cls
+def expose_substitution(name):
+    """A decorator. The launcher's own substitutions are those of XML and YAML files."""
+    return _exposed(name, substitution_parse_methods, 'substitution')
 
 
 _names.one_class_modules(__name__)

@@ -1,66 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Substitutions. All but the last few are the launcher's own; they are called by the names of XML and YAML files."""
+"""Substitutions. Most are the launcher's own; they are called by the names of XML and YAML files."""
 
-import os
+from collections.abc import Iterable
 
-import _launch_engine
 from launch import _names
-from launch._values import LaunchFileError, WrongKind, items, literal, text
+from launch._values import LaunchFileError, items, text
 from launch.substitution import Substitution
-
-
-class SubstitutionFailure(Exception):
-    """A substitution that can't be performed. Not caught, it ends the launch with the launcher's own message."""
-
-
-class TextSubstitution(Substitution):
-
-    def __init__(self, *, text):
-        if not isinstance(text, str):
-            raise WrongKind(f'text of TextSubstitution must be a str, got {type(text).__name__}', f"write '{text}'")
-        self.text, = literal(text, 'text of TextSubstitution')
-
-    def perform(self, context):
-        return self.text
-
-    def describe(self):
-        return f"'{self.text}'"
-
-    def _part(self):
-        return self.text
-
-
-class _Builtin(Substitution):
-    """A substitution of the launcher's: its name there, and its arguments, each a text."""
-
-    _call = ''
-
-    def _take(self, *arguments, optional=None):
-        """Keeps the arguments, and after them the optional one, unless that is None."""
-        if optional is not None:
-            arguments = (*arguments, optional)
-        self._arguments = [text(argument, f'an argument of {type(self).__name__}') for argument in arguments]
-
-    def _part(self):
-        return (self._call, self._arguments)
-
-    def perform(self, context):
-        return context._perform(self)
+from launch.substitutions._builtin import (
+    _AllArguments, _Argument, _Builtin, SubstitutionFailure, TextSubstitution, described, parts_of)
+from launch.substitutions._joined import (
+    LocalSubstitution, PathJoinSubstitution, PathSubstitution, StringJoinSubstitution)
 
 
 class LaunchConfiguration(_Builtin):
     _call = 'var'
+    variable_name = _Argument(0)
 
     def __init__(self, variable_name, *, default=None):
-        self._take(variable_name, optional=str(default) if isinstance(default, (bool, int, float)) else default)
+        # ROS 2 takes any value here and makes a text of it; a mapping that is empty is an empty text.
+        if default is not None and not isinstance(default, (str, Substitution)):
+            parts = items(default, 'default') if isinstance(default, Iterable) else [default]
+            default = [part if isinstance(part, (str, Substitution)) else str(part) for part in parts]
+        self._take(variable_name, optional=default)
 
-    @property
-    def variable_name(self):
-        return self._arguments[0]
+    def describe(self):
+        return f'LaunchConfig({described(self._arguments[0])})'
 
 
 class EnvironmentVariable(_Builtin):
     _call = 'env'
+    _described = 'EnvVar'
+    name = _Argument(0)
+    default_value = _Argument(1)
 
     def __init__(self, name, *, default_value=None):
         self._take(name, optional=default_value)
@@ -89,6 +60,8 @@ class LaunchLogDir(_Builtin):
 
 class FindExecutable(_Builtin):
     _call = 'find-exec'
+    _described = 'FindExec'
+    name = _Argument(0)
 
     def __init__(self, name):
         self._take(name)
@@ -96,6 +69,7 @@ class FindExecutable(_Builtin):
 
 class PythonExpression(_Builtin):
     _call = 'eval'
+    expression = _Argument(0)
 
     def __init__(self, expression, python_modules=('math',)):
         modules = [python_modules] if isinstance(python_modules, (str, Substitution)) else (
@@ -104,10 +78,24 @@ class PythonExpression(_Builtin):
         for module in modules:
             joined += [', ', module] if joined else [module]
         self._take(expression, joined)
+        self._modules = modules
+
+    @property
+    def python_modules(self):
+        return [parts_of(text(module, 'python_modules')) for module in self._modules]
+
+    def describe(self):
+        modules = ', '.join(described(text(module, 'python_modules')) for module in self._modules)
+        return f'PythonExpr({described(self._arguments[0])}, [{modules}])'
 
 
 class Command(_Builtin):
     _call = 'command'
+    command = _Argument(0)
+    on_stderr = _Argument(1)
+
+    def describe(self):
+        return f'Command({described(self._arguments[0])})'
 
     def __init__(self, command, *, on_stderr='fail'):
         self._take(command, on_stderr)
@@ -115,6 +103,7 @@ class Command(_Builtin):
 
 class AnonName(_Builtin):
     _call = 'anon'
+    name = _Argument(0)
 
     def __init__(self, name):
         self._take(name)
@@ -122,6 +111,7 @@ class AnonName(_Builtin):
 
 class FileContent(_Builtin):
     _call = 'file-content'
+    path = _Argument(0)
 
     def __init__(self, path):
         self._take(path)
@@ -133,6 +123,7 @@ def _operand(value):
 
 class NotSubstitution(_Builtin):
     _call = 'not'
+    value = _Argument(0)
 
     def __init__(self, value):
         self._take(_operand(value))
@@ -140,6 +131,8 @@ class NotSubstitution(_Builtin):
 
 class AndSubstitution(_Builtin):
     _call = 'and'
+    left = _Argument(0)
+    right = _Argument(1)
 
     def __init__(self, left, right):
         self._take(_operand(left), _operand(right))
@@ -147,6 +140,8 @@ class AndSubstitution(_Builtin):
 
 class OrSubstitution(_Builtin):
     _call = 'or'
+    left = _Argument(0)
+    right = _Argument(1)
 
     def __init__(self, left, right):
         self._take(_operand(left), _operand(right))
@@ -154,6 +149,7 @@ class OrSubstitution(_Builtin):
 
 class AllSubstitution(_Builtin):
     _call = 'all'
+    args = _AllArguments()
 
     def __init__(self, *args):
         self._take(*map(_operand, args))
@@ -161,6 +157,7 @@ class AllSubstitution(_Builtin):
 
 class AnySubstitution(_Builtin):
     _call = 'any'
+    args = _AllArguments()
 
     def __init__(self, *args):
         self._take(*map(_operand, args))
@@ -168,6 +165,8 @@ class AnySubstitution(_Builtin):
 
 class EqualsSubstitution(_Builtin):
     _call = 'equals'
+    left = _Argument(0)
+    right = _Argument(1)
 
     def __init__(self, left, right):
         self._take(_operand(left), _operand(right))
@@ -175,6 +174,8 @@ class EqualsSubstitution(_Builtin):
 
 class NotEqualsSubstitution(_Builtin):
     _call = 'not-equals'
+    left = _Argument(0)
+    right = _Argument(1)
 
     def __init__(self, left, right):
         self._take(_operand(left), _operand(right))
@@ -182,6 +183,9 @@ class NotEqualsSubstitution(_Builtin):
 
 class IfElseSubstitution(_Builtin):
     _call = 'if'
+    condition = _Argument(0)
+    if_value = _Argument(1)
+    else_value = _Argument(2)
 
     def __init__(self, condition, if_value='', else_value=''):
         if if_value == '' and else_value == '':
@@ -191,6 +195,8 @@ class IfElseSubstitution(_Builtin):
 
 class ForEachVar(_Builtin):
     _call = 'for-var'
+    name = _Argument(0)
+    default_value = _Argument(1)
 
     def __init__(self, name, *, default_value=None):
         self._take(name, optional=default_value)
@@ -198,6 +204,7 @@ class ForEachVar(_Builtin):
 
 class ForLoopIndex(_Builtin):
     _call = 'index'
+    name = _Argument(0)
 
     def __init__(self, name):
         self._take(name)
@@ -207,78 +214,11 @@ class BooleanSubstitution(_Builtin):
     """The text as "true" or "false"."""
 
     _call = 'all'
+    value = _Argument(0)
 
     def __init__(self, value):
         self._take(_operand(value))
 
 
-class _Joined(Substitution):
-    """Texts that Python joins into one."""
-
-    def __init__(self, substitutions):
-        if isinstance(substitutions, (str, Substitution)):
-            substitutions = [substitutions]
-        if isinstance(substitutions, (set, frozenset)):
-            raise WrongKind(f'the parts of {type(self).__name__} must be a list, a set has no order')
-        self._texts = [text(part, f'a part of {type(self).__name__}')
-                       for part in items(substitutions, f'the parts of {type(self).__name__}')]
-
-    @property
-    def substitutions(self):
-        return self._texts
-
-    def _join(self, texts):
-        raise NotImplementedError
-
-    def perform(self, context):
-        return self._join([context._perform(part) for part in self._texts])
-
-
-class PathJoinSubstitution(_Joined):
-    """A path made of its components; each may be a list of texts to paste together."""
-
-    def _join(self, texts):
-        return os.path.join(*texts) if texts else ''
-
-    def __truediv__(self, other):
-        return PathSubstitution([self, other])
-
-
-class PathSubstitution(PathJoinSubstitution):
-    """A path that the operator / extends."""
-
-    def __init__(self, path):
-        super().__init__(path if isinstance(path, (list, tuple)) else [path])
-
-
-class StringJoinSubstitution(_Joined):
-
-    def __init__(self, substitutions, delimiter=''):
-        super().__init__(substitutions)
-        self._delimiter = text(delimiter, 'delimiter')
-
-    def perform(self, context):
-        return context._perform(self._delimiter).join(context._perform(part) for part in self._texts)
-
-
-class LocalSubstitution(Substitution):
-    """A value of the event that is being handled: LocalSubstitution('event.returncode')."""
-
-    def __init__(self, expression, description=None):
-        literal(expression, 'expression')
-        self._expression = expression
-        self._description = description
-
-    def perform(self, context):
-        try:
-            return str(eval(self._expression, {}, context.get_locals_as_dict()))
-        except Exception as error:
-            raise SubstitutionFailure(f"'{self._expression}' is not known here: {error}") from error
-
-    def describe(self):
-        return f"LocalVar('{self._description or self._expression}')"
-
-
 _names.same_module(__name__, __name__ + '.this_launch_file')
 _names.one_class_modules(__name__)
-del _launch_engine

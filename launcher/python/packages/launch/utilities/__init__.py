@@ -3,6 +3,7 @@
 
 from collections.abc import Iterable
 
+from launch import _names
 from launch._values import items, text
 from launch.substitution import Substitution
 
@@ -14,7 +15,7 @@ def normalize_to_list_of_substitutions(subs):
 
 
 def perform_substitutions(context, subs):
-    return ''.join(context.perform_substitution(part) for part in subs)
+    return ''.join(part if isinstance(part, str) else context.perform_substitution(part) for part in subs)
 
 
 def normalize_to_list_of_entities(entities):
@@ -26,7 +27,12 @@ def is_a(obj, entity_type):
 
 
 def is_a_subclass(obj, entity_type):
-    return isinstance(obj, type) and issubclass(obj, entity_type)
+    """Whether it is a class derived from the other one, or an object of such a class."""
+    return isinstance(obj, entity_type) or (isinstance(obj, type) and issubclass(obj, entity_type))
+
+
+def isclassinstance(obj):
+    return hasattr(obj, '__class__') and not isinstance(obj, type)
 
 
 def ensure_argument_type(argument, types, argument_name, caller=None):
@@ -35,3 +41,8 @@ def ensure_argument_type(argument, types, argument_name, caller=None):
         names = ', '.join(getattr(known, '__name__', str(known)) for known in types)
         raise TypeError(f"{caller + ': ' if caller else ''}expected '{argument_name}' to be one of [{names}], "
                         f"got {type(argument).__name__}")
+
+
+_names.same_module(__name__, *(f'{__name__}.{name}' for name in (
+    'class_tools_impl', 'ensure_argument_type_impl', 'normalize_to_list_of_entities_impl',
+    'normalize_to_list_of_substitutions_impl', 'perform_substitutions_impl')))

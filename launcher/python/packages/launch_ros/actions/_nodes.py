@@ -5,6 +5,8 @@ from launch._entities import entity
 from launch._values import LaunchFileError, boolean, items, pairs, text, words
 from launch.action import Action
 from launch.actions._processes import _Process
+from launch.descriptions import Executable
+from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
 from launch_ros._parameters import parameter_items
 from launch_ros.descriptions import ComposableNode
@@ -16,8 +18,15 @@ _FORMER = {'node_name': 'it is name now', 'node_executable': 'it is executable n
            'node_namespace': 'it is namespace now'}
 
 
+_UNSPECIFIED_NAME = '<node_name_unspecified>'
+_UNSPECIFIED_NAMESPACE = '<node_namespace_unspecified>'
+
+
 class Node(_Process):
     _tag = 'node'
+
+    UNSPECIFIED_NODE_NAME = _UNSPECIFIED_NAME
+    UNSPECIFIED_NODE_NAMESPACE = _UNSPECIFIED_NAMESPACE
 
     def __init__(self, *, executable=None, package=None, name=None, namespace=None, exec_name=None, parameters=None,
                  remappings=None, ros_arguments=None, arguments=None, **kwargs):
@@ -31,18 +40,66 @@ class Node(_Process):
         self._package = given(package, 'package')
         self._name = given(name, 'name')
         self._namespace = given(namespace, 'namespace')
-        self._attributes = [('pkg', self._package), ('exec', text(executable, 'executable')), ('name', self._name),
-                            ('namespace', self._namespace), ('exec_name', given(exec_name, 'exec_name')),
-                            ('args', words(arguments, 'arguments') if arguments else None),
-                            ('ros_args', words(ros_arguments, 'ros_arguments') if ros_arguments else None)]
+        self.node_package = package
+        self.node_executable = executable
+        self._executable = text(executable, 'executable')
+        self._exec_name = given(exec_name, 'exec_name')
+        self._args = words(arguments, 'arguments') if arguments else []
+        self._ros_args = words(ros_arguments, 'ros_arguments') if ros_arguments else []
+        self._more_attributes = []
+        self._description = None
         # Read now, because a launch file may change its mappings later.
         self._parameters = parameter_items(parameters, self._place_of('parameters') or self._place())
         self._remappings = pairs(remappings or [], 'remappings')
 
+    @property
+    def process_description(self):
+        """The program with its arguments. What a file appends to its `cmd` comes after them."""
+        if self._description is None:
+            self._description = Executable(
+                cmd=self._words(), **{name: self._options[name] for name in Executable._OPTIONS
+                                      if name != 'name' and self._options.get(name) is not None})
+            self._description._options['name'] = self._exec_name or self._executable
+        return self._description
+
+    @property
+    def node_name(self):
+        """The fully qualified name, once the node is visited."""
+        if not self._was_read:
+            raise RuntimeError("cannot access 'node_name' before executing action")
+        context = LaunchContext._of_launch()
+        if self._name is not None:
+            return _FullName(self).perform(context)
+        return _full_namespace(self, context).rstrip('/') + '/' + self.UNSPECIFIED_NODE_NAME
+
+    @property
+    def expanded_node_namespace(self):
+        return _full_namespace(self, LaunchContext._of_launch())
+
+    @property
+    def expanded_remapping_rules(self):
+        context = LaunchContext._of_launch()
+        return [(context._perform(from_), context._perform(to)) for from_, to in self._remappings] or None
+
+    def is_node_name_fully_specified(self):
+        return self._name is not None
+
+    def _words(self):
+        from launch_ros.substitutions import ExecutableInPackage
+        program = (self._executable if self._package is None else
+                   (ExecutableInPackage(package=self._package, executable=self._executable),))
+        return [program, *self._args, *([('--ros-args',), *self._ros_args] if self._ros_args else [])]
+
     def _tags(self):
         place = self._place_of('remappings') or self._place()
         remaps = [entity('remap', place, [('from', from_), ('to', to)]) for from_, to in self._remappings]
-        return self._with_handlers(self._tag, self._attributes, [*self._parameters, *remaps, *self._more_items()])
+        arguments, ros_arguments = self._args, self._ros_args
+        if self._description is not None and len(self._description.cmd) != len(self._words()):
+            arguments, ros_arguments = self._description._command[1:], []  # the file has changed them
+        attributes = [('pkg', self._package), ('exec', self._executable), ('name', self._name),
+                      ('namespace', self._namespace), ('exec_name', self._exec_name), ('args', arguments or None),
+                      ('ros_args', ros_arguments or None), *self._more_attributes]
+        return self._with_handlers(self._tag, attributes, [*self._parameters, *remaps, *self._more_items()])
 
     def _more_items(self):
         return []
@@ -53,8 +110,20 @@ class LifecycleNode(Node):
 
     def __init__(self, *, name, namespace, autostart=False, **kwargs):
         super().__init__(name=name, namespace=namespace, **kwargs)
+        self._is_listed = False
         if autostart is not False:
-            self._attributes.append(('autostart', boolean(autostart, 'autostart')))
+            self._more_attributes.append(('autostart', boolean(autostart, 'autostart')))
+
+
+    def _tags(self):
+        if not self._is_listed:
+            self._is_listed = True
+            lifecycle_nodes.append(self)
+        return super()._tags()
+
+
+# Those that a matcher of ChangeState may accept.
+lifecycle_nodes = []
 
 
 def _descriptions(descriptions):
@@ -91,10 +160,14 @@ class _FullName(Substitution):
         self._node = node
 
     def perform(self, context):
-        namespace = context._perform(self._node._namespace or '')
-        if not namespace.startswith('/'):
-            namespace = context.launch_configurations.get('ros_namespace', '').rstrip('/') + '/' + namespace
-        return ('/' + namespace.strip('/')).rstrip('/') + '/' + context._perform(self._node._name)
+        return _full_namespace(self._node, context).rstrip('/') + '/' + context._perform(self._node._name)
+
+
+def _full_namespace(node, context):
+    namespace = context._perform(node._namespace or '')
+    if not namespace.startswith('/'):
+        namespace = context.launch_configurations.get('ros_namespace', '').rstrip('/') + '/' + namespace
+    return '/' + namespace.strip('/')
 
 
 class LoadComposableNodes(Action):

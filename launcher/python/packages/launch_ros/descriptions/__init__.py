@@ -6,6 +6,7 @@ from launch._entities import entity
 from launch._places import Located
 from launch._values import WrongKind, boolean, items, mapping, pairs, text
 from launch.condition import Condition
+from launch.substitutions import parts_of
 from launch_ros._parameters import as_yaml, parameter_items
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
@@ -17,17 +18,47 @@ class ComposableNode(Located):
                  extra_arguments=None, condition=None):
         if condition is not None and not isinstance(condition, Condition):
             raise WrongKind(f'condition must be a Condition, got {type(condition).__name__}')
-        self._attributes = [('pkg', text(package, 'package')), ('plugin', text(plugin, 'plugin')),
-                            ('name', '' if name is None else text(name, 'name')),
-                            ('namespace', None if namespace is None else text(namespace, 'namespace')),
-                            None if condition is None else condition._attribute()]
+        self._package = text(package, 'package')
+        self._plugin = text(plugin, 'plugin')
+        self._name = None if name is None else text(name, 'name')
+        self._namespace = None if namespace is None else text(namespace, 'namespace')
+        self._condition = condition
+        self._attributes = []
         self._parameters = parameters
         self._remappings = pairs(remappings or [], 'remappings')
         self._extra = extra_arguments
 
-    @property
     def condition(self):
-        return None
+        """A method, as in ROS 2."""
+        return self._condition
+
+    @property
+    def package(self):
+        return parts_of(self._package)
+
+    @property
+    def node_plugin(self):
+        return parts_of(self._plugin)
+
+    @property
+    def node_name(self):
+        return None if self._name is None else parts_of(self._name)
+
+    @property
+    def node_namespace(self):
+        return None if self._namespace is None else parts_of(self._namespace)
+
+    @property
+    def parameters(self):
+        return self._parameters
+
+    @property
+    def remappings(self):
+        return [(parts_of(from_), parts_of(to)) for from_, to in self._remappings]
+
+    @property
+    def extra_arguments(self):
+        return self._extra
 
     def _item(self):
         place = self._place()
@@ -36,7 +67,10 @@ class ComposableNode(Located):
         for given in items(self._extra or [], 'extra_arguments'):
             children += [entity('extra_arg', place, [('name', text(name, 'a name')), ('value', as_yaml(value))])
                          for name, value in mapping(given, 'an item of extra_arguments')]
-        return entity(self._tag, place, [pair for pair in self._attributes if pair is not None], children)
+        when = [] if self._condition is None else [self._condition._attribute()]
+        return entity(self._tag, place,
+                      [('pkg', self._package), ('plugin', self._plugin), ('name', self._name or ''),
+                       ('namespace', self._namespace), *when, *self._attributes], children)
 
 
 class ComposableLifecycleNode(ComposableNode):

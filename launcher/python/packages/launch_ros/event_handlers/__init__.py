@@ -3,9 +3,8 @@
 
 from launch import _names
 from launch._entities import entity
-from launch._values import LaunchFileError, text
-from launch.event_handler import BaseEventHandler
-from launch.event_handlers import _actions
+from launch._values import LaunchFileError, function, text
+from launch.event_handlers._handlers import _Handler
 from launch_ros.events.lifecycle import StateTransition
 
 # The state of a node while it makes the transition.
@@ -13,13 +12,13 @@ _ON_THE_WAY = {'configure': 'configuring', 'cleanup': 'cleaningup', 'activate': 
                'deactivate': 'deactivating', 'shutdown': 'shuttingdown'}
 
 
-class OnStateTransition(BaseEventHandler):
+class OnStateTransition(_Handler):
+    _event_type = StateTransition
 
     def __init__(self, *, entities, target_lifecycle_node=None, transition=None, start_state=None, goal_state=None,
                  matcher=None, handle_once=False):
         from launch_ros.actions._nodes import Node, full_name
-        if matcher is not None:
-            raise LaunchFileError('a matcher is not supported', 'give target_lifecycle_node, start_state and goal_state')
+        super().__init__(entities, handle_once)
         if not isinstance(target_lifecycle_node, Node):
             raise LaunchFileError(f'OnStateTransition needs target_lifecycle_node, a LifecycleNode, '
                                   f'got {type(target_lifecycle_node).__name__}')
@@ -29,23 +28,30 @@ class OnStateTransition(BaseEventHandler):
             if transition not in _ON_THE_WAY:
                 raise LaunchFileError(f'there is no transition {transition!r}', 'one of ' + ', '.join(_ON_THE_WAY))
             goal_state = _ON_THE_WAY[transition]
-        self._target = target_lifecycle_node
         self._node = (full_name(target_lifecycle_node),)
+        self._node_action = target_lifecycle_node
         self._start_state = start_state
         self._goal_state = goal_state
-        self._once = handle_once
-        self._given = entities
+        self._matcher = None if matcher is None else function(matcher, 'matcher')
+        self._target = matcher
+
+    @property
+    def entities(self):
+        return self._given
+
+    def _is_meant(self, event):
+        return self._matcher is None or bool(self._matcher(event))
 
     def _tags(self, place, when):
         def given(state, what):
             return None if state is None else text(state, what)
 
-        target = self._target
+        node = self._node_action
         return [entity('on_state_transition', place,
                        [('node', self._node), ('start_state', given(self._start_state, 'start_state')),
-                        ('goal_state', given(self._goal_state, 'goal_state')), ('once', 'true' if self._once else None),
-                        self._name_of_it(), *when],
-                       _actions(self._given, lambda values: StateTransition(target, values), self._place()))]
+                        ('goal_state', given(self._goal_state, 'goal_state')),
+                        ('once', 'true' if self.handle_once else None), self._name_of_it(), *when],
+                       self._visited(self._given, lambda values: StateTransition(node, values)))]
 
 
 _names.one_class_modules(__name__)

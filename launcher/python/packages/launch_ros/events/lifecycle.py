@@ -2,11 +2,13 @@
 """Changes of the state of nodes with a managed life cycle."""
 
 from launch import _names
+from launch._dispatch import _Step
 from launch._entities import entity
-from launch._places import Located
-from launch._values import LaunchFileError, text
+from launch._places import Located, name_of_function
+from launch._values import LaunchFileError, function, text
 from launch.event import Event
-from lifecycle_msgs.msg import Transition
+from launch.launch_context import LaunchContext
+from lifecycle_msgs.msg import State, Transition
 
 NAMES = {Transition.TRANSITION_CONFIGURE: 'configure', Transition.TRANSITION_CLEANUP: 'cleanup',
          Transition.TRANSITION_ACTIVATE: 'activate', Transition.TRANSITION_DEACTIVATE: 'deactivate',
@@ -20,8 +22,18 @@ def name_of_transition(transition_id):
     return NAMES[transition_id]
 
 
+class _NodeMatcher:
+    """A function of a node, which means the node of this name."""
+
+    def __init__(self, name):
+        self.node_name = name
+
+    def __call__(self, action):
+        return action.node_name == LaunchContext._of_launch()._perform(self.node_name)
+
+
 def matches_node_name(node_name):
-    return text(node_name, 'node_name')
+    return _NodeMatcher(text(node_name, 'node_name'))
 
 
 class StateTransition(Event):
@@ -36,25 +48,47 @@ class StateTransition(Event):
 
 
 class ChangeState(Located, Event):
+    """Asks the nodes that the matcher accepts to change their state."""
+
+    name = 'launch_ros.events.lifecycle.ChangeState'
+    valid_transitions = {number: name for name, number in vars(Transition).items() if name.startswith('TRANSITION_')}
+    valid_states = {number: name for name, number in vars(State).items() if name[0] != '_'}
 
     def __init__(self, *, lifecycle_node_matcher, transition_id):
-        from launch.events.process import _Matcher
         from launch_ros.actions._nodes import Node, full_name
         self.transition_id = transition_id
+        self.lifecycle_node_matcher = function(lifecycle_node_matcher, 'lifecycle_node_matcher')
         self._transition = name_of_transition(transition_id)
-        if isinstance(lifecycle_node_matcher, _Matcher):
-            action = lifecycle_node_matcher._action
-            if not isinstance(action, Node):
-                raise LaunchFileError(f'lifecycle_node_matcher must match a node, got {type(action).__name__}')
-            lifecycle_node_matcher = (full_name(action),)
-        if not isinstance(lifecycle_node_matcher, tuple):
-            raise LaunchFileError('lifecycle_node_matcher must be one of the launcher\'s',
-                                  'write launch.events.matches_action(node)')
-        self._node = lifecycle_node_matcher
+        action = getattr(lifecycle_node_matcher, 'action', None)
+        if action is not None and not isinstance(action, Node):
+            raise LaunchFileError(f'lifecycle_node_matcher must match a node, got {type(action).__name__}')
+        self._node = (full_name(action),) if action is not None else getattr(lifecycle_node_matcher, 'node_name', None)
+
+    def _tag(self, place, node, when):
+        return entity('lifecycle_transition', place,
+                      [('node', node), ('transitions', [(self._transition,)]), *when])
 
     def _tags(self, place, when):
-        return [entity('lifecycle_transition', place,
-                       [('node', self._node), ('transitions', [(self._transition,)]), *when])]
+        if self._node is not None:
+            return [self._tag(place, self._node, when)]
+        step = _Chosen(self)
+        step._made_at = None
+        return [entity('', place, when, obj=step)]
+
+
+class _Chosen(_Step):
+    """The nodes that a matcher accepts, when it is asked."""
+
+    def __init__(self, event):
+        self._event = event
+
+    def _calls(self):
+        return name_of_function(self._event.lifecycle_node_matcher)
+
+    def _do(self, context):
+        from launch_ros.actions._nodes import full_name, lifecycle_nodes
+        return [self._event._tag(None, (full_name(node),), []) for node in lifecycle_nodes
+                if self._event.lifecycle_node_matcher(node)]
 
 
 _names.one_class_modules(__name__)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Processes that a test starts itself, and comparisons of output."""
+
+import contextlib
+import re
+
+from launch import LaunchDescription
+from launch.events import IncludeLaunchDescription
+from launch.events.process import ProcessExited, ProcessStarted, ShutdownProcess, matches_action
+
+
+def basic_output_filter(filtered_prefixes=(), filtered_patterns=()):
+    """A function that removes the lines that begin with a prefix or match a pattern."""
+    patterns = [re.compile(pattern) for pattern in filtered_patterns]
+
+    def filtered(output):
+        kept = [line for line in output.splitlines()
+                if not line.startswith(tuple(filtered_prefixes)) and not any(each.match(line) for each in patterns)]
+        return '\n'.join(kept) + '\n' if kept else ''
+
+    return filtered
+
+
+def expect_output(*, expected_lines=None, expected_text=None, lines=None, text=None, strict=False):
+    """Whether a text, or a list of lines, is what is expected. Unless `strict`, other lines may stand between."""
+    if (lines is None) == (text is None) or (expected_lines is None) == (expected_text is None):
+        raise ValueError('give one of lines and text, and one of expected_lines and expected_text')
+    if expected_text is not None:
+        actual = text if text is not None else '\n'.join(lines)
+        if hasattr(expected_text, 'search'):
+            return (expected_text.fullmatch(actual) if strict else expected_text.search(actual)) is not None
+        return actual == expected_text if strict else expected_text in actual
+    left = list(lines) if lines is not None else text.splitlines()
+
+    def fits(expected, line):
+        return expected.match(line) is not None if hasattr(expected, 'match') else expected == line
+
+    if strict:
+        return len(left) == len(expected_lines) and all(map(fits, expected_lines, left))
+    remaining = iter(left)
+    return all(any(fits(expected, line) for line in remaining) for expected in expected_lines)
+
+
+class ProcessProxy:
+    """A process that a test has started."""
+
+    def __init__(self, process_action, proc_info, proc_output, *, output_filter=None):
+        if output_filter is not None and not callable(output_filter):
+            raise TypeError(f"Expected 'output_filter' to be callable but got '{output_filter!r}'")
+        self._action = process_action
+        self._proc_info = proc_info
+        self._proc_output = proc_output
+        self._filter = output_filter or (lambda text: text)
+
+    def wait_for_shutdown(self, timeout=None):
+        """Whether it ends within `timeout` seconds; None: without a limit."""
+        with self._proc_info.proc_event:
+            return self._proc_info.proc_event.wait_for(lambda: self.terminated, timeout=timeout)
+
+    def wait_for_output(self, condition=None, timeout=None):
+        """Whether it writes something that the function accepts, within `timeout` seconds."""
+        accepts = condition or (lambda output: bool(output))
+        if not callable(accepts):
+            raise TypeError(f"Expected 'condition' to be callable but got '{condition!r}'")
+        with self._proc_output.io_event:
+            return self._proc_output.io_event.wait_for(lambda: accepts(self.output), timeout=timeout)
+
+    @property
+    def target_process_action(self):
+        return self._action
+
+    def _text(self, wanted):
+        if self._action not in self._proc_output.processes():
+            return ''
+        return self._filter(''.join(line.text.decode(errors='replace') for line in self._proc_output[self._action]
+                                    if wanted(line)))
+
+    @property
+    def stdout(self):
+        return self._text(lambda line: line.from_stdout)
+
+    @property
+    def stderr(self):
+        return self._text(lambda line: line.from_stderr)
+
+    @property
+    def output(self):
+        return self._text(lambda line: True)
+
+    def _last_event(self):
+        return self._proc_info[self._action] if self._action in self._proc_info.processes() else None
+
+    @property
+    def running(self):
+        return isinstance(self._last_event(), ProcessStarted)
+
+    @property
+    def terminated(self):
+        return isinstance(self._last_event(), ProcessExited)
+
+    @property
+    def exit_code(self):
+        return self._proc_info[self._action].returncode
+
+
+@contextlib.contextmanager
+def launch_process(launch_service, process_action, proc_info, proc_output, **kwargs):
+    """Starts the process beside the others, and ends it at the end of the block."""
+    launch_service.emit_event(IncludeLaunchDescription(launch_description=LaunchDescription([process_action])))
+    proxy = ProcessProxy(process_action, proc_info, proc_output, **kwargs)
+    try:
+        yield proxy
+    finally:
+        if not proxy.terminated:
+            launch_service.emit_event(ShutdownProcess(process_matcher=matches_action(process_action)))
