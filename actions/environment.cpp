@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // <set_env>, <unset_env>, <append_env>, <reset_env> and <rep_env>: the launch environment, which $(env …) reads and
 // later processes inherit.
+#include <fmt/format.h>
+
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -16,6 +18,10 @@ class SetEnvironmentVariable : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     std::string name = name_.perform(context.scope());
+    if (name.empty() || name.find('=') != std::string::npos) {
+      throw LaunchError(fmt::format("'{}' is no name of an environment variable", name), name_.where(),
+                        name.empty() ? "" : "the name and the value are two attributes");
+    }
     std::string value = value_.perform(context.scope());
     context.scope().environment.insert_or_assign(std::move(name), std::move(value));
   }

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "actions/ros_names.hpp"
 #include "launcher/base/monotonic_clock.hpp"
 #include "launcher/language/argument_use.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/language/introspection.hpp"
-#include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
@@ -74,7 +74,10 @@ class IncludeLaunchDescription : public Action {
     if (namespace_) {
       push_namespace(*namespace_, context.scope());
     }
+    const bool only_planned =
+        std::exchange(context.scope().only_planned, context.scope().only_planned && !context.scope().planned_by_timer);
     context.visit(*included, [&] { set_arguments(context.scope()); });
+    context.scope().only_planned = only_planned;
     if (namespace_) {
       restore_namespace(outer_namespace, context.scope());
     }
@@ -97,7 +100,7 @@ class IncludeLaunchDescription : public Action {
   void find_undeclared_arguments(const LaunchDescription& included, const std::vector<std::string>& given,
                                  LaunchContext& context) const {
     std::optional<ArgumentList> list;
-    const bool depends_on_command = command_was_left_out();
+    const bool depends_on_command = context.scope().command_was_left_out();
     for (std::size_t i = 0; i < given.size(); ++i) {
       if (is_own_configuration(given[i]) || may_read(*included.file, given[i]) || is_read_around(given[i])) {
         continue;
@@ -120,7 +123,7 @@ class IncludeLaunchDescription : public Action {
       }
     }
     if (!depends_on_command) {
-      forget_left_out_command();  // the paths of further includes were only tried
+      context.scope().forget_left_out_command();  // the paths of further includes were only tried
     }
   }
 

@@ -150,8 +150,8 @@ std::string NodeProcess::program(Scope& scope) const {
     try {
       scope.packages->prefix(package, scope.environment);
     } catch (const std::runtime_error&) {
-      throw LaunchError(error.what(), package_->where(),
-                        did_you_mean(package, scope.packages->packages(scope.environment)), Finding::kMissingPackage);
+      throw LaunchError(error.what(), package_->where(), scope.packages->help_for_missing(package, scope.environment),
+                        Finding::kMissingPackage);
     }
     throw LaunchError(error.what(), executable_.where(),
                       did_you_mean(executable, scope.packages->executables(package, scope.environment)),

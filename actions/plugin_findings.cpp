@@ -35,8 +35,8 @@ void find_missing_plugin(const ComposableNode& node, const Environment& environm
   try {
     prefix = packages.prefix(node.package, environment);
   } catch (const std::runtime_error& error) {
-    context.remark({Severity::kError, error.what(), package_where,
-                    did_you_mean(node.package, packages.packages(environment)), Finding::kMissingPackage});
+    context.remark({Severity::kError, error.what(), package_where, packages.help_for_missing(node.package, environment),
+                    Finding::kMissingPackage});
     return;
   }
   std::ifstream file(registrations_of(prefix, node.package));

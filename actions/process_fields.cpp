@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "actions/process_findings.hpp"
+#include "launcher/base/process_mark.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
@@ -83,6 +84,11 @@ std::vector<AttributeSpec> ProcessFields::attributes() {
        .default_value = "true",
        .help = "false: no trace records this process",
        .extension = true},
+      {.name = "leave-running",
+       .type = AttributeType::kBoolean,
+       .default_value = "false",
+       .help = "true: what it leaves running in a session of its own, as a daemon has, goes on after the launch",
+       .extension = true},
       {"sigterm_timeout", AttributeType::kFloat, false, "5", "seconds from SIGINT to SIGTERM at shutdown"},
       {"sigkill_timeout", AttributeType::kFloat, false, "5", "seconds from SIGTERM to SIGKILL at shutdown"},
       {"clean_env", AttributeType::kBoolean, false, "false", "true: the environment holds the env items only", true},
@@ -118,6 +124,7 @@ ProcessFields::ProcessFields(const Fields& fields)
       shell_(fields.boolean("shell", false)),
       emulate_tty_(fields.boolean("emulate_tty", false)),
       traced_(fields.boolean("trace", true)),
+      leave_running_(fields.boolean("leave-running", false)),
       sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
       sigkill_timeout_(not_negative(fields.number("sigkill_timeout"))),
       clean_environment_(fields.boolean("clean_env", false)),
@@ -180,6 +187,9 @@ Environment ProcessFields::environment(Scope& scope) const {
   Environment environment = clean_environment_.perform(scope) ? Environment() : scope.environment;
   for (const auto& [name, value] : environment_) {
     environment.insert_or_assign(name.perform(scope), value.perform(scope));
+  }
+  if (leave_running_.perform(scope)) {
+    environment.insert_or_assign(kLeaveRunningVariable, "1");
   }
   return environment;
 }

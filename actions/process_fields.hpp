@@ -52,6 +52,7 @@ class ProcessFields {
   BooleanField shell_;
   BooleanField emulate_tty_;
   BooleanField traced_;
+  BooleanField leave_running_;
   std::optional<NumberField> sigterm_timeout_;
   std::optional<NumberField> sigkill_timeout_;
   std::vector<std::pair<Template, Template>> environment_;

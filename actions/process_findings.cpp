@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "actions/ros_names.hpp"
+#include "launcher/base/remap_name.hpp"
 
 namespace launch {
 
@@ -30,15 +31,6 @@ bool is_remappable(std::string_view name) {
       return true;
     }
     name.remove_prefix(slash + 1);
-  }
-}
-
-// Removes "rostopic://" or "rosservice://".
-void remove_scheme(std::string_view& name) {
-  for (const std::string_view scheme : {"rostopic://", "rosservice://"}) {
-    if (name.starts_with(scheme)) {
-      name.remove_prefix(scheme.size());
-    }
   }
 }
 
@@ -76,13 +68,10 @@ void find_invalid_remap(const std::string& from, const SourceRange& from_where, 
   if (!context.explores()) {
     return;
   }
-  std::string_view before = from;
-  std::string_view after = to;
-  remove_scheme(before);
-  remove_scheme(after);
+  std::string_view before = without_scheme(from);
+  const std::string_view after = without_scheme(to);
   if (const std::size_t colon = before.find(':'); colon != std::string_view::npos) {
-    before.remove_prefix(colon + 1);
-    remove_scheme(before);
+    before = without_scheme(before.substr(colon + 1));
   }
   if (before.starts_with("__")) {
     return;  // the name of the node or its namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
+#include "actions/trace_chain.hpp"
 #include "actions/trace_channel.hpp"
 #include "actions/trace_findings.hpp"
 #include "actions/trace_overhead.hpp"
@@ -57,11 +58,17 @@ class Trace : public Action {
         max_overhead_(fields.optional_text("max-overhead")),
         drop_order_(fields, "drop-order"),
         dual_session_(fields.boolean("dual-session", false)) {
+    if (fields.has("report")) {
+      report_ = fields.boolean("report", false);
+    }
     if (fields.has("overwrite-ust")) {
       overwrite_ust_ = fields.boolean("overwrite-ust", false);
     }
     for (const Fields* channel : fields.items("channel")) {
       channels_.emplace_back(*channel);
+    }
+    for (const Fields* chain : fields.items("chain")) {
+      chains_.emplace_back(*chain);
     }
   }
 
@@ -155,6 +162,17 @@ class Trace : public Action {
 
   TraceChoices perform_choices(Scope& scope) const {
     TraceChoices choices;
+    const auto asked = scope.environment.find("LAUNCH_TRACE_REPORT");  // launch --report
+    choices.report = report_ ? report_->perform(scope) : asked != scope.environment.end() && asked->second == "1";
+    if (report_ && choices.report && url_) {
+      throw LaunchError("report needs the trace on this machine, but url sends it to a relay daemon", url_->where(),
+                        "leave out report, and use launch report where the trace is");
+    }
+    choices.chains = perform_chains(chains_, scope);
+    if (!choices.chains.empty() && url_) {
+      throw LaunchError("chains need the trace on this machine, but url sends it to a relay daemon", url_->where(),
+                        "leave out the chains, and write chains.json where the trace is (docs/report.md)");
+    }
     if (nodes_.given()) {
       choices.nodes = nodes_.perform(scope);
     }
@@ -200,7 +218,9 @@ class Trace : public Action {
     replace_count(config.subbuffer_size_kernel, subbuffer_size_kernel_);
     replace_count(config.subbuffer_count_ust, subbuffer_count_ust_);
     replace_time(config.read_timer_ust, read_timer_ust_);
-    replace_time(config.switch_timer_ust, switch_timer_ust_);
+    if (switch_timer_ust_) {
+      config.switch_timer_ust = microseconds(*switch_timer_ust_, scope);
+    }
     replace_count(config.snapshot_size, snapshot_size_);
     replace_count(config.snapshot_limit, snapshot_limit_);
     replace_count(config.tracefile_size, tracefile_size_);
@@ -227,6 +247,7 @@ class Trace : public Action {
   std::optional<Template> base_path_;
   BooleanField append_trace_;
   BooleanField fail_on_loss_;
+  std::optional<BooleanField> report_;
   WordsField events_ust_;
   WordsField events_kernel_;
   WordsField syscalls_;
@@ -234,6 +255,7 @@ class Trace : public Action {
   WordsField context_fields_kernel_;
   WordsField nodes_;
   std::vector<ChannelFields> channels_;
+  std::vector<ChainFields> chains_;
   std::optional<Template> subbuffers_;
   std::optional<NumberField> subbuffer_size_ust_;
   std::optional<NumberField> subbuffer_size_kernel_;
@@ -276,6 +298,8 @@ std::vector<AttributeSpec> trace_attributes() {
        "directory that will hold the trace's directory"},
       {"append-trace", AttributeType::kBoolean, false, "false", "allow a trace directory that exists"},
       extension("fail-on-loss", AttributeType::kBoolean, "false", "exit with 1 when events were lost"),
+      extension("report", AttributeType::kBoolean, "false",
+                "make a page of the trace at its end, report.html in its directory"),
       {"events-ust", AttributeType::kWords, false, "all events of provider ros2",
        "userspace events; * matches any text; `'ros2:* except ros2:rcl_init level INFO if vpid > 1'` in quotes"},
       {"events-kernel", AttributeType::kWords, false, "none", "kernel tracepoints"},
@@ -294,7 +318,8 @@ std::vector<AttributeSpec> trace_attributes() {
                 "sub-buffers for each processor"),
       extension("read-timer-ust", AttributeType::kInteger, fmt::format("{}", defaults.read_timer_ust),
                 "microseconds between two reads of the buffers; 0: traced processes wake the reader"),
-      extension("switch-timer-ust", AttributeType::kInteger, "0",
+      extension("switch-timer-ust", AttributeType::kInteger,
+                fmt::format("{}; 0 in snapshot mode", tracing::kSwitchTimer),
                 "microseconds until a part-full sub-buffer is written; 0: never"),
       extension("overwrite-ust", AttributeType::kBoolean, "false; true in snapshot mode",
                 "when buffers are full lose the oldest events, not the newest"),
@@ -342,7 +367,7 @@ ActionType trace_action() {
       .tag = "trace",
       .help = "Records the run with LTTng, from before the first process starts until the last one has ended.",
       .attributes = trace_attributes(),
-      .items = {ChannelFields::item()},
+      .items = {ChannelFields::item(), ChainFields::item()},
       .make = [](const Fields& fields) { return std::make_shared<Trace>(fields); },
   };
 }

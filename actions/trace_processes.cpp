@@ -32,6 +32,8 @@ bool may_block(const tracing::TraceConfig& config) {
 }
 
 constexpr double kNanosecondsPerMillisecond = 1e6;
+// Milliseconds. A process of the stack waits so long while the session daemon works, and no second if it does not.
+constexpr const char* kLongestRegistration = "30000";
 
 std::string nanoseconds_of(double milliseconds) {
   return fmt::format("{:.0f}", milliseconds * kNanosecondsPerMillisecond);
@@ -79,6 +81,7 @@ void TraceScope::prepare(ProcessSpec& spec) const {
     // Otherwise the process would wait for three seconds, three times, before its main().
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
   }
+  spec.environment.emplace("TRACETOOLS_REGISTER_TIMEOUT", kLongestRegistration);
   if (!preload_.empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
     variable = tracing::append_preload(variable, preload_);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <filesystem>
+#include <system_error>
 
 #include "actions/trace_overhead.hpp"
 #include "launcher/base/diagnostic.hpp"
@@ -113,6 +115,9 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
           setup_ = tracer_->start(config_);
           guard_overhead(loop, tell);
           setup_.warnings.insert(setup_.warnings.begin(), warnings.begin(), warnings.end());
+          if (const std::string problem = write_chains(); !problem.empty()) {
+            setup_.warnings.push_back(problem);
+          }
         } catch (const tracing::TraceError& error) {
           throw LaunchError(fmt::format("tracing setup failed: {}", error.what()), origin_, error.remedy());
         }
@@ -135,6 +140,9 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
             tell(false, setup_.notes);
           }
           tell(false, fmt::format("writing tracing session to: {}", setup_.trace_directory));
+          run_watch_ = tracer_->watch(config_, [&loop, tell](const std::string& sentence) {
+            loop.post([tell, sentence] { tell(true, sentence); });
+          });
           look_around_later(loop, tell);
         }
         done(error);
@@ -161,6 +169,18 @@ void TraceScope::end_failed_session() {
     tracer_->finish(config_, [] { return true; });
   } catch (const tracing::TraceError&) {
     // The error of the setup counts.
+  }
+}
+
+std::string TraceScope::write_chains() const {
+  if (choices_.chains.empty() || config_.over_network()) {
+    return "";
+  }
+  try {
+    tracing::write_chains(choices_.chains, std::filesystem::path(config_.base_path) / config_.session_name);
+    return "";
+  } catch (const std::system_error& error) {
+    return fmt::format("the report will not know the chains of the launch file: {}", error.what());
   }
 }
 
@@ -219,6 +239,7 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
   in_background(
       loop,
       [this] {
+        run_watch_.reset();
         overhead_guard_.reset();
         event_watch_.reset();
         flight_recorder_.reset();
@@ -231,6 +252,9 @@ void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
         }
         if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
           summarize();
+        }
+        if (choices_.report && !config_.over_network() && !hurry_) {
+          make_report();
         }
       },
       [this, tell = std::move(tell), done = std::move(done)](std::exception_ptr error) {
@@ -260,12 +284,24 @@ void TraceScope::summarize() {
   losses_.steps.push_back({"summary", std::chrono::steady_clock::now() - before});
 }
 
+void TraceScope::make_report() {
+  const std::filesystem::path page = std::filesystem::path(config_.trace_directory()) / "report.html";
+  std::error_code failed;
+  std::filesystem::remove(page, failed);  // of an earlier launch with append-trace
+  const auto before = std::chrono::steady_clock::now();
+  tracing::program_output(prefix_ + "/lib/launch/launch-report", {config_.trace_directory(), "--html", page.string()});
+  // A damaged trace has a page, too, although the program fails.
+  report_ = std::filesystem::exists(page, failed) ? page.string() : "";
+  losses_.steps.push_back({"report", std::chrono::steady_clock::now() - before});
+}
+
 void TraceScope::tell_result(const Tell& tell) const {
   tell(false,
        fmt::format("trace written to: {}{}", config_.destination(), summary_.empty() ? "" : " (" + summary_ + ")"));
   if (!config_.records_snapshots()) {
-    tell(losses_.has_losses(), fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
-                                           tracing::describe_losses(losses_)));
+    tell(losses_.has_losses() || !losses_.absences.empty(),
+         fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete",
+                     tracing::describe_losses(losses_)));
   }
   if (const std::string cost = tracing::describe_cost(losses_); !cost.empty()) {
     tell(false, cost);
@@ -273,11 +309,18 @@ void TraceScope::tell_result(const Tell& tell) const {
   if (!losses_.unwritten_verdict.empty()) {
     tell(true, losses_.unwritten_verdict);
   }
+  if (!report_.empty()) {
+    tell(false, "report: " + report_);
+  } else if (choices_.report) {
+    tell(true, "no report: " + (config_.over_network() ? "the trace is on another machine"
+                                : hurry_               ? "the launch was to end at once"
+                                         : fmt::format("see what 'launch report {}' says", config_.trace_directory())));
+  }
 }
 
 std::vector<std::string> TraceScope::clean_up_command() {
   // Only a real run asks for this command, so a dry run makes no directory.
-  counters_ = tracing::EventCounterDirectory::shared();
+  counters_ = tracing::CounterDirectory::shared();
   config_.event_counters = counters_ ? counters_->path().string() : "";
   // The command is chosen before the session is created. A session that has the name already belongs to somebody else.
   std::vector<std::string> command = {prefix_ + "/bin/launch", "trace", "stop", config_.lttng_session_name(),

@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "launcher/visit/run_scope.hpp"
-#include "tracing/account/event_counters.hpp"
+#include "tracing/account/counter_directory.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/overhead_guard.hpp"
+#include "tracing/chains/chain_definition.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
+#include "tracing/session/run_watch.hpp"
 #include "tracing/session/tracer.hpp"
 
 namespace launch {
@@ -32,6 +34,8 @@ struct TraceChoices {
   // Further reasons: a callback takes longer, or a message is older, than so many milliseconds; 0: no such reason.
   double callback_deadline = 0;
   double message_deadline = 0;
+  bool report = false;                                // a page is made of the trace at its end
+  std::vector<tracing::ChainDefinition> chains = {};  // for the report
 
   bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !watched_events().empty(); }
   // The events that cause a snapshot.
@@ -41,7 +45,7 @@ struct TraceChoices {
 class TraceScope : public RunScope {
  public:
   // `prefix` is the folder of bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report,
-  // which describes a finished trace in one line.
+  // which describes a finished trace in one line and as a page.
   TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
              SourceRange origin, TraceChoices choices = {});
   ~TraceScope() override;
@@ -66,9 +70,12 @@ class TraceScope : public RunScope {
   bool traces(const ProcessSpec& spec) const;
   void look_around_later(EventLoop& loop, const Tell& tell);
   void summarize();
+  void make_report();
   void guard_overhead(EventLoop& loop, const Tell& tell);
   // Ends a session that has begun although its setup failed.
   void end_failed_session();
+  // Returns a sentence if it fails.
+  std::string write_chains() const;
   void start_flight_recorder(EventLoop& loop, const Tell& tell);
 
   tracing::TraceConfig config_;
@@ -78,16 +85,18 @@ class TraceScope : public RunScope {
   TraceChoices choices_;
   std::int64_t created_;  // when this scope was made, in seconds since the epoch
   std::vector<std::string> preload_;
-  std::shared_ptr<tracing::EventCounterDirectory> counters_;
+  std::shared_ptr<tracing::CounterDirectory> counters_;
   tracing::SetupReport setup_;
   tracing::LossAccount losses_;
   std::string summary_;
+  std::string report_;  // path of the page; empty: none could be made
   std::atomic<bool> hurry_ = false;
   EventLoop::SourcePtr signals_;
   EventLoop::SourcePtr look_around_;
   std::unique_ptr<tracing::FlightRecorder> flight_recorder_;
   std::unique_ptr<tracing::EventWatch> event_watch_;
   std::unique_ptr<tracing::OverheadGuard> overhead_guard_;
+  std::unique_ptr<tracing::RunWatch> run_watch_;
   std::thread worker_;
 };
 

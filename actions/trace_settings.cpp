@@ -17,6 +17,14 @@ std::vector<std::string> channel_names(const tracing::TraceConfig& config) {
   return names;
 }
 
+std::vector<std::string> chain_names(const TraceChoices& choices) {
+  std::vector<std::string> names;
+  for (const tracing::ChainDefinition& chain : choices.chains) {
+    names.push_back(chain.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<ScopeSetting> TraceScope::describe() const {
@@ -24,17 +32,19 @@ std::vector<ScopeSetting> TraceScope::describe() const {
           {"trace-directory", config_.trace_directory()},
           {"append-trace", config_.append_trace},
           {"fail-on-loss", config_.fail_on_loss},
+          {"report", choices_.report},
           {"events-ust", config_.events_ust},
           {"events-kernel", config_.events_kernel},
           {"syscalls", config_.syscalls},
           {"channels", channel_names(config_)},
+          {"chains", chain_names(choices_)},
           {"context-fields", config_.context_fields_ust},
           {"context-fields-kernel", config_.context_fields_kernel},
           {"subbuffer-size-ust", static_cast<std::int64_t>(config_.subbuffer_size_ust)},
           {"init-channel", config_.init_channel},
           {"subbuffer-count-ust", static_cast<std::int64_t>(config_.subbuffer_count_ust)},
           {"read-timer-ust", static_cast<std::int64_t>(config_.read_timer_ust)},
-          {"switch-timer-ust", static_cast<std::int64_t>(config_.switch_timer_ust)},
+          {"switch-timer-ust", static_cast<std::int64_t>(config_.switch_timer())},
           {"overwrite-ust", config_.overwrite_ust.value_or(config_.records_snapshots())},
           {"blocking-timeout-ust", config_.blocking_timeout_ust},
           {"buffers-ust", std::string(config_.buffers_ust == tracing::BufferOwner::kProcess ? "pid" : "uid")},

@@ -14,7 +14,12 @@ class UnregisterEventHandler : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    context.requests().unregistered.push_back({name_.perform(context.scope()), name_.where()});
+    const std::string name = name_.perform(context.scope());
+    // A handler of the same traversal is not registered yet.
+    if (std::erase_if(context.requests().handlers, [&](const EventHandler& handler) { return handler.name == name; }) ==
+        0) {
+      context.requests().unregistered.push_back({name, name_.where()});
+    }
   }
 
  private:

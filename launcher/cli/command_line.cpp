@@ -40,6 +40,7 @@ ExitNow usage_error(const std::string& message) {
 
 std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* const* argv) {
   CommandLine command;
+  command.words.assign(argv, argv + argc);
   std::vector<std::string> words;
   std::string dry_run;
   bool show_arguments = false;
@@ -59,6 +60,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   app.add_flag("-d,--debug", command.debug, "show debug messages");
   app.add_flag("--trace", command.trace,
                "record a trace with the default settings, unless the file has a trace of its own");
+  app.add_flag("--report", command.report, "make a page of the trace at its end and print its path; includes --trace");
   app.add_flag("--timing", command.timing, "print how long each step of the start took");
   app.add_flag("-a,--show-all-subprocesses-output", command.show_all_output,
                "show the output of every process on the screen and in launch.log");

@@ -13,11 +13,13 @@ enum class CommandMode { kRun, kShowArguments, kPrint, kDryRunText, kDryRunJson,
 
 struct CommandLine {
   CommandMode mode = CommandMode::kRun;
+  std::vector<std::string> words;                              // the command line as it was given
   std::vector<std::string> target;                             // paths, or a package and a file name
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value, in order
   bool debug = false;
   bool timing = false;
-  bool trace = false;  // record the launch also when its file has no <trace>
+  bool report = false;  // make a page of each trace
+  bool trace = false;   // record the launch also when its file has no <trace>
   bool strict_arguments = false;
   bool show_all_output = false;
   std::string launch_prefix;

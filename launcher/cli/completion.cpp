@@ -22,19 +22,10 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 const Words kCommands = {"check", "explain", "graph", "reference", "report", "schema", "trace"};
-const Words kOptions = {"--debug",
-                        "--dry-run",
-                        "--dry-run=json",
-                        "--dry-run=shell",
-                        "--help",
-                        "--launch-prefix",
-                        "--launch-prefix-filter",
-                        "--print",
-                        "--show-args",
-                        "--strict-args",
-                        "--timing",
-                        "--trace",
-                        "--version"};
+const Words kOptions = {"--debug",  "--dry-run",       "--dry-run=json",         "--dry-run=shell",
+                        "--help",   "--launch-prefix", "--launch-prefix-filter", "--print",
+                        "--report", "--show-args",     "--strict-args",          "--timing",
+                        "--trace",  "--version"};
 const Words kCheckOptions = {"--disable", "--format", "--help", "--strict-ros2", "--werror"};
 const Words kGraphOptions = {"--format", "--help", "--output"};
 

@@ -3,14 +3,18 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "actions/builtin_actions.hpp"
 #include "launcher/base/monotonic_clock.hpp"
 #include "launcher/base/own_prefix.hpp"
+#include "launcher/base/process_mark.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
@@ -68,7 +72,8 @@ void print_timing(const std::vector<TimedStep>& steps) {
 
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
-        const std::shared_ptr<const LaunchDescription>& description, TimedStep load, LaunchRecord load_record) {
+        const std::shared_ptr<const LaunchDescription>& description, Guardian& guardian, TimedStep load,
+        LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   // nohup(1) ignores SIGHUP, which stays so.
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
@@ -91,9 +96,9 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
 
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
-  Guardian guardian;
-  GuardedProcessRunner guarded_runner(*runner, guardian);
-  ProcessSupervisor supervisor(*loop, guarded_runner, output);
+  guardian.set_log(log_directory.path + "/launch.log");
+  ProcessSupervisor supervisor(*loop, *runner, output);
+  supervisor.use_guardian(guardian);
   supervisor.observe(process_messages(output));
 
   RosClientProcess ros_client(*loop);
@@ -107,9 +112,10 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   LaunchTracepoints tracepoints(own_prefix());
   LaunchService service(context, *loop, supervisor, print_error);
   service.use_ros_client(ros_client);
-  service.guard_scopes(guardian);
+  service.use_guardian(guardian);
   service.record_to(tracepoints);
   service.record(load_record);
+  guardian.wait_until_ready();
   const int exit_code = service.run(*description);
   if (command.timing) {
     std::vector<TimedStep> steps = {std::move(load)};
@@ -117,6 +123,15 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     print_timing(steps);
   }
   return exit_code;
+}
+
+// Before anything else: a launch file can start processes while it is loaded. Programs that the launcher starts for
+// itself have the mark of the launch, too.
+Guardian guard_this_process(const CommandLine& command) {
+  Guardian guardian = Guardian::put_above(command.words);
+  const std::string mark = guardian.mark("launch", {});
+  ::setenv(kMarkVariable, mark.c_str() + std::string_view(kMarkVariable).size() + 1, 1);
+  return guardian;
 }
 
 std::string dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
@@ -134,8 +149,20 @@ int run_command(const CommandLine& command, Environment environment) {
   if (command.show_all_output) {
     environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
   }
+  if (command.report) {
+    environment.insert_or_assign("LAUNCH_TRACE_REPORT", "1");
+  }
   if (command.debug) {
     show_python_tracebacks();
+  }
+  std::optional<Guardian> guardian;
+  if (command.mode == CommandMode::kRun) {
+    try {
+      guardian = guard_this_process(command);
+    } catch (const std::system_error& error) {
+      fmt::print(stderr, "launch: error: {}\n", error.what());
+      return 1;
+    }
   }
   const Registry registry = builtin_actions();
   std::optional<ResultOutput> result;
@@ -154,7 +181,7 @@ int run_command(const CommandLine& command, Environment environment) {
     if (!command.arguments.empty()) {
       report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
     }
-    if (command.trace) {
+    if (command.trace || command.report) {
       description = with_trace(*description, registry);
     }
     const std::int64_t loading = monotonic_time() - begin;
@@ -172,7 +199,7 @@ int run_command(const CommandLine& command, Environment environment) {
         result->print(dry_run(command, context, *description, environment));
         return result->finish() ? 0 : 1;
       case CommandMode::kRun:
-        return run(command, registry, environment, description, load,
+        return run(command, registry, environment, description, *guardian, load,
                    {.kind = LaunchRecord::Kind::kLoad,
                     .name = description->file == nullptr ? "several files" : description->file->path(),
                     .where = {description->file, 0, 0},

@@ -61,16 +61,14 @@ std::string dirname(const SubstitutionCall& call) {
 
 std::string find_pkg_prefix(const SubstitutionCall& call) {
   const std::string package = call.text(0);
-  return call.look_up([&](PackageIndex& index) { return index.prefix(package, call.scope().environment); }, package,
-                      [&](PackageIndex& index) { return index.packages(call.scope().environment); },
-                      Finding::kMissingPackage);
+  return call.look_up_package([&](PackageIndex& index) { return index.prefix(package, call.scope().environment); },
+                              package);
 }
 
 std::string find_pkg_share(const SubstitutionCall& call) {
   const std::string package = call.text(0);
-  std::string path = call.look_up(
-      [&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package,
-      [&](PackageIndex& index) { return index.packages(call.scope().environment); }, Finding::kMissingPackage);
+  std::string path = call.look_up_package(
+      [&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package);
   std::error_code ignored;
   if (call.scope().warn && !std::filesystem::is_directory(path, ignored)) {
     call.scope().warn(call.where(),
@@ -84,8 +82,7 @@ std::string exec_in_pkg(const SubstitutionCall& call) {
   const std::string package = call.text(1);
   const Environment& environment = call.scope().environment;
   // A package that is missing is reported as such, with packages as suggestions.
-  call.look_up([&](PackageIndex& index) { return index.prefix(package, environment); }, package,
-               [&](PackageIndex& index) { return index.packages(environment); }, Finding::kMissingPackage);
+  call.look_up_package([&](PackageIndex& index) { return index.prefix(package, environment); }, package);
   return call.look_up([&](PackageIndex& index) { return index.executable(executable, package, environment); },
                       executable, [&](PackageIndex& index) { return index.executables(package, environment); },
                       Finding::kMissingProgram);
@@ -148,6 +145,21 @@ std::string string_join(const SubstitutionCall& call) {
     result += separator + call.text(i);
   }
   return result;
+}
+
+// As os.path.join() of Python: an absolute component forgets what is before it.
+std::string path_join(const SubstitutionCall& call) {
+  std::string path = call.text(0);
+  for (std::size_t i = 1; i < call.count(); ++i) {
+    const std::string component = call.text(i);
+    if (component.starts_with('/')) {
+      path.clear();
+    } else if (!path.empty() && !path.ends_with('/')) {
+      path += '/';
+    }
+    path += component;
+  }
+  return path;
 }
 
 // The value of an earlier `set_parameter`. The last one counts, as it does for nodes; parameter files are not searched.
@@ -278,6 +290,8 @@ const std::vector<SubstitutionType>& substitution_types() {
        make(if_, "IfElseSubstitution({0}, {1}, {2})")},
       {"string-join", 2, kAny, "$(string-join SEPARATOR A...)", "the texts with the separator between them",
        make(string_join, "StringJoinSubstitution({*})")},
+      {"path-join", 1, kAny, "$(path-join A...)", "the components of a path with slashes between them",
+       make(path_join, "PathJoin({*})")},
       {"eval", 1, 2, "$(eval 'EXPRESSION' ['MODULE, ...'])", "value of a Python expression",
        make(eval, "PythonExpr({0})")},
       {"command", 1, 2, "$(command 'COMMAND' [fail|warn|ignore|capture])", "standard output of a command",

@@ -19,16 +19,6 @@ namespace launch {
 
 namespace {
 
-struct Commands {
-  bool left_out = false;
-  bool any_was_left_out = false;
-};
-
-Commands& commands() {
-  static Commands commands;
-  return commands;
-}
-
 // The end of a text without its line ends, for a message.
 std::string last_line(std::string text) {
   text.erase(text.find_last_not_of("\r\n") + 1);
@@ -37,16 +27,14 @@ std::string last_line(std::string text) {
 
 }  // namespace
 
-void leave_commands_out() {
-  commands().left_out = true;
+bool Scope::command_was_left_out() const {
+  return unrun_commands != nullptr && unrun_commands->left_out;
 }
 
-bool command_was_left_out() {
-  return commands().any_was_left_out;
-}
-
-void forget_left_out_command() {
-  commands().any_was_left_out = false;
+void Scope::forget_left_out_command() {
+  if (unrun_commands != nullptr) {
+    unrun_commands->left_out = false;
+  }
 }
 
 std::string command(const SubstitutionCall& call) {
@@ -69,8 +57,8 @@ std::string command(const SubstitutionCall& call) {
                                                            : "install it, or extend the PATH",
               Finding::kExpression);
   }
-  if (commands().left_out) {
-    commands().any_was_left_out = true;
+  if (UnrunCommands* const unrun = call.scope().unrun_commands.get()) {
+    unrun->left_out = true;
     return std::string(kUnknownOutput);
   }
   CommandOutput output;

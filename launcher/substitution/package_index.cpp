@@ -12,6 +12,8 @@
 #include <system_error>
 #include <utility>
 
+#include "launcher/base/diagnostic.hpp"
+
 namespace launch {
 
 namespace {
@@ -104,6 +106,17 @@ std::string PackageIndex::prefix(const std::string& package, const Environment& 
     searched += fmt::format("{}'{}'", searched.empty() ? "" : ", ", candidate);
   }
   throw std::runtime_error(fmt::format("package '{}' not found, searching: [{}]", package, searched));
+}
+
+std::string PackageIndex::help_for_missing(const std::string& package, const Environment& environment) const {
+  std::string help = did_you_mean(package, packages(environment));
+  if (!help.empty() || !is_package_name(package)) {
+    return help;
+  }
+  return variable(environment, kSearchPathVariable).empty()
+             ? "AMENT_PREFIX_PATH is not set; source the setup file of the workspace that has the package"
+             : "packages are searched in AMENT_PREFIX_PATH; source the setup file of the workspace that has the "
+               "package";
 }
 
 std::string PackageIndex::share(const std::string& package, const Environment& environment) {

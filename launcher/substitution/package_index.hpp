@@ -28,6 +28,8 @@ class PackageIndex {
 
   // Names of all packages that can be found, for suggestions.
   std::vector<std::string> packages(const Environment& environment) const;
+  // What to do about a package that is not found: its right name, or where packages are searched.
+  std::string help_for_missing(const std::string& package, const Environment& environment) const;
   // Names of all programs of a package, for suggestions. Throws as prefix() does.
   std::vector<std::string> executables(const std::string& package, const Environment& environment);
 

@@ -16,6 +16,7 @@
 namespace launch {
 
 class PackageIndex;
+struct UnrunCommands;
 
 // Copied when a scoped group begins and put back when it ends (launcher/visit/launch_context.hpp).
 struct Scope {
@@ -38,6 +39,10 @@ struct Scope {
   std::function<void(const SourceRange& where, const std::string& text)> warn;
   // A plan is looking at what waits for an event or a timer: functions of launch files must not be called.
   bool only_planned = false;
+  // What is planned is certain to happen: a timer fires. A file that is included then makes its description as always.
+  bool planned_by_timer = false;
+  // Keeps commands from being run (unrun_commands.hpp). Null: they are run.
+  std::shared_ptr<UnrunCommands> unrun_commands;
   // A function that might have changed this scope has not been called, so what follows may fail for that reason.
   bool incomplete = false;
 
@@ -47,6 +52,10 @@ struct Scope {
     global_parameters.clear();
     global_remaps.clear();
   }
+
+  // Whether a command was left out since the last call of forget_left_out_command().
+  bool command_was_left_out() const;
+  void forget_left_out_command();
 };
 
 }  // namespace launch

@@ -47,6 +47,16 @@ class SubstitutionCall {
     throw LaunchError(std::move(message), where_, std::move(help), finding);
   }
 
+  // Runs a look-up of a package, whose errors have no place, and gives them this one.
+  template <typename LookUp>
+  std::string look_up_package(LookUp find, const std::string& package) const {
+    try {
+      return find(*scope_.packages);
+    } catch (const std::runtime_error& error) {
+      fail(error.what(), scope_.packages->help_for_missing(package, scope_.environment), Finding::kMissingPackage);
+    }
+  }
+
   // Runs a look-up of the package index, whose errors have no place, and gives them this one.
   template <typename LookUp, typename Candidates>
   std::string look_up(LookUp find, std::string_view name, Candidates candidates, Finding finding) const {

@@ -6,14 +6,13 @@
 
 namespace launch {
 
-// What stands for the output of such a command. No real name has it.
+// What stands for the output of such a command, and for other values that only a run knows. No real name has it.
 inline constexpr std::string_view kUnknownOutput = "\x1A";
 
-// From now on no command of this process is run. That a program is missing is still an error.
-void leave_commands_out();
-
-// Whether a command was left out since the last call of forget_left_out_command().
-bool command_was_left_out();
-void forget_left_out_command();
+// Belongs to a scope and its copies (scope.hpp). No command is run in them. That a program is missing is still an
+// error.
+struct UnrunCommands {
+  bool left_out = false;  // a command was left out since somebody last looked
+};
 
 }  // namespace launch

@@ -33,8 +33,7 @@ std::string describe(const EventHandler& handler) {
   return std::visit(Description{handler.process}, handler.event);
 }
 
-Scope Invocation::scope() const {
-  Scope scope = handler->scope;
+Scope Invocation::with_values(Scope scope, const EventValues& values) {
   for (const auto& [name, value] : values) {
     scope.configurations.insert_or_assign("event." + name, value);
   }

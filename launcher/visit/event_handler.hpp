@@ -46,7 +46,8 @@ struct EventHandler {
   std::string process;  // a name (process_table.hpp); empty: every process
   bool once = false;
   std::vector<ActionPtr> actions;
-  Scope scope;  // the scope at the place of the handler
+  Scope scope;        // the scope at the place of the handler
+  bool live = false;  // its actions are visited in the scope of the whole launch, which they may change
   SourceRange where;
 };
 
@@ -61,7 +62,8 @@ struct Invocation {
   EventValues values;
 
   // The handler's scope with the values in it.
-  Scope scope() const;
+  Scope scope() const { return with_values(handler->scope, values); }
+  static Scope with_values(Scope scope, const EventValues& values);
 };
 
 }  // namespace launch

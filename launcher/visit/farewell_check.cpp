@@ -5,12 +5,12 @@
 
 namespace launch {
 
-void check_farewell(const Requests& requests) {
+void check_farewell(const Requests& requests, bool may_ask_nodes) {
   if (!requests.scopes.empty()) {
     throw LaunchError("a trace can't begin when the system ends", requests.scopes.front()->origin(),
                       "put it outside of on_shutdown", Finding::kWrongPlace);
   }
-  if (!requests.loads.empty() || !requests.transitions.empty()) {
+  if (!may_ask_nodes && (!requests.loads.empty() || !requests.transitions.empty())) {
     throw LaunchError("components are not loaded and states not changed when the system ends",
                       requests.loads.empty() ? requests.transitions.front().origin : requests.loads.front().origin,
                       "run a program that does it, such as ros2 lifecycle", Finding::kWrongPlace);

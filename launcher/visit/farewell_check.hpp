@@ -7,7 +7,7 @@
 namespace launch {
 
 // Throws LaunchError for a trace, which could not begin any more, for requests to the services of nodes, and for
-// processes that wait for others.
-void check_farewell(const Requests& requests);
+// processes that wait for others. `may_ask_nodes`: requests to the services of nodes are no error, they are left out.
+void check_farewell(const Requests& requests, bool may_ask_nodes);
 
 }  // namespace launch

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "launcher/substitution/package_index.hpp"
-#include "launcher/substitution/unrun_commands.hpp"
 
 namespace launch {
 
@@ -66,8 +65,8 @@ void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
     const std::size_t before = size_of(requests_);
     try {
       visit(*action);
-      if (command_was_left_out()) {
-        forget_left_out_command();
+      if (scope_.command_was_left_out()) {
+        scope_.forget_left_out_command();
         requests_.left_to_run.push_back({"", "", action->where()});
         scope_.incomplete = scope_.incomplete || size_of(requests_) == before;  // the scope may hold the output
       }
@@ -75,8 +74,8 @@ void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
       requests_.left_to_run.push_back({left.function(), "", action->where()});
       scope_.incomplete = true;
     } catch (const LaunchError& error) {
-      const bool depends_on_command = command_was_left_out();
-      forget_left_out_command();
+      const bool depends_on_command = scope_.command_was_left_out();
+      scope_.forget_left_out_command();
       scope_.incomplete = scope_.incomplete || depends_on_command;
       if (scope_.incomplete) {
         requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
@@ -117,6 +116,33 @@ void LaunchContext::visit_in(Scope scope, const std::vector<ActionPtr>& actions)
   visit(actions);
 }
 
+void LaunchContext::visit(const Invocation& invocation, bool planned) {
+  const EventHandler& handler = *invocation.handler;
+  if (!handler.live || planned) {
+    Scope scope = handler.live ? Invocation::with_values(scope_, invocation.values) : invocation.scope();
+    scope.only_planned = scope.only_planned || planned;
+    scope.planned_by_timer = scope.planned_by_timer && !planned;
+    visit_in(std::move(scope), handler.actions);
+    return;
+  }
+  const auto before = scope_.configurations;
+  AtExit restore([this, &invocation, &before, file = scope_.current_file] {
+    scope_.current_file = file;
+    for (const auto& [name, value] : invocation.values) {
+      const std::string key = "event." + name;
+      const auto outer = before.find(key);
+      if (outer == before.end()) {
+        scope_.configurations.erase(key);
+      } else {
+        scope_.configurations[key] = outer->second;
+      }
+    }
+  });
+  scope_.current_file = handler.scope.current_file;
+  scope_ = Invocation::with_values(std::move(scope_), invocation.values);
+  visit(handler.actions);
+}
+
 void LaunchContext::visit_left_out(const Action& action) {
   if (!explores() || in_left_out_) {
     return;
@@ -135,18 +161,18 @@ void LaunchContext::visit_left_out(const Action& action) {
   try {
     action.execute(*this);
   } catch (const LaunchError& error) {
-    if (!command_was_left_out()) {
+    if (!scope_.command_was_left_out()) {
       report(error);
     }
   }
-  forget_left_out_command();
+  scope_.forget_left_out_command();
   if (explorer_.left_out) {
     explorer_.left_out(std::move(requests_));
   }
 }
 
 void LaunchContext::remark(Diagnostic diagnostic) {
-  if (explores() && !scope_.incomplete && !command_was_left_out()) {
+  if (explores() && !scope_.incomplete && !scope_.command_was_left_out()) {
     report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
   }
 }

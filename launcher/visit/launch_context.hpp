@@ -60,6 +60,9 @@ class LaunchContext {
   // Visits actions in a scope of their own, which ends with them.
   void visit_in(Scope scope, const std::vector<ActionPtr>& actions);
 
+  // Visits the actions of a handler whose event has happened; `planned` if it only might happen.
+  void visit(const Invocation& invocation, bool planned = false);
+
   Requests& requests() { return requests_; }
   Requests take_requests();
 

@@ -48,16 +48,15 @@ class Planner {
     while (!timers.empty() && !plan.shutdown) {
       auto next = timers.extract(timers.begin());
       next.mapped().scope.only_planned = true;
+      next.mapped().scope.planned_by_timer = true;
       context_.visit_in(std::move(next.mapped().scope), next.mapped().actions);
       collect(plan, timers, next.key());
     }
     for (PlannedHandler& planned : plan.handlers) {
       const auto handler = std::make_shared<const EventHandler>(planned.handler);
-      Scope scope = Invocation{handler, made_up_event(*handler)}.scope();
-      scope.only_planned = true;
-      context_.visit_in(std::move(scope), handler->actions);
+      context_.visit(Invocation{handler, made_up_event(*handler)}, true);
       if (std::holds_alternative<OnShutdown>(handler->event)) {
-        or_report([&] { check_farewell(context_.requests()); });
+        or_report([&] { check_farewell(context_.requests(), handler->live); });
       }
       planned.plan = plan_requests();
     }

@@ -35,7 +35,7 @@ class Checker {
       for (const auto& [name, value] : options_.arguments) {
         context.scope().configurations.insert_or_assign(name, value);
       }
-      leave_commands_out();
+      context.scope().unrun_commands = std::make_shared<UnrunCommands>();
       check(*load_launch_files({path}, registry_, context.scope()), context);
     } catch (const LaunchError& error) {
       add(error);
@@ -60,6 +60,9 @@ class Checker {
   }
 
   void add(Diagnostic diagnostic) {
+    if (diagnostic.message.find(kUnknownOutput) != std::string::npos) {
+      return;  // it follows from a value that only a run knows
+    }
     if (diagnostic.finding == Finding::kNone) {
       diagnostic.finding = Finding::kWrongValue;  // what is visited was well-formed
     }
@@ -97,10 +100,8 @@ class Checker {
     for (Diagnostic& diagnostic : check_arguments(options_.arguments, description, list, Severity::kWarning)) {
       add(std::move(diagnostic));
     }
-    forget_left_out_command();
-    if (!all_given(list)) {
-      return;
-    }
+    context.scope().forget_left_out_command();
+    make_up_arguments(list, context.scope());
     std::vector<Requests> left_out;
     context.explore({.report = [this](const LaunchError& error, bool is_left_out) { add_of_visit(error, is_left_out); },
                      .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); }});
@@ -109,21 +110,21 @@ class Checker {
     find_faults_of_plan(plan, left_out, [this](Diagnostic diagnostic) { add(std::move(diagnostic)); });
   }
 
-  // A launch file can't be visited when nobody gives an argument that it needs.
-  bool all_given(const ArgumentList& list) {
-    bool all = true;
+  // An argument that has no default and is not given has an unknown value in the visit; what follows from that value is
+  // no finding. Where the argument has choices, the first one is visited.
+  void make_up_arguments(const ArgumentList& list, Scope& scope) {
     for (const ArgumentInfo& info : list.arguments) {
       const ArgumentDeclaration& argument = *info.declaration;
-      const bool given = std::any_of(options_.arguments.begin(), options_.arguments.end(),
-                                     [&](const auto& pair) { return pair.first == argument.name; });
-      if (!given && !info.conditional && !argument.default_value && !argument.where.file->included_from()) {
-        warn(Finding::kNotGiven,
-             fmt::format("argument '{}' has no default, so nothing that is visited was checked", argument.name),
-             argument.where, fmt::format("give {}:=VALUE", argument.name));
-        all = false;
+      if (scope.configurations.contains(argument.name) || info.conditional || argument.default_value ||
+          argument.where.file->included_from()) {
+        continue;
       }
+      warn(Finding::kNotGiven,
+           fmt::format("argument '{}' has no default, so what depends on it was not checked", argument.name),
+           argument.where, fmt::format("give {}:=VALUE", argument.name));
+      scope.configurations.emplace(argument.name,
+                                   argument.choices.empty() ? std::string(kUnknownOutput) : argument.choices.front());
     }
-    return all;
   }
 
   void add_of_visit(const LaunchError& error, bool left_out) {

@@ -269,7 +269,7 @@ def generate_launch_description():
 </launch>
 )x"},
     {Finding::kNotGiven, "Argument without a default is not given", Severity::kWarning,
-     "The file can't be visited without this argument. Give it to the check as to a run: launch check FILE "
+     "What depends on the value of this argument was not checked. Give it to the check as to a run: launch check FILE "
      "NAME:=VALUE.",
      R"x(<launch>
   <arg name="robot"/>

@@ -11,7 +11,7 @@
 #include <string>
 #include <variant>
 
-#include "launcher/cli/check/process_faults.hpp"
+#include "launcher/cli/check/planned_process_findings.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/process_table.hpp"
 

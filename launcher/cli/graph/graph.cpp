@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <utility>
+#include <variant>
 
 namespace launch {
 
@@ -28,35 +32,23 @@ std::vector<std::pair<std::string, std::string>> remaps_of(const std::vector<std
   return remaps;
 }
 
+// A name of a topic or a service as the node means it: relative names are below its namespace, "~" stands for the node.
+std::string resolved(const std::string& name, const std::string& name_space, const std::string& full_name) {
+  if (name.starts_with('/')) {
+    return name;
+  }
+  if (name == "~" || name.starts_with("~/")) {
+    return full_name + name.substr(1);
+  }
+  return joined(name_space, name);
+}
+
 class GraphBuilder {
  public:
   using Relation = LaunchGraph::Relation;
 
   LaunchGraph build(const LaunchPlan& plan) {
-    std::set<std::size_t> nodes;
-    for (const NodeDescription& node : plan.nodes) {
-      nodes.insert(node.process);
-      const ProcessSpec& spec = plan.processes[node.process];
-      add_node(joined(node.name_space.value_or(""), node.name.value_or(spec.name)), node.name_space.value_or("/"),
-               node.package ? fmt::format("{} {}", *node.package, node.executable) : node.executable, spec.origin,
-               remaps_of(spec.argv));
-    }
-    for (std::size_t i = 0; i < plan.processes.size(); ++i) {
-      if (!nodes.contains(i)) {
-        const std::string id = fmt::format("process {}", graph_.processes.size());
-        graph_.processes.push_back({id, {plan.processes[i].name}});
-        asked_by(plan.processes[i].origin, id);
-      }
-    }
-    for (const LoadRequest& request : plan.loads) {
-      for (const ComposableNode& component : request.nodes) {
-        const std::string id = add_node(
-            joined(component.name_space, component.name), component.name_space.empty() ? "/" : component.name_space,
-            fmt::format("{} in {}", component.plugin, request.target), component.origin, component.remaps);
-        const std::string& target = request.target;
-        graph_.edges.push_back({target.starts_with('/') ? target : "/" + target, id, Relation::kLoads, "loads"});
-      }
-    }
+    add_plan(plan, "");
     for (const std::string& topic : topics_) {
       graph_.topics.push_back({"topic " + topic, {topic}});
     }
@@ -64,21 +56,101 @@ class GraphBuilder {
   }
 
  private:
-  std::string add_node(const std::string& full_name, std::string name_space, const std::string& program,
+  // `starter` is the handler that visits the plan; empty for the launch itself.
+  void add_plan(const LaunchPlan& plan, const std::string& starter) {
+    std::vector<std::string> ids(plan.processes.size());
+    for (const NodeDescription& node : plan.nodes) {
+      const ProcessSpec& spec = plan.processes[node.process];
+      std::vector<std::string> lines = {node.package ? fmt::format("{} {}", *node.package, node.executable)
+                                                     : node.executable};
+      if (!node.name) {
+        lines.emplace_back("named by the program");
+      }
+      ids[node.process] = add_node(node.name.value_or(spec.name), node.name_space.value_or("/"), lines, spec.origin,
+                                   remaps_of(spec.argv));
+    }
+    for (std::size_t i = 0; i < plan.processes.size(); ++i) {
+      if (ids[i].empty()) {
+        ids[i] = fmt::format("process {}", graph_.processes.size());
+        graph_.processes.push_back({ids[i], {plan.processes[i].name}});
+        asked_by(plan.processes[i].origin, ids[i]);
+      }
+      names_.emplace(plan.processes[i].name, ids[i]);
+      for (const std::string& name : plan.processes[i].other_names) {
+        names_.emplace(name, ids[i]);
+      }
+      if (!starter.empty()) {
+        graph_.edges.push_back({starter, ids[i], Relation::kStarts, "starts"});
+      }
+    }
+    for (const LoadRequest& request : plan.loads) {
+      add_load(request);
+    }
+    for (const Dependency& dependency : plan.dependencies) {
+      add_dependency(dependency, ids[dependency.process]);
+    }
+    for (const PlannedHandler& planned : plan.handlers) {
+      const std::string id = fmt::format("handler {}", graph_.handlers.size());
+      graph_.handlers.push_back({id, {describe(planned.handler)}});
+      asked_by(planned.handler.where, id);
+      if (const auto process = names_.find(planned.handler.process); process != names_.end()) {
+        graph_.edges.push_back({process->second, id, Relation::kHandles, ""});
+      }
+      add_plan(planned.plan, id);
+    }
+  }
+
+  void add_load(const LoadRequest& request) {
+    const std::string target = joined("/", request.target.substr(request.target.starts_with('/') ? 1 : 0));
+    for (const ComposableNode& component : request.nodes) {
+      std::vector<std::string> lines = {fmt::format("{} in {}", component.plugin, target)};
+      if (component.name.empty()) {
+        lines.emplace_back("named by the program");
+      }
+      const std::string id = add_node(component.name.empty() ? component.plugin : component.name,
+                                      component.name_space.empty() ? "/" : component.name_space, lines,
+                                      component.origin, component.remaps);
+      graph_.edges.push_back({target, id, Relation::kLoads, "loads"});
+    }
+  }
+
+  // A process is drawn with an arrow; anything else that is waited for is a line of the box.
+  void add_dependency(const Dependency& dependency, const std::string& id) {
+    const auto* const condition = std::get_if<ProcessCondition>(&dependency.condition);
+    if (const auto target = condition != nullptr ? names_.find(condition->process) : names_.end();
+        target != names_.end()) {
+      graph_.edges.push_back({id, target->second, Relation::kWaitsFor, "waits until " + describe(dependency)});
+      return;
+    }
+    const auto add_line = [&](LaunchGraph::Box& box) {
+      if (box.id == id) {
+        box.lines.push_back("waits until " + describe(dependency));
+      }
+    };
+    for (auto& [name_space, nodes] : graph_.nodes) {
+      std::for_each(nodes.begin(), nodes.end(), add_line);
+    }
+    std::for_each(graph_.processes.begin(), graph_.processes.end(), add_line);
+  }
+
+  std::string add_node(const std::string& name, std::string name_space, std::vector<std::string> lines,
                        const SourceRange& origin, const std::vector<std::pair<std::string, std::string>>& remaps) {
+    if (name_space.empty() || name_space.front() != '/') {
+      name_space = "/" + name_space;
+    }
     // Several nodes of one name are drawn as several nodes, because a user wants to see that.
+    const std::string full_name = joined(name_space, name);
     std::string id = full_name;
     for (int again = 2; !ids_.insert(id).second; ++again) {
       id = fmt::format("{} ({})", full_name, again);
     }
-    if (name_space.empty() || name_space.front() != '/') {
-      name_space = "/" + name_space;
-    }
-    graph_.nodes[name_space].push_back({id, {full_name, program}});
+    lines.insert(lines.begin(), full_name);
+    graph_.nodes[name_space].push_back({id, std::move(lines)});
     asked_by(origin, id);
     for (const auto& [from, to] : remaps) {
-      topics_.insert(to);
-      graph_.edges.push_back({id, "topic " + to, Relation::kRemaps, from});
+      const std::string topic = resolved(to, name_space, full_name);
+      topics_.insert(topic);
+      graph_.edges.push_back({id, "topic " + topic, Relation::kRemaps, from});
     }
     return id;
   }
@@ -103,6 +175,7 @@ class GraphBuilder {
   }
 
   LaunchGraph graph_;
+  std::map<std::string, std::string> names_;  // of processes, with their ids
   std::set<std::string> topics_;
   std::set<std::string> ids_;
   std::set<std::pair<std::string, std::string>> includes_;

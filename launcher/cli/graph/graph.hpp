@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `launch graph` draws: the nodes and other processes of a launch, by namespace, with the files that ask for them
-// and the topics that they are remapped to.
+// the topics that they are remapped to, what they wait for, and what event handlers start.
 #pragma once
 
 #include <map>
@@ -21,6 +21,9 @@ struct LaunchGraph {
     kAsksFor,   // a file to a node or another process
     kLoads,     // a container to a component
     kRemaps,    // a node to a topic; the label is the node's own name for the topic
+    kWaitsFor,  // a node or another process to what it depends on; the label is the condition
+    kHandles,   // a node or another process to a handler of its events
+    kStarts,    // a handler to a node or another process
   };
   struct Edge {
     std::string from;
@@ -32,6 +35,7 @@ struct LaunchGraph {
   std::map<std::string, Box> files;               // by their path; a file that several places include stands here once
   std::map<std::string, std::vector<Box>> nodes;  // by their namespace, components among them
   std::vector<Box> processes;                     // processes that are no nodes
+  std::vector<Box> handlers;                      // event handlers
   std::vector<Box> topics;                        // topics that something is remapped to, sorted
   std::vector<Edge> edges;                        // in the order of the plan
 };

@@ -42,6 +42,12 @@ std::string edge_style(const LaunchGraph::Edge& edge) {
       return "style=dotted, label=\"loads\"";
     case LaunchGraph::Relation::kRemaps:
       return fmt::format("dir=none, color=blue, label={}", as_id(edge.label));
+    case LaunchGraph::Relation::kWaitsFor:
+      return fmt::format("style=dashed, label={}", as_id(edge.label));
+    case LaunchGraph::Relation::kHandles:
+      return "color=orange";
+    case LaunchGraph::Relation::kStarts:
+      return "color=orange, label=\"starts\"";
   }
   return "";
 }
@@ -66,6 +72,9 @@ std::string graph_as_dot(const LaunchGraph& graph) {
   }
   for (const LaunchGraph::Box& process : graph.processes) {
     text += fmt::format("  {} [shape=box, label={}];\n", as_id(process.id), label_of(process));
+  }
+  for (const LaunchGraph::Box& handler : graph.handlers) {
+    text += fmt::format("  {} [shape=cds, color=orange, label={}];\n", as_id(handler.id), label_of(handler));
   }
   for (const LaunchGraph::Box& topic : graph.topics) {
     text += fmt::format("  {} [shape=plaintext, label={}];\n", as_id(topic.id), label_of(topic));

@@ -61,7 +61,8 @@ class Picture {
         "<style>rect{{fill:#fff;stroke:#444}} .file{{stroke:#999;stroke-dasharray:4 2}} "
         ".namespace{{fill:#f4f6fa;stroke:"
         "#bcd}} .topic{{stroke:none;fill:#eef4ff}} path{{fill:none;stroke:#aaa}} .remaps{{stroke:#36c}} "
-        ".loads{{stroke:#444;stroke-dasharray:2 3}} .note{{fill:#36c;font-size:10px}}</style>\n"
+        ".loads{{stroke:#444;stroke-dasharray:2 3}} .waits{{stroke:#444;stroke-dasharray:6 3}} "
+        ".handler{{fill:#fff6e6;stroke:#e90}} .handles{{stroke:#e90}} .note{{fill:#36c;font-size:10px}}</style>\n"
         "<defs><marker id=\"arrow\" viewBox=\"0 0 8 8\" refX=\"8\" refY=\"4\" markerWidth=\"7\" markerHeight=\"7\" "
         "orient=\"auto\"><path d=\"M0 0L8 4L0 8z\" "
         "style=\"fill:#aaa;stroke:none\"/></marker></defs>\n{3}{4}{5}</svg>\n",
@@ -151,6 +152,9 @@ class Picture {
     for (const LaunchGraph::Box& process : graph_.processes) {
       place(process, 0, "process");
     }
+    for (const LaunchGraph::Box& handler : graph_.handlers) {
+      place(handler, 0, "handler");
+    }
   }
 
   void draw(const LaunchGraph::Edge& edge) {
@@ -166,13 +170,16 @@ class Picture {
         edges_ += fmt::format("<path d=\"M{:.0f} {:.0f}V{:.0f}H{:.0f}\" marker-end=\"url(#arrow)\"/>\n", a.x + kGap,
                               a.y + a.height, b.middle(), b.x);
         break;
-      case LaunchGraph::Relation::kLoads: {
-        const double bow = std::max(a.right(), b.right()) + 30;
-        edges_ +=
-            fmt::format("<path class=\"loads\" d=\"M{:.0f} {:.0f}C{:.0f} {:.0f} {:.0f} {:.0f} {:.0f} {:.0f}\"/>\n",
-                        a.right(), a.middle(), bow, a.middle(), bow, b.middle(), b.right(), b.middle());
+      case LaunchGraph::Relation::kLoads:
+        bow(a, b, "class=\"loads\"", "");
         break;
-      }
+      case LaunchGraph::Relation::kWaitsFor:
+        bow(a, b, "class=\"waits\" marker-end=\"url(#arrow)\"", edge.label);
+        break;
+      case LaunchGraph::Relation::kHandles:
+      case LaunchGraph::Relation::kStarts:
+        bow(a, b, "class=\"handles\" marker-end=\"url(#arrow)\"", "");
+        break;
       case LaunchGraph::Relation::kAsksFor:
       case LaunchGraph::Relation::kRemaps: {
         const bool remaps = edge.relation == LaunchGraph::Relation::kRemaps;
@@ -186,6 +193,17 @@ class Picture {
         }
         break;
       }
+    }
+  }
+
+  // A line between two boxes of the middle column.
+  void bow(const Rectangle& a, const Rectangle& b, std::string_view style, const std::string& note) {
+    const double out = std::max(a.right(), b.right()) + 30;
+    edges_ += fmt::format("<path {} d=\"M{:.0f} {:.0f}C{:.0f} {:.0f} {:.0f} {:.0f} {:.0f} {:.0f}\"/>\n", style,
+                          a.right(), a.middle(), out, a.middle(), out, b.middle(), b.right(), b.middle());
+    if (!note.empty()) {
+      edges_ += fmt::format("<text class=\"note\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", out - 6,
+                            (a.middle() + b.middle()) / 2, as_xml_text(note));
     }
   }
 

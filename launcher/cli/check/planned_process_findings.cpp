@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/cli/check/process_faults.hpp"
+#include "launcher/cli/check/planned_process_findings.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "launcher/base/remap_name.hpp"
 #include "launcher/process/program_search.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 
@@ -80,10 +81,7 @@ void find_useless_remaps(const ProcessSpec& spec, const Report& report) {
     if (spec.argv[i - 1] != "-r" || separator == std::string::npos) {
       continue;
     }
-    std::string from = spec.argv[i].substr(0, separator);
-    for (const std::string_view scheme : {"rostopic://", "rosservice://"}) {
-      from.erase(0, from.starts_with(scheme) ? scheme.size() : 0);
-    }
+    std::string from(without_scheme(std::string_view(spec.argv[i]).substr(0, separator)));
     if (const std::size_t colon = from.find(':'); colon != std::string::npos) {
       if (!node.empty() && from.substr(0, colon) != node) {
         warn(fmt::format("remap '{}' matches nothing: this node is named '{}'", spec.argv[i], node));
