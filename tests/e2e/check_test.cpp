@@ -116,14 +116,19 @@ TEST_F(WithoutRunning, CheckSaysWhatAFileNeedsToBeChecked) {
   const std::string path =
       file("a.launch.xml", "<launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n");
   const CommandResult without = launch({"check", path});
-  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_EQ(without.exit_code, 1);
   EXPECT_EQ(without.out,
             path +
-                ":1:10: warning: argument 'x' has no default, so nothing that is visited was checked [LF0503]\n"
+                ":1:10: warning: argument 'x' has no default, so what depends on it was not checked [LF0503]\n"
                 "    1 | <launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n"
                 "      |          ^~~\n"
-                "      = help: give x:=VALUE\n"
-                "1 file: 0 errors, 1 warning\n");
+                "      = help: give x:=VALUE\n" +
+                path +
+                ":1:47: error: launch configuration 'y' does not exist [LF0201]\n"
+                "    1 | <launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n"
+                "      |                                               ^~~~~~~~\n"
+                "      = help: declare it with 'arg', set it with 'let', or give a default: $(var y DEFAULT)\n"
+                "1 file: 1 error, 1 warning\n");
   const CommandResult with = launch({"check", path, "x:=1"});
   EXPECT_EQ(with.exit_code, 1);
   EXPECT_THAT(with.out, HasSubstr("launch configuration 'y' does not exist"));
@@ -323,6 +328,51 @@ TEST_F(WithoutRunning, GraphHasNodesFilesNamespacesAndRemaps) {
                 path +
                 "\" -> \"process 0\" [color=gray];\n"
                 "}\n");
+}
+
+TEST_F(WithoutRunning, GraphResolvesNamesAndShowsWhatWaitsAndWhatHandlersStart) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <node pkg="demo_nodes" exec="talker" name="mouth" namespace="left"><remap from="chatter" to="said"/></node>
+  <node pkg="demo_nodes" exec="talker" name="mouth" namespace="right">
+    <remap from="chatter" to="said"/><remap from="own" to="~/private"/><depends_on process="nap" condition="exited"/>
+  </node>
+  <node pkg="demo_nodes" exec="listener"/>
+  <executable cmd="sleep 1" name="nap"/>
+  <on_process_exit process="nap" exit_code="0"><executable cmd="true" name="later"/></on_process_exit>
+</launch>
+)xml");
+  const CommandResult result = launch({"graph", path});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string from_file = "  \"file " + path + "\" -> ";
+  EXPECT_EQ(result.out.substr(result.out.find("  subgraph")),
+            "  subgraph cluster_0 {\n"
+            "  label=\"/left\";\n"
+            "  \"/left/mouth\" [label=\"/left/mouth\\ndemo_nodes talker\"];\n"
+            "  }\n"
+            "  subgraph cluster_1 {\n"
+            "  label=\"/right\";\n"
+            "  \"/right/mouth\" [label=\"/right/mouth\\ndemo_nodes talker\"];\n"
+            "  }\n"
+            "  \"process 0\" [shape=box, label=\"nap\"];\n"
+            "  \"process 1\" [shape=box, label=\"later\"];\n"
+            "  \"handler 0\" [shape=cds, color=orange, label=\"on_process_exit of 'nap' with exit code 0\"];\n"
+            "  \"topic /left/said\" [shape=plaintext, label=\"/left/said\"];\n"
+            "  \"topic /right/mouth/private\" [shape=plaintext, label=\"/right/mouth/private\"];\n"
+            "  \"topic /right/said\" [shape=plaintext, label=\"/right/said\"];\n" +
+                from_file + "\"/left/mouth\" [color=gray];\n" +
+                "  \"/left/mouth\" -> \"topic /left/said\" [dir=none, color=blue, label=\"chatter\"];\n" + from_file +
+                "\"/right/mouth\" [color=gray];\n" +
+                "  \"/right/mouth\" -> \"topic /right/said\" [dir=none, color=blue, label=\"chatter\"];\n" +
+                "  \"/right/mouth\" -> \"topic /right/mouth/private\" [dir=none, color=blue, label=\"own\"];\n" +
+                from_file + "\"/listener\" [color=gray];\n" + from_file + "\"process 0\" [color=gray];\n" +
+                "  \"/right/mouth\" -> \"process 0\" [style=dashed, label=\"waits until 'nap' has exited with exit "
+                "code 0\"];\n" +
+                from_file + "\"handler 0\" [color=gray];\n" + "  \"process 0\" -> \"handler 0\" [color=orange];\n" +
+                from_file + "\"process 1\" [color=gray];\n" +
+                "  \"handler 0\" -> \"process 1\" [color=orange, label=\"starts\"];\n"
+                "}\n");
+  EXPECT_THAT(result.out,
+              HasSubstr("  \"/listener\" [label=\"/listener\\ndemo_nodes listener\\nnamed by the program\"]"));
 }
 
 TEST_F(WithoutRunning, GraphIsAPictureToo) {

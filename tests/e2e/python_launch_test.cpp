@@ -217,7 +217,7 @@ TEST_F(PythonLaunch, ABuildWithoutPythonSaysWhatToInstall) {
   fs::create_directories(program.parent_path());
   fs::copy_file(LAUNCH_PROGRAM, program);
   const std::string path = write("a.launch.py", "import launch\n");
-  const CommandResult result = run_command({program.string(), path});
+  const CommandResult result = run_command({program.string(), "--dry-run", path});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, path + ":1:1: error: this build has no Python: '" +
                             (sandbox_.directory() / "lib/launch/liblaunch_python.so").string() +

@@ -18,7 +18,7 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 
 # Files without a licence line, by folder and by suffix. The text of an interface file is part of its type's description.
 # JSON has no comments. A package.xml names its licence in an element.
-EXEMPT_FOLDERS = ('docs/', 'launch_examples/', 'tests/golden/', '.vscode/')
+EXEMPT_FOLDERS = ('docs/', 'launch_examples/', 'tests/golden/', 'third_party/', '.vscode/')
 EXEMPT_SUFFIXES = ('.md', '.json', '.xml', '.msg', '.srv', '.action', '.tsv')
 EXEMPT_NAMES = ('LICENSE', '.gitignore')
 

@@ -126,4 +126,39 @@ TEST(TraceContextFields, AreInTheTrace) {
                         "ros2:rcl_init: \\{ cpu_id = [0-9]+ \\}, \\{ vtid = [0-9]+, pthread_id = [0-9]+ \\}"));
 }
 
+constexpr const char* kFiresAndEnds = "sh -c '" TRACED_APP " 1 1 &lt;/dev/null'";
+
+CommandResult launch_with_report(const Sandbox& sandbox, const std::string& attributes, const std::string& command) {
+  const auto path = sandbox.directory() / "system.launch.xml";
+  write_file(path, "<launch>\n<trace session-name=\"run\" report=\"true\" " + attributes + "/>\n<executable cmd=\"" +
+                       command + "\"/>\n</launch>\n");
+  return run_command({LAUNCH_PROGRAM, path.string()});
+}
+
+TEST(TraceReport, IsMadeAtTheEnd) {
+  const Sandbox sandbox;
+  const CommandResult result = launch_with_report(sandbox, "", kFiresAndEnds);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const std::string page = (sandbox.trace_directory() / "run/report.html").string();
+  EXPECT_THAT(result.out + result.err, HasSubstr("report: " + page + "\n"));
+  EXPECT_THAT(run_command({"head", "-c", "100", page}).out, testing::StartsWith("<!DOCTYPE html>"));
+}
+
+TEST(TraceReport, IsMadeOfALaunchWithoutATrace) {
+  const Sandbox sandbox;
+  const auto path = sandbox.directory() / "system.launch.xml";
+  write_file(path, std::string("<launch>\n<executable cmd=\"") + kFiresAndEnds + "\"/>\n</launch>\n");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "--report", path.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out + result.err, testing::ContainsRegex("report: .*/traces/system-[0-9]+/report.html\n"));
+}
+
+TEST(TraceReport, TellsWhyThereIsNone) {
+  const Sandbox sandbox;
+  const CommandResult result = launch_with_report(sandbox, "launch-events=\"false\"", "true");
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out + result.err, HasSubstr("no report: see what 'launch report " +
+                                                 (sandbox.trace_directory() / "run").string() + "' says\n"));
+}
+
 }  // namespace

@@ -219,6 +219,7 @@ TEST_F(TraceControl, AStoppedDaemonDoesNotHoldUpProcessesThatStartLater) {
 <on_process_exit process="first">
   <executable name="second" output="screen" cmd=")xml" TRACED_APP R"xml( 3 10"/>
 </on_process_exit>)xml");
+  ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);  // our child, not that of a guardian
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   const std::string started = "[first-1]: process started with pid [";
   ASSERT_TRUE(run.wait_for_output(started)) << run.out() << run.err();

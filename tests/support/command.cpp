@@ -128,6 +128,11 @@ RunningCommand::~RunningCommand() {
   for (int* fd : {&in_, &out_, &err_, &pidfd_}) close_fd(*fd);
 }
 
+CommandResult RunningCommand::end_gently() {
+  send_signal(SIGINT);
+  return wait();
+}
+
 bool RunningCommand::wait_for_output(const std::string& text, milliseconds timeout) {
   const auto deadline = Clock::now() + timeout;
   while (true) {

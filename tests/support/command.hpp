@@ -39,6 +39,7 @@ inline constexpr std::chrono::seconds kCommandTimeout{30};
 class RunningCommand {
  public:
   explicit RunningCommand(const Command& command);
+  // Kills the program and its group if the program still runs.
   ~RunningCommand();
   RunningCommand(const RunningCommand&) = delete;
   RunningCommand& operator=(const RunningCommand&) = delete;
@@ -57,6 +58,11 @@ class RunningCommand {
 
   // Waits until the program ends. Kills it (timed_out) when the time is over. A further call returns the same result.
   CommandResult wait(std::chrono::milliseconds timeout = kCommandTimeout);
+
+  // Sends SIGINT and waits. A test with a participant of its own ends the nodes that it started this way, because the
+  // destructor kills them: a killed process may keep a lock in the shared memory of Fast DDS 2.9, and a participant
+  // that is destroyed meanwhile may crash.
+  CommandResult end_gently();
 
   // The output that was read so far, for messages.
   const std::string& out() const { return result_.out; }

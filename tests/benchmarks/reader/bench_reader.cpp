@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads one generated trace of a million events with babeltrace2, with our reader, and with launch-report, and prints
-// their speeds as ratios to `babeltrace2 -o dummy`, which decodes the same events and throws them away.
+// Reads one generated trace of four million events with babeltrace2, with our reader, with the installed library, with
+// launch-report and with Python, and prints their speeds as ratios to `babeltrace2 -o dummy`, which decodes the same
+// events and throws them away. Python stands beside babeltrace2's own module.
 //
 // Each reader is a process of its own. Its CPU time counts, so that other work on the machine has little effect. Usage:
 //   bench_reader [EVENTS]
@@ -11,12 +12,14 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "launch_trace/reader.hpp"
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
@@ -29,7 +32,7 @@ namespace {
 
 using namespace tracing;
 
-constexpr std::size_t kDefaultEvents = 1'000'000;
+constexpr std::size_t kDefaultEvents = 4'000'000;
 constexpr int kRounds = 3;  // the fastest counts
 
 // Ping and pong, again and again: the initialisation once, then the exchange of a message every millisecond.
@@ -58,6 +61,46 @@ std::size_t write_trace(const std::filesystem::path& directory, std::size_t even
   }
   writer.finish();
   return written;
+}
+
+// Asks for the value of every field.
+template <class Event>
+std::uint64_t sum_of_fields(const Event& event, std::size_t fields) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < fields; ++i) {
+    const auto field = event.field(i);
+    if (const auto number = field.unsigned_integer()) {
+      sum += *number;
+    } else if (const auto with_sign = field.integer()) {
+      sum += static_cast<std::uint64_t>(*with_sign);
+    } else if (const auto text = field.string()) {
+      sum += text->size();
+    }
+  }
+  return sum;
+}
+
+class CountingSink : public TraceSink {
+ public:
+  std::size_t events = 0;
+  void on_event(const Event&) override { ++events; }
+  void on_loss(const Loss&) override {}
+};
+
+class FieldSink : public TraceSink {
+ public:
+  std::uint64_t sum = 0;
+  void on_event(const Event& event) override { sum += sum_of_fields(event, event.event_class->fields.size()); }
+  void on_loss(const Loss&) override {}
+};
+
+std::uint64_t read_with_library(const std::string& trace) {
+  std::uint64_t sum = 0;
+  launch_trace::Reader reader(trace);
+  for (const launch_trace::Item& item : reader) {
+    if (const auto* const event = item.event()) sum += sum_of_fields(*event, event->event_class().fields.size());
+  }
+  return sum;
 }
 
 class DecodingSink : public TraceSink {
@@ -107,7 +150,10 @@ void compare(const std::string& self, std::size_t events) {
   };
   std::vector<Reader> readers{
       {"babeltrace2 -o dummy", {"babeltrace2", "-o", "dummy", trace}},
-      {"reader, all fields decoded", {self, "--read", trace}},
+      {"reader, all fields at hand", {self, "--count", trace}},
+      {"reader, every field asked for", {self, "--fields", trace}},
+      {"installed library, the same", {self, "--library", trace}},
+      {"reader, ros2 events as structs", {self, "--structs", trace}},
       {"launch report", {LAUNCH_REPORT, trace}},
       {"launch report --summary", {LAUNCH_REPORT, "--summary", trace}},
   };
@@ -116,18 +162,38 @@ void compare(const std::string& self, std::size_t events) {
   }
   fmt::print("{} events in 2 streams, with vpid, vtid and procname; CPU time, best of {}\n", events, kRounds);
   for (const Reader& reader : readers) {
-    fmt::print("{:<28} {:6.2f} M events/s   {:5.2f} of babeltrace2's speed\n", reader.name,
+    fmt::print("{:<31} {:6.2f} M events/s   {:5.2f} of babeltrace2's speed\n", reader.name,
                static_cast<double>(events) / reader.seconds / 1e6, readers[0].seconds / reader.seconds);
   }
+  std::fflush(stdout);
+#ifdef PYTHON
+  setenv("PYTHONPATH", PYTHON_MODULE_DIRECTORY, 1);
+  if (const std::string command = fmt::format("{} {} {}", PYTHON, ITERATE_TRACE, trace);
+      std::system(command.c_str()) != 0) {
+    throw std::runtime_error(command + " failed");
+  }
+#endif
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "--read") {  // compare() runs this to measure the reader alone
-    DecodingSink sink;
+  if (argc == 3) {  // compare() runs this to measure one way of reading alone
+    const std::string way = argv[1];
+    if (way == "--structs") {
+      DecodingSink sink;
+      TraceReader(argv[2]).read(sink);
+      return sink.ros2_events > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    }
+    if (way == "--library") return read_with_library(argv[2]) > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    if (way == "--count") {
+      CountingSink sink;
+      TraceReader(argv[2]).read(sink);
+      return sink.events > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    }
+    FieldSink sink;
     TraceReader(argv[2]).read(sink);
-    return sink.ros2_events > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return sink.sum > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   compare(argv[0], argc == 2 ? std::stoul(argv[1]) : kDefaultEvents);
   return EXIT_SUCCESS;

@@ -13,7 +13,7 @@ from lifecycle_msgs.msg import Transition
 
 
 def generate_launch_description():
-    first = ExecuteProcess(cmd=['echo', 'ready'], name='first')
+    first = ExecuteProcess(cmd=['echo', 'ready'], name='first', leave_running=True)
     second = ExecuteProcess(cmd=['second'], output={'stdout': ['screen', 'own_log']}, env={'PATH': '/bin'},
                             required=True, nice=5)
     managed = LifecycleNode(package='demo_nodes', executable='talker', name='other', namespace='/left')

@@ -23,7 +23,7 @@ def generate_launch_description():
         spaced(EqualsSubstitution(x, 7.0), NotEqualsSubstitution(x, '8'),
                IfElseSubstitution(EqualsSubstitution(x, '7'), 'yes', 'no')),
         spaced(PythonExpression([x, ' * 2']), Command(['echo ', 'hi'])),
-        spaced(FindExecutable('sh'), StringJoinSubstitution(['a', x], '-'),
+        spaced(FindExecutable('sh'), StringJoinSubstitution(['a', x], '-'), PathJoinSubstitution(['a', x]),
                FileContent(PathJoinSubstitution([ThisLaunchFileDir(), ['substitutions', '.txt']]))),
         spaced(FindPackagePrefix('demo_nodes'), FindPackageShare('demo_nodes'),
                ExecutableInPackage('talker', 'demo_nodes')),

@@ -8,6 +8,7 @@
 #include <bit>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -63,15 +64,15 @@ struct RandomField {
 
 class RandomTraceWriter {
  public:
-  RandomTraceWriter(std::filesystem::path directory, std::uint32_t seed)
-      : directory_(std::move(directory)), random_(seed) {
+  RandomTraceWriter(std::filesystem::path directory, std::function<std::uint64_t()> random)
+      : directory_(std::move(directory)), random_(std::move(random)) {
     std::filesystem::create_directories(directory_);
     big_endian_ = below(4) == 0;
     natural_ = below(3) == 0;
     compact_ = below(2) == 0;
     clock_bits_ = compact_ ? 27 : 32;
     contexts_ = below(2) == 0;
-    for (std::size_t i = 0; i < 1 + below(6); ++i) events_.push_back(structure(3));
+    for (std::uint64_t i = 0, count = 1 + below(6); i < count; ++i) events_.push_back(random_event());
     context_ = below(2) == 0 ? usual_contexts() : structure(1);
   }
 
@@ -130,6 +131,20 @@ class RandomTraceWriter {
             }};
   }
 
+  // Characters, as many as the field before says.
+  RandomField random_text_sequence() {
+    const std::uint32_t alignment = number_alignment(16);
+    const std::size_t name = lengths_++;
+    return {fmt::format("{} __length{};\n{} @[ __length{} ];", integer_text(16), name,
+                        integer(8, 8, true, "encoding = UTF8;"), name),
+            alignment, [this, alignment](BitWriter& out) {
+              const std::uint64_t length = below(12);
+              out.align(alignment);
+              out.number(length, 16);
+              for (std::uint64_t i = 0; i < length; ++i) out.number('a' + below(26), 8);
+            }};
+  }
+
   RandomField random_text_array() {
     const std::uint64_t length = 1 + below(17);
     return {integer(8, 8, true, "encoding = UTF8;") + fmt::format(" @[{}];", length), 8,
@@ -165,6 +180,7 @@ class RandomTraceWriter {
 
   // A field before it holds its length.
   RandomField random_sequence(int depth) {
+    if (below(3) == 0) return random_text_sequence();
     RandomField element = random_field(depth - 1, false);
     const std::uint32_t alignment = number_alignment(32);
     name_it(element.declaration, fmt::format("@[ __length{} ]", lengths_));
@@ -182,7 +198,7 @@ class RandomTraceWriter {
 
   RandomField random_variant(int depth) {
     std::vector<RandomField> options;
-    for (std::size_t i = 0; i < 2 + below(2); ++i) options.push_back(random_field(depth - 1, false));
+    for (std::uint64_t i = 0, count = 2 + below(2); i < count; ++i) options.push_back(random_field(depth - 1, false));
     const std::uint32_t size = 8;
     std::string labels;
     std::string declarations;
@@ -264,6 +280,19 @@ class RandomTraceWriter {
             }};
   }
 
+  struct RandomEvent {
+    std::optional<RandomField> context;  // of this event alone
+    RandomField fields;
+  };
+
+  RandomEvent random_event() {
+    RandomEvent event;
+    // libbabeltrace2 2.0.4 ends the program (Assertion `tgt_fc` failed) at a sequence or a variant in such a context.
+    if (below(4) == 0) event.context = structure(0);
+    event.fields = structure(3);
+    return event;
+  }
+
   void write_stream(std::size_t stream) {
     std::string file;
     std::uint64_t clock = 1'000'000'000 + below(1'000'000'000);
@@ -323,7 +352,8 @@ class RandomTraceWriter {
       out.number(clock, clock_bits_);
     }
     if (contexts_) context_.write(out);
-    events_[event].write(out);
+    if (events_[event].context) events_[event].context->write(out);
+    events_[event].fields.write(out);
   }
 
   std::string metadata() const {
@@ -350,29 +380,34 @@ class RandomTraceWriter {
     if (contexts_) text += fmt::format("  event.context := struct {{ {} }};\n", context_.declaration);
     text += "};\n";
     for (std::size_t i = 0; i < events_.size(); ++i) {
-      text +=
-          fmt::format("event {{ name = \"random:event{}\"; id = {}; stream_id = 0; fields := struct {{\n{} }}; }};\n",
-                      i, i, events_[i].declaration);
+      const RandomEvent& event = events_[i];
+      text += fmt::format("event {{ name = \"random:event{}\"; id = {}; stream_id = 0;\n", i, i);
+      if (event.context) text += fmt::format("  context := struct {{\n{} }};\n", event.context->declaration);
+      text += fmt::format("  fields := struct {{\n{} }}; }};\n", event.fields.declaration);
     }
     return text;
   }
 
   std::filesystem::path directory_;
-  std::mt19937_64 random_;
+  std::function<std::uint64_t()> random_;
   bool big_endian_ = false;
   bool natural_ = false;
   bool compact_ = false;
   bool contexts_ = false;
   std::uint32_t clock_bits_ = 0;
   std::size_t lengths_ = 0;
-  std::vector<RandomField> events_;
+  std::vector<RandomEvent> events_;
   RandomField context_;
 };
 
 }  // namespace
 
 void write_random_trace(const std::filesystem::path& directory, std::uint32_t seed) {
-  RandomTraceWriter(directory, seed).write();
+  write_random_trace(directory, std::mt19937_64(seed));
+}
+
+void write_random_trace(const std::filesystem::path& directory, std::function<std::uint64_t()> random) {
+  RandomTraceWriter(directory, std::move(random)).write();
 }
 
 }  // namespace tracing::testing

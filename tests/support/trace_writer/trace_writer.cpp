@@ -41,6 +41,8 @@ std::string detail::describe_field(ros2::FieldType type, std::string_view name) 
       return fmt::format("\t\t{} _{};\n", integer(64, true, 10), name);
     case ros2::FieldType::kBool:
       return fmt::format("\t\t{} _{};\n", integer(32, true, 10), name);
+    case ros2::FieldType::kReal:
+      return fmt::format("\t\tfloating_point {{ exp_dig = 11; mant_dig = 53; align = 8; }} _{};\n", name);
     case ros2::FieldType::kGid:
       return fmt::format("\t\t{} _{}[16];\n", integer(8, false, 10), name);
     case ros2::FieldType::kPointers:
@@ -88,6 +90,7 @@ void TraceWriter::write_raw(unsigned cpu, std::int64_t time_ns, const Thread& th
     const std::string_view name = thread.procname.substr(0, kProcnameSize - 2);
     stream.events.append(name);
     stream.events.append(kProcnameSize - name.size(), '\0');
+    if (options_.vppid) append(stream.events, *options_.vppid);
   }
   stream.events.append(payload);
   if (stream.events.size() > options_.packet_size) end_packet(cpu);
@@ -137,8 +140,8 @@ std::string TraceWriter::metadata() const {
                 "\tevent.context := struct {{\n"
                 "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vpid;\n"
                 "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vtid;\n"
-                "\t\tinteger {{ size = 8; align = 8; signed = 0; encoding = UTF8; }} _procname[{}];\n\t}};\n",
-                kProcnameSize)
+                "\t\tinteger {{ size = 8; align = 8; signed = 0; encoding = UTF8; }} _procname[{}];\n{}\t}};\n",
+                kProcnameSize, options_.vppid ? "\t\tinteger { size = 32; align = 8; signed = 1; } _vppid;\n" : "")
           : "";
   const std::string process =
       options_.per_process_vpid ? fmt::format("\tvpid = {};\n\tprocname = \"p\";\n", *options_.per_process_vpid) : "";
@@ -163,6 +166,7 @@ trace {{
 }};
 
 env {{
+	hostname = "box";
 	domain = "ust";
 	tracer_name = "lttng-ust";
 	tracer_major = 2;

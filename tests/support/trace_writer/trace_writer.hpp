@@ -28,6 +28,7 @@ class TraceWriter {
     std::optional<std::int64_t> per_process_vpid{};  // as with buffers per process
     std::uint8_t identity = 1;                       // traces with the same identity are parts of one trace
     std::size_t packet_size = 1 << 16;               // bytes; a packet with more than this ends
+    std::optional<std::int32_t> vppid{};             // another context of every event
   };
 
   // Creates the directory.

@@ -207,6 +207,21 @@ TEST(ProcessAccount, CostIsWhatTheEventsTake) {
   EXPECT_EQ(losses.processes[1].own_share(100), 0);
 }
 
+TEST(ProcessAccount, EventsThatNobodyCountsCostAsWell) {
+  LossAccount losses = account(0);
+  RecordedProcesses with_malloc = recorded();
+  with_malloc.at(12).events["lttng_ust_libc:malloc"] = 57'801;
+  with_malloc[14] = {.events = {{"lttng_ust_libc:malloc", 3}, {"ros2:rcl_init", 1}}, .name = "sh", .seconds = 2.5};
+  tracing::add_uncounted_events(losses.processes, with_malloc);
+  ASSERT_EQ(losses.processes.size(), 3u) << "the launcher is none";
+  EXPECT_EQ(losses.processes[0].events, 1500u + 57'801u);
+  EXPECT_EQ(losses.processes[1].events, 800u);
+  EXPECT_EQ(losses.processes[2].name, "sh");
+  EXPECT_EQ(losses.processes[2].pid, 14);
+  EXPECT_EQ(losses.processes[2].events, 4u) << "it counts nothing";
+  EXPECT_DOUBLE_EQ(losses.processes[2].seconds, 2.5);
+}
+
 TEST(ProcessAccount, IsReadFromWhatLaunchReportPrints) {
   const RecordedProcesses parsed = tracing::parse_recorded_processes(
       R"json({"processes":[{"vpid":12,"nodes":["/talker"],"events":{"ros2:rcl_publish":900}}]})json");

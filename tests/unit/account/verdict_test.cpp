@@ -104,8 +104,14 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
   LossAccount losses = account(0);
   const std::filesystem::path directory = sandbox.directory() / "run";
   losses.attribution = tracing::LossAttribution::kExact;
-  losses.processes = {
-      {.name = "talker", .pid = 12, .seconds = 2, .cpu_seconds = 0.5, .events = 1000, .callbacks = 50, .lost = 0}};
+  losses.processes = {{.name = "talker",
+                       .pid = 12,
+                       .seconds = 2,
+                       .cpu_seconds = 0.5,
+                       .events = 1000,
+                       .callbacks = 50,
+                       .reached_after = 0.125,
+                       .lost = 0}};
   losses.cost = {.ns_per_event = 100,
                  .cpu = "some processor",
                  .lttng = "2.13.5",
@@ -124,6 +130,7 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
   "complete": true,
   "cut_short": false,
   "damage": "",
+  "absent": [],
   "discarded_events": 0,
   "lost_packets": 0,
   "channels": [
@@ -170,6 +177,8 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
       "seconds": 2.0,
       "events": 1000,
       "callbacks": 50,
+      "recorded_after_s": 0.125,
+      "missed_events": 0,
       "lost": 0,
       "tracing": {
         "seconds": 0.0001,
@@ -200,7 +209,7 @@ TEST_F(Verdict, ReplacesAPlantedLinkAndLeavesItsTargetAsItWas) {
     std::filesystem::create_symlink("../target", sandbox.directory() / recording / "verdict.json");
   }
   tracing::write_verdict(account(0), "run", sandbox.directory() / "run");
-  tracing::write_snapshot_verdict(sandbox.directory() / "snapshot-1", "run", {});
+  tracing::write_snapshot_verdict(sandbox.directory() / "snapshot-1", "run", {}, {}, {});
   for (const char* recording : {"run", "snapshot-1"}) {
     const std::filesystem::path verdict = sandbox.directory() / recording / "verdict.json";
     EXPECT_FALSE(std::filesystem::is_symlink(verdict));
@@ -220,7 +229,8 @@ TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
   writer.write(0, 2000, thread, tracing::ros2::RclTake{1});
   writer.write(1, 500, thread, tracing::ros2::RclTake{1});
   writer.finish();
-  tracing::write_snapshot_verdict(snapshot, "run", {"c-1 died of SIGSEGV", "SIGUSR1"});
+  tracing::write_snapshot_verdict(snapshot, "run", {"c-1 died of SIGSEGV", "SIGUSR1"}, tracing::read_streams(snapshot),
+                                  {{"b [2] had ended"}});
   EXPECT_EQ(test_support::read_file(snapshot / "verdict.json"),
             "{\n"
             "  \"session\": \"run\",\n"
@@ -229,6 +239,9 @@ TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
             "    \"SIGUSR1\"\n"
             "  ],\n"
             "  \"complete\": false,\n"
+            "  \"absent\": [\n"
+            "    \"b [2] had ended\"\n"
+            "  ],\n"
             "  \"discarded_events\": 12,\n"
             "  \"lost_packets\": 3,\n"
             "  \"begin_ns\": 500,\n"

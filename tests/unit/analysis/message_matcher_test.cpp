@@ -10,10 +10,14 @@ constexpr ObjectId kTopic = 0;
 constexpr ObjectId kOtherTopic = 1;
 constexpr ObjectId kSubscription = 7;
 
+Publication published(ObjectId topic, std::int64_t time_ns) {
+  return {.topic = topic, .publisher = 3, .published_ns = time_ns};
+}
+
 TEST(MessageMatcher, MeasuresFromPublicationToCallback) {
   MessageMatcher matcher;
-  matcher.publish(kTopic, 555, 1000);
-  matcher.deliver(matcher.take(kSubscription, kTopic, 555), 1150);
+  matcher.publish(published(kTopic, 1000), 555);
+  matcher.deliver(matcher.take(kSubscription, kTopic, 555, 1050), 1150);
   matcher.finish();
   const TopicRecord& record = matcher.records()[kTopic];
   EXPECT_EQ(record.latency.summary().count, 1u);
@@ -24,9 +28,9 @@ TEST(MessageMatcher, MeasuresFromPublicationToCallback) {
 
 TEST(MessageMatcher, CountsEverySubscriptionOfOnePublication) {
   MessageMatcher matcher;
-  matcher.publish(kTopic, 555, 1000);
-  matcher.deliver(matcher.take(kSubscription, kTopic, 555), 1100);
-  matcher.deliver(matcher.take(kSubscription + 1, kTopic, 555), 1300);
+  matcher.publish(published(kTopic, 1000), 555);
+  matcher.deliver(matcher.take(kSubscription, kTopic, 555, 1050), 1100);
+  matcher.deliver(matcher.take(kSubscription + 1, kTopic, 555, 1050), 1300);
   matcher.finish();
   const TopicRecord& record = matcher.records()[kTopic];
   EXPECT_EQ(record.published, 1u);
@@ -36,8 +40,8 @@ TEST(MessageMatcher, CountsEverySubscriptionOfOnePublication) {
 
 TEST(MessageMatcher, KeepsTopicsWithEqualTimestampsApart) {
   MessageMatcher matcher;
-  matcher.publish(kTopic, 555, 1000);
-  EXPECT_FALSE(matcher.take(kSubscription, kOtherTopic, 555).published_ns.has_value());
+  matcher.publish(published(kTopic, 1000), 555);
+  EXPECT_FALSE(matcher.take(kSubscription, kOtherTopic, 555, 1050).publication_is_known());
   matcher.finish();
   EXPECT_EQ(matcher.records()[kTopic].published_only, 1u);
   EXPECT_EQ(matcher.records()[kOtherTopic].received_only, 1u);
@@ -45,8 +49,8 @@ TEST(MessageMatcher, KeepsTopicsWithEqualTimestampsApart) {
 
 TEST(MessageMatcher, CountsButDoesNotFollowAPublicationWithoutTimestamp) {
   MessageMatcher matcher;
-  matcher.publish(kTopic, 0, 1000);
-  EXPECT_FALSE(matcher.take(kSubscription, kTopic, 0).published_ns.has_value());
+  matcher.publish(published(kTopic, 1000), 0);
+  EXPECT_FALSE(matcher.take(kSubscription, kTopic, 0, 1050).publication_is_known());
   matcher.finish();
   EXPECT_EQ(matcher.records()[kTopic].published, 1u);
   EXPECT_EQ(matcher.records()[kTopic].published_only, 1u);
@@ -55,9 +59,9 @@ TEST(MessageMatcher, CountsButDoesNotFollowAPublicationWithoutTimestamp) {
 TEST(MessageMatcher, ForgetsAPublicationAfterManyNewerOnes) {
   MessageMatcher matcher;
   const std::int64_t many = MessageMatcher::kRemembered;
-  for (std::int64_t i = 1; i <= 2 * many; ++i) matcher.publish(kTopic, i, i);
-  EXPECT_FALSE(matcher.take(kSubscription, kTopic, many).published_ns.has_value());
-  EXPECT_TRUE(matcher.take(kSubscription, kTopic, many + 1).published_ns.has_value());
+  for (std::int64_t i = 1; i <= 2 * many; ++i) matcher.publish(published(kTopic, i), i);
+  EXPECT_FALSE(matcher.take(kSubscription, kTopic, many, 1050).publication_is_known());
+  EXPECT_TRUE(matcher.take(kSubscription, kTopic, many + 1, 1050).publication_is_known());
   matcher.finish();
   EXPECT_EQ(matcher.records()[kTopic].published, static_cast<std::uint64_t>(2 * many));
   EXPECT_EQ(matcher.records()[kTopic].published_only, static_cast<std::uint64_t>(2 * many - 1));

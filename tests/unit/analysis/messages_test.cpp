@@ -78,5 +78,20 @@ TEST(Messages, FindsThePublisherOfOlderEventsThroughRcl) {
   EXPECT_EQ(results.unknown_messages, 0u);
 }
 
+TEST(Messages, TellsThatClocksDifferWhenAMessageIsTakenBeforeItIsPublished) {
+  Feed feed = topic_feed();
+  feed.at(1'000)(ros2::RmwTake{2, 9, 777, true})(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
+  feed.at(1'500)(ros2::RmwPublish{1, 9, 777});
+  feed.at(2'000)(ros2::RmwTake{2, 9, 555, true});  // its publication is not in the trace
+  const TopicResult result = topic(feed.results(), "/topic");
+  EXPECT_EQ(result.received, 2u);
+  EXPECT_EQ(result.received_only, 1u);
+  EXPECT_EQ(result.published_only, 0u);
+  EXPECT_EQ(result.early, 1u);
+  EXPECT_EQ(result.earliest_ns, 500);
+  EXPECT_EQ(result.latency.count, 0u) << "it would be wrong";
+  EXPECT_TRUE(result.doubtful);
+}
+
 }  // namespace
 }  // namespace tracing

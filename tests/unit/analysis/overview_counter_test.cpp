@@ -49,7 +49,7 @@ TEST(OverviewCounter, CountsByNameAndProcess) {
   EXPECT_EQ(overview.event_counts[1].total, 3u);
 }
 
-TEST(OverviewCounter, PassesOverWhatTheLauncherDid) {
+TEST(OverviewCounter, CountsTheEventsOfTheLauncherWithoutAProcess) {
   const EventClass exec{"launch:exec", 0, 0, {"time"}};
   OverviewCounter counter;
   counter.on_event(event_of(exec, 500, 70, 70, "launch"));
@@ -57,8 +57,11 @@ TEST(OverviewCounter, PassesOverWhatTheLauncherDid) {
   const TraceOverview overview = counter.overview();
   EXPECT_EQ(overview.events, 1u);
   EXPECT_EQ(overview.processes.size(), 1u);
-  ASSERT_EQ(overview.event_counts.size(), 1u);
-  EXPECT_EQ(overview.event_counts[0].name, "ros2:callback_start");
+  ASSERT_EQ(overview.event_counts.size(), 2u);
+  EXPECT_EQ(overview.event_counts[0].name, "launch:exec");
+  EXPECT_EQ(overview.event_counts[0].total, 1u);
+  EXPECT_THAT(overview.event_counts[0].by_process, ElementsAre(0));
+  EXPECT_EQ(overview.event_counts[1].name, "ros2:callback_start");
 }
 
 TEST(OverviewCounter, NamesAProcessAfterItsMainThread) {

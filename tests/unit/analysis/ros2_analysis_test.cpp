@@ -14,13 +14,13 @@ using Owner = CallbackResult::Owner;
 TEST(Ros2Analysis, FollowsPingAndPong) {
   Ros2Analysis analysis;
   for (const auto& [time, thread, event] : testing::ping_pong_sequence()) {
-    analysis.on_event({time, thread.vpid, thread.vtid}, event);
+    analysis.on_event({time, static_cast<ProcessId>(thread.vpid), thread.vtid}, event);
   }
   const Ros2Results results = analysis.finish();
 
   ASSERT_EQ(results.callbacks.size(), 3u);
   const CallbackResult& pong_in_ping = results.callbacks[0];
-  EXPECT_EQ(pong_in_ping.vpid, 71);
+  EXPECT_EQ(pong_in_ping.process, 71);
   EXPECT_EQ(pong_in_ping.node, "/ping");
   EXPECT_EQ(pong_in_ping.owner, Owner::kSubscription);
   EXPECT_EQ(pong_in_ping.owner_name, "/pong");
@@ -33,7 +33,7 @@ TEST(Ros2Analysis, FollowsPingAndPong) {
   EXPECT_EQ(timer.period_ns, 500'000'000);
   EXPECT_EQ(timer.durations.max_ns, 60'000);
   EXPECT_EQ(timer.unfinished, 0u);
-  EXPECT_EQ(results.callbacks[2].vpid, 72);
+  EXPECT_EQ(results.callbacks[2].process, 72);
   EXPECT_EQ(results.callbacks[2].node, "/pong");
   EXPECT_EQ(results.callbacks[2].owner_name, "/ping");
 

@@ -11,8 +11,8 @@ using testing::Feed;
 using Kind = ros2::ExecutionEvent::Kind;
 using Owner = CallbackResult::Owner;
 
-constexpr Vpid kClient = 71;
-constexpr Vpid kServer = 72;
+constexpr ProcessId kClient = 71;
+constexpr ProcessId kServer = 72;
 const ros2::Gid kGid{{1, 2, 3}, 16};
 
 // The client's process has node /asker with client 3 (rmw 4). The server's has /adder with service 5 (rmw 6), callback
@@ -43,9 +43,9 @@ TEST(ServiceCalls, TellWhoAskedWhomAndHowLongEachPartTook) {
   const CallResult& asked = results.calls[0];
   EXPECT_EQ(asked.service, "/add");
   EXPECT_EQ(asked.client, "/asker");
-  EXPECT_EQ(asked.client_vpid, kClient);
+  EXPECT_EQ(asked.client_process, kClient);
   EXPECT_EQ(asked.server, "/adder");
-  EXPECT_EQ(asked.server_vpid, kServer);
+  EXPECT_EQ(asked.server_process, kServer);
   EXPECT_EQ(asked.requests, 2u);
   EXPECT_EQ(asked.responses, 2u);
   EXPECT_EQ(asked.round_trip.count, 2u);
@@ -92,7 +92,7 @@ TEST(ServiceCalls, KeepsClientsOfOneServiceApartByTheirGids) {
   EXPECT_EQ(results.calls[1].requests, 1u);
   EXPECT_EQ(results.calls[1].responses, 0u);
   EXPECT_EQ(results.calls[1].server, "") << "no service has taken it";
-  EXPECT_EQ(results.calls[1].server_vpid, std::nullopt);
+  EXPECT_EQ(results.calls[1].server_process, std::nullopt);
 }
 
 TEST(ServiceCalls, CountsARequestWithoutAResponse) {
@@ -116,7 +116,7 @@ TEST(ServiceCalls, KnowsTheServersPartOfAClientOutsideTheTrace) {
   ASSERT_EQ(results.calls.size(), 1u);
   EXPECT_EQ(results.calls[0].service, "/add");
   EXPECT_EQ(results.calls[0].client, "");
-  EXPECT_EQ(results.calls[0].client_vpid, std::nullopt);
+  EXPECT_EQ(results.calls[0].client_process, std::nullopt);
   EXPECT_EQ(results.calls[0].responses, 1u);
   EXPECT_EQ(results.calls[0].in_service.max_ns, 10);
   EXPECT_EQ(results.calls[0].round_trip.count, 0u);
@@ -128,7 +128,7 @@ TEST(ServiceCalls, KnowsTheRoundTripOfAServiceOutsideTheTrace) {
   const Ros2Results results = feed.results();
   ASSERT_EQ(results.calls.size(), 1u);
   EXPECT_EQ(results.calls[0].service, "/add");
-  EXPECT_EQ(results.calls[0].server_vpid, std::nullopt);
+  EXPECT_EQ(results.calls[0].server_process, std::nullopt);
   EXPECT_EQ(results.calls[0].responses, 1u);
   EXPECT_EQ(results.calls[0].round_trip.max_ns, 10);
 }
@@ -167,7 +167,7 @@ TEST(ServiceCalls, AClientOfAnEndedOnesHandlesIsAnother) {
   const Ros2Results results = feed.results();
   ASSERT_EQ(results.calls.size(), 1u);
   EXPECT_EQ(results.calls[0].service, "/subtract");
-  EXPECT_EQ(results.calls[0].server_vpid, std::nullopt);
+  EXPECT_EQ(results.calls[0].server_process, std::nullopt);
 }
 
 TEST(ServiceCalls, AClientToldAgainIsTheSame) {

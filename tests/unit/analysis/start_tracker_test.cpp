@@ -21,8 +21,9 @@ constexpr Thread kTalker{71, 71, "talker"};
 
 class Sink : public TraceSink {
  public:
-  void on_event(const Event& event) override { tracker.on_event(event); }
+  void on_event(const Event& event) override { tracker.on_event(event, processes.of(event)); }
   void on_loss(const Loss&) override {}
+  ProcessTable processes;
   StartTracker tracker;
 };
 
@@ -52,7 +53,10 @@ class StartOfProcesses : public ::testing::Test {
     writer_.finish();
     Sink sink;
     TraceReader(directory_.path()).read(sink);
-    return sink.tracker.finish();
+    const ObjectModel objects;
+    TraceResults results;
+    sink.tracker.finish(sink.processes, {std::nullopt, 7, std::nullopt}, FirstActivity(objects), results);
+    return results.starts;
   }
 
  private:
@@ -64,6 +68,7 @@ class StartOfProcesses : public ::testing::Test {
 TEST_F(StartOfProcesses, IsMeasuredFromExecToTheFirstNodeAndTheFirstLookForWork) {
   exec(1'050, 1'000, "talker-1", 71);  // recorded 50 ns after it happened
   exec(2'000, 2'000, "other-2", 72);   // at once: shows the distance between the clocks
+  write(4'500, kTalker, ros2::RclInit{7, "8.10.1"});
   write(5'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
   write(6'000, kTalker, ros2::RclNodeInit{3, 4, "second", "/"});
   write(9'000, kTalker, ros2::RclcppExecutorGetNextReady{});
@@ -72,9 +77,12 @@ TEST_F(StartOfProcesses, IsMeasuredFromExecToTheFirstNodeAndTheFirstLookForWork)
   ASSERT_EQ(starts.size(), 2u);
   EXPECT_EQ(starts[0].process, "talker-1");
   EXPECT_EQ(starts[0].vpid, 71);
+  EXPECT_EQ(starts[0].place, 7) << "the second process of the trace";
+  EXPECT_EQ(starts[1].place, std::nullopt) << "it recorded nothing";
   EXPECT_EQ(starts[0].file, "a.launch.xml");
   EXPECT_EQ(starts[0].line, 3);
   EXPECT_EQ(starts[0].exec_ns, kEpoch + 1'000);
+  EXPECT_EQ(starts[0].init_after_ns, 3'500);
   EXPECT_EQ(starts[0].node_after_ns, 4'000);
   EXPECT_EQ(starts[0].ready_after_ns, 8'000);
   EXPECT_EQ(starts[1].node_after_ns, std::nullopt) << "it has no node";

@@ -48,11 +48,12 @@ Ros2Results ping_pong_with_state_dump(std::size_t position) {
     if (i == position) {
       for (std::size_t known = 0; known < i; ++known) {
         const auto& [time, thread, event] = sequence[known];
-        if (is_init_event(event)) analysis.on_event({sequence[i].time_ns, thread.vpid, 99}, with_gid(event));
+        if (is_init_event(event))
+          analysis.on_event({sequence[i].time_ns, static_cast<ProcessId>(thread.vpid), 99}, with_gid(event));
       }
     }
     const auto& [time, thread, event] = sequence[i];
-    analysis.on_event({time, thread.vpid, thread.vtid}, with_gid(event));
+    analysis.on_event({time, static_cast<ProcessId>(thread.vpid), thread.vtid}, with_gid(event));
   }
   return analysis.finish();
 }

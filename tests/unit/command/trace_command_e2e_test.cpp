@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -47,7 +49,8 @@ struct TraceCommandE2e : testing::Test {
                   "press enter to start...\n"
                   "press enter to stop...\n"
                   "stopping & destroying tracing session\n"
-                  "no events lost\n");
+                  "trace written to: " +
+                  trace + "\ntrace is complete: no events lost\n");
     EXPECT_TRUE(result.output_closed) << "the session daemon holds our output open";
     EXPECT_EQ(read_trace(trace).complaints, "");
     EXPECT_EQ(read_trace(trace).events["ros2:rclcpp_callback_register"], 30);
@@ -85,22 +88,113 @@ TEST_F(TraceCommandE2e, VerbsControlASession) {
   TracedApp app(10, 10);
   EXPECT_EQ(run_command({TRACE_COMMAND, "pause", "run"}).exit_code, 0);
   EXPECT_THAT(listed_sessions(), testing::HasSubstr("run [inactive]"));
+  EXPECT_THAT(test_support::read_file(trace + "/verdict.json"), testing::HasSubstr("\"complete\": true"));
   app.fire_again();
   EXPECT_EQ(run_command({TRACE_COMMAND, "resume", "run"}).exit_code, 0);
   app.fire_again();
   const CommandResult stopped = run_command({TRACE_COMMAND, "stop", "run"});
   EXPECT_EQ(stopped.exit_code, 0);
-  EXPECT_EQ(stopped.out, "stopping & destroying tracing session\nno events lost\n");
+  EXPECT_EQ(stopped.out, "stopping & destroying tracing session\ntrace written to: " + trace +
+                             "\ntrace is complete: no events lost\n");
   app.end();
   EXPECT_EQ(read_trace(trace).events["ros2:rclcpp_callback_register"], 20);
   EXPECT_EQ(listed_sessions(), "");
+}
+
+TEST_F(TraceCommandE2e, StartGoesOnWhenNobodyReadsItsOutput) {
+  const std::string command = std::string(TRACE_COMMAND) + " start run -l; echo $? >&2";
+  EXPECT_EQ(run_command({"sh", "-c", "(" + command + ") | true"}).err, "0\n");
+  EXPECT_THAT(listed_sessions(), testing::HasSubstr("run [active]"));
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+}
+
+// The signal comes before, while or after the session is made.
+TEST_F(TraceCommandE2e, ASignalLeavesNoSessionHalfMade) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "other"}).exit_code, 0) << "the daemon runs now";
+  for (int i = 0; i < 8; ++i) {
+    RunningCommand start({.argv = {TRACE_COMMAND, "start", "run", "-a"}});
+    if (i != 0) {
+      ASSERT_TRUE(start.wait_for_output("writing tracing session to: ")) << start.err();
+    }
+    start.send_signal(i % 2 == 0 ? SIGTERM : SIGHUP);
+    const CommandResult result = start.wait();
+    if (result.exit_code == 0) {
+      EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+    } else if (result.signal == 0) {
+      EXPECT_EQ(result.err, "error: interrupted: session 'run' was ended again\n");
+    }
+    EXPECT_THAT(listed_sessions(), testing::Not(testing::HasSubstr("run [")));
+  }
+}
+
+// kill -9 comes while the session is made, or a little later.
+TEST_F(TraceCommandE2e, AKilledCommandLeavesNoSession) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "other"}).exit_code, 0) << "the daemon runs now";
+  for (int i = 0; i < 5; ++i) {
+    RunningCommand start({.argv = {TRACE_COMMAND, "start", "run", "-a"}});
+    ASSERT_TRUE(start.wait_for_output("writing tracing session to: ")) << start.err();
+    start.send_signal(SIGKILL);
+    const CommandResult result = start.wait();
+    Sandbox::wait_until_daemons_are_left();
+    if (result.exit_code == 0) {
+      EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+    }
+    EXPECT_THAT(listed_sessions(), testing::Not(testing::HasSubstr("run [")));
+  }
+}
+
+TEST_F(TraceCommandE2e, AKilledInteractiveCommandLeavesAWholeTrace) {
+  RunningCommand command({.argv = {TRACE_COMMAND, "-s", "run"}});
+  EXPECT_TRUE(command.wait_for_output("press enter to start..."));
+  command.write("\n");
+  EXPECT_TRUE(command.wait_for_output("press enter to stop..."));
+  TracedApp(30, 20).end();
+  command.send_signal(SIGKILL);
+  command.wait();
+  Sandbox::wait_until_daemons_are_left();
+  EXPECT_EQ(listed_sessions(), "");
+  EXPECT_EQ(read_trace(trace).events["ros2:rclcpp_callback_register"], 30);
+  EXPECT_THAT(test_support::read_file(trace + "/verdict.json"), testing::HasSubstr("\"complete\": true"));
+}
+
+// A daemon that is stopped accepts connections, and answers nothing.
+TEST_F(TraceCommandE2e, NoVerbWaitsForAStoppedDaemon) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run"}).exit_code, 0);
+  const pid_t daemon = std::stoi(
+      test_support::read_file(geteuid() == 0 ? "/run/lttng/lttng-sessiond.pid"
+                                             : std::string(getenv("LTTNG_HOME")) + "/.lttng/lttng-sessiond.pid"));
+  kill(daemon, SIGSTOP);
+  ASSERT_EQ(waitpid(daemon, nullptr, WUNTRACED), daemon);  // it is an orphan now, so it is a child of the sandbox
+  const std::string pid = std::to_string(daemon);
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{{"list"},
+                                                                                    {"status"},
+                                                                                    {"status", "run"},
+                                                                                    {"pause", "run"},
+                                                                                    {"resume", "run"},
+                                                                                    {"stop", "run"},
+                                                                                    {"record_snapshot", "run"},
+                                                                                    {"save", "run"},
+                                                                                    {"events"},
+                                                                                    {"start", "another"}}) {
+    std::vector<std::string> argv = {TRACE_COMMAND};
+    argv.insert(argv.end(), verb.begin(), verb.end());
+    const CommandResult result = run_command(argv);
+    EXPECT_FALSE(result.timed_out) << verb.front();
+    EXPECT_EQ(result.exit_code, 1) << verb.front();
+    EXPECT_EQ(result.err, "error: the LTTng session daemon (process " + pid +
+                              ") is stopped and does not answer\nhint: continue it with `kill -CONT " + pid + "`\n")
+        << verb.front();
+  }
+  kill(daemon, SIGCONT);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
 }
 
 TEST_F(TraceCommandE2e, SnapshotIsRecordedByItsVerb) {
   EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run", "--snapshot-mode"}).exit_code, 0);
   TracedApp app(10, 10);
   EXPECT_EQ(run_command({TRACE_COMMAND, "record_snapshot", "run"}).exit_code, 0);
-  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).out,
+            "stopping & destroying tracing session\nsnapshots are in: " + trace + "\n");
   app.end();
   EXPECT_EQ(read_trace(trace).events["ros2:rclcpp_callback_register"], 10);
 }

@@ -56,7 +56,7 @@ TEST(TraceCommand, InteractiveFormStartsAtTheFirstEnterAndStopsAtTheSecond) {
             "press enter to start...\n"
             "press enter to stop...\n"
             "stopping & destroying tracing session\n"
-            "no events lost\n");
+            "trace is complete: no events lost\n");
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(tracer.calls(), ElementsAre("start run", "finish run"));
 }
@@ -96,8 +96,57 @@ TEST(TraceCommand, SaysWhatWasLost) {
   const Outcome result = run({"stop", "run"}, tracer);
   EXPECT_EQ(result.out,
             "stopping & destroying tracing session\n"
-            "12 events lost in ust channel ros2\n"
+            "trace is incomplete: 12 events lost in ust channel ros2\n"
             "1 packet lost in kernel channel kchan\n");
+}
+
+TEST(TraceCommand, APauseSaysWhatIsRecordedSoFar) {
+  FakeTracer tracer;
+  tracer.losses_in_pause.emplace();
+  tracer.losses_in_pause->directory = "/traces/run";
+  tracer.losses_in_pause->processes = {{.name = "talker", .pid = 12, .seconds = 2, .events = 1000}};
+  tracer.losses_in_pause->cost = {.ns_per_event = 100, .cpu = "", .lttng = "", .context_fields = {}, .measured = ""};
+  EXPECT_EQ(run({"pause", "run"}, tracer).out,
+            "pausing tracing session\n"
+            "trace written to: /traces/run\n"
+            "trace is complete: no events lost\n"
+            "estimated cost of tracing: 0.000 s of processor time, 0.01 % of a processor; most in talker [12] (100 ns "
+            "for each event)\n");
+}
+
+TEST(TraceCommand, NegativeSizesAndTimesAreErrors) {
+  FakeTracer tracer;
+  for (const char* option : {"--subbuffer-size-ust", "--switch-timer-ust", "--read-timer-ust", "--tracefile-count"}) {
+    const Outcome result = run({"start", "run", option, "-5"}, tracer);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, std::string("error: ") + option + ": expected a number that is not negative, got '-5'\n");
+  }
+  EXPECT_THAT(tracer.calls(), IsEmpty());
+}
+
+TEST(TraceCommand, ASnapshotSaysWhereItIs) {
+  FakeTracer tracer;
+  tracer.snapshot_directory = "/traces/run/snapshot-1";
+  EXPECT_EQ(run({"record_snapshot", "run"}, tracer).out,
+            "recording snapshot of tracing session\nsnapshot written to: /traces/run/snapshot-1\n");
+}
+
+TEST(TraceCommand, SaysWhereTheTraceIs) {
+  FakeTracer tracer;
+  tracer.losses.directory = "/traces/run";
+  EXPECT_EQ(run({"stop", "run"}, tracer).out,
+            "stopping & destroying tracing session\n"
+            "trace written to: /traces/run\n"
+            "trace is complete: no events lost\n");
+}
+
+TEST(TraceCommand, SaysNothingOfLossesOfSnapshotSessions) {
+  FakeTracer tracer;
+  tracer.losses.directory = "/traces/run";
+  tracer.losses.of_snapshots = true;
+  EXPECT_EQ(run({"stop", "run"}, tracer).out,
+            "stopping & destroying tracing session\n"
+            "snapshots are in: /traces/run\n");
 }
 
 TEST(TraceCommand, FailsOnLossWhenAskedTo) {

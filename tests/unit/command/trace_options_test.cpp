@@ -139,6 +139,8 @@ TEST(TraceOptions, WrongUsageIsExitCodeTwo) {
   EXPECT_EQ(message_of({"--no-such-option"}).exit_code, 2);
   EXPECT_EQ(message_of({"stop", "run", "-u"}).exit_code, 2);
   EXPECT_EQ(message_of({"--subbuffer-size-ust", "many"}).exit_code, 2);
+  EXPECT_EQ(message_of({"--subbuffer-size-ust", "-5"}).exit_code, 2);
+  EXPECT_EQ(message_of({"--read-timer-ust", "-1"}).exit_code, 2);
 }
 
 TEST(TraceOptions, HelpIsExitCodeZero) {

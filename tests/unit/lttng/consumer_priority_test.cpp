@@ -18,7 +18,7 @@
 namespace {
 
 using tracing::kConsumerNice;
-using tracing::prefer_consumers;
+using tracing::prefer_daemons;
 
 // A child of this process whose program is called lttng-consumerd.
 class Consumer {
@@ -56,7 +56,7 @@ TEST(ConsumerPriority, IsRaisedWhereThatIsPermitted) {
   if (geteuid() != 0) GTEST_SKIP() << "skipped, because only root may raise priorities";
   const test_support::Sandbox sandbox;
   const Consumer consumer(sandbox.directory());
-  EXPECT_EQ(prefer_consumers(getpid()), "");
+  EXPECT_EQ(prefer_daemons(getpid()), "");
   EXPECT_EQ(consumer.nice(), kConsumerNice);
 }
 
@@ -65,7 +65,7 @@ TEST(ConsumerPriority, ThatMayNotBeRaisedIsSaidWithWhatHelps) {
   const Consumer consumer(sandbox.directory());
   const int before = consumer.nice();
   if (geteuid() == 0) set_may_raise_priorities(false);
-  const std::string told = prefer_consumers(getpid());
+  const std::string told = prefer_daemons(getpid());
   if (geteuid() == 0) set_may_raise_priorities(true);
   EXPECT_EQ(told,
             "LTTng's consumer keeps its priority (Permission denied): on a machine that is busy all the time it may "
@@ -75,7 +75,7 @@ TEST(ConsumerPriority, ThatMayNotBeRaisedIsSaidWithWhatHelps) {
 }
 
 TEST(ConsumerPriority, OfNobodyIsNothingToSpeakOf) {
-  EXPECT_EQ(prefer_consumers(getpid()), "");
+  EXPECT_EQ(prefer_daemons(getpid()), "");
 }
 
 }  // namespace

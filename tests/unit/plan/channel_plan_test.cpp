@@ -32,6 +32,17 @@ TEST(ChannelPlan, TakesNamesOnceAndOnlyUsedDomains) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ChannelPlan, RuntimeHalfOfADualSessionWantsNoStateDumps) {
+  TraceConfig config;
+  config.events_ust = {"ros2:*"};
+  config.dual_runtime = true;
+  std::vector<std::string> warnings;
+  const auto plans = tracing::plan_channels(config, warnings);
+  ASSERT_EQ(plans.size(), 1u);
+  ASSERT_EQ(plans[0].events.size(), 2u);
+  EXPECT_EQ(plans[0].events[1].pattern, "ros2_session:no_state_dump");
+}
+
 TEST(ChannelPlan, FitsIntoTheSharedMemoryThatThereIs) {
   TraceConfig config;  // 4 x 1 MiB
   std::vector<std::string> warnings;

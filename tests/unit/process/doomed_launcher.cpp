@@ -1,37 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// doomed_launcher GUARDIAN GRACE_MILLISECONDS SCRIPT...: starts a guarded shell for each script, prints the pids of
-// guardian and shells, and waits to be killed.
+// doomed_launcher GUARDIAN [--timeouts SIGTERM SIGKILL] [--log FILE] [--clean-up SCRIPT] [--forgotten SCRIPT]
+//                 [--leave] [--exit CODE] SCRIPT…
+//
+// Puts a guardian above itself, starts a shell for each script and waits for its first line. Prints the process numbers
+// of guardian, launcher and shells. Then it waits to be killed, or exits with CODE. The timeouts are milliseconds. A
+// clean-up is forgotten when it is taken back. With --leave, what the shells leave goes on.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "launcher/base/process_mark.hpp"
 #include "launcher/process/guardian/guardian.hpp"
+#include "launcher/process/process_runner.hpp"
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
+  if (argc < 2) {
     return EXIT_FAILURE;
   }
-  launch::Guardian guardian(argv[1], std::chrono::milliseconds(std::atol(argv[2])));
-  const auto posix = launch::make_posix_process_runner();
-  launch::GuardedProcessRunner runner(*posix, guardian);
+  launch::Guardian guardian = launch::Guardian::put_above({argv, argv + argc}, argv[1]);
+  guardian.wait_until_ready();
+  fmt::print("{}\n{}\n", guardian.pid(), ::getpid());
+  launch::ProcessSpec spec;
+  spec.name = "shell";
+  spec.output = *launch::OutputRouting::from_mode("both");
+  spec.environment = {{"PATH", "/usr/bin:/bin"}};
+  std::optional<int> exit_code;
+  std::vector<std::string> scripts;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--timeouts") {
+      spec.sigterm_timeout = std::chrono::milliseconds(std::atol(argv[++i]));
+      spec.sigkill_timeout = std::chrono::milliseconds(std::atol(argv[++i]));
+    } else if (word == "--log") {
+      guardian.set_log(argv[++i]);
+    } else if (word == "--clean-up") {
+      guardian.add_clean_up({"/bin/sh", "-c", argv[++i]});
+    } else if (word == "--forgotten") {
+      guardian.remove_clean_up(guardian.add_clean_up({"/bin/sh", "-c", argv[++i]}));
+    } else if (word == "--leave") {
+      spec.environment.insert_or_assign(launch::kLeaveRunningVariable, "1");
+    } else if (word == "--exit") {
+      exit_code = std::atoi(argv[++i]);
+    } else {
+      scripts.push_back(word);
+    }
+  }
+  const auto runner = launch::make_posix_process_runner();
   std::vector<launch::Process> processes;
-  fmt::print("{}\n", guardian.pid());
-  for (int i = 3; i < argc; ++i) {
-    launch::ProcessSpec spec;
-    spec.name = "shell";
-    spec.argv = {"/bin/sh", "-c", argv[i]};
-    spec.environment = {{"PATH", "/usr/bin:/bin"}};
-    processes.push_back(runner.spawn(spec));
-    // The script prints a line when it is ready.
-    char byte = 0;
-    while (::read(processes.back().out.get(), &byte, 1) != 1) {
+  for (const std::string& script : scripts) {
+    spec.argv = {"/bin/sh", "-c", script};
+    spec.mark = guardian.mark(fmt::format("shell-{}", processes.size() + 1), spec);
+    processes.push_back(runner->spawn(spec));
+    for (char byte = 0; byte != '\n';) {
+      static_cast<void>(!::read(processes.back().out.get(), &byte, 1));
     }
     fmt::print("{}\n", processes.back().pid);
   }
   std::fflush(stdout);
+  if (exit_code) {
+    return *exit_code;
+  }
   ::pause();
 }

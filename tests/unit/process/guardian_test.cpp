@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/guardian/guardian.hpp"
 
-#include <fcntl.h>
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/stat.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -14,16 +15,22 @@
 #include <string>
 #include <vector>
 
+#include "launcher/process/process_runner.hpp"
 #include "temporary_directory.hpp"
 
 namespace launch {
 namespace {
 
-using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::MatchesRegex;
 
-constexpr int kPatience = 30'000;  // milliseconds, before a test fails
+constexpr int kPatience = 60'000;  // milliseconds, before a test fails
+const std::string kSleeper = "echo ready; exec sleep 1000";
+// Leaves a process that has a session of its own and whose parent has died.
+const std::string kDaemon =
+    "setsid sh -c 'sleep 1000 >/dev/null 2>&1 </dev/null & echo $!' | { read pid; echo $pid; }; ";
 
-bool wait_for(const UniqueFd& fd) {
+bool wait_for_end(const UniqueFd& fd) {
   pollfd descriptor{fd.get(), POLLIN, 0};
   return ::poll(&descriptor, 1, kPatience) == 1;
 }
@@ -32,175 +39,285 @@ UniqueFd open_process(pid_t pid) {
   return UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
 }
 
-pid_t read_pid(const UniqueFd& fd) {
-  std::string line;
-  char byte = 0;
-  while (wait_for(fd) && ::read(fd.get(), &byte, 1) == 1 && byte != '\n') {
-    line.push_back(byte);
-  }
-  return line.empty() ? -1 : std::stoi(line);
+bool runs(const UniqueFd& pidfd) {
+  pollfd descriptor{pidfd.get(), POLLIN, 0};
+  return ::poll(&descriptor, 1, 0) == 0;
 }
 
-ProcessSpec command(std::vector<std::string> argv) {
-  ProcessSpec spec;
-  spec.name = "test";
-  spec.argv = std::move(argv);
-  spec.environment = {{"PATH", "/usr/bin:/bin"}};
-  return spec;
+std::string read_file(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 class GuardianTest : public testing::Test {
  protected:
-  // Starts a launcher that guards one shell for each script. Stores the pids of guardian and shells in `pids`.
-  Process start_launcher(std::chrono::milliseconds grace, const std::vector<std::string>& scripts) {
-    std::vector<std::string> argv{DOOMED_LAUNCHER, LAUNCH_GUARDIAN, std::to_string(grace.count())};
-    argv.insert(argv.end(), scripts.begin(), scripts.end());
-    Process launcher = runner->spawn(command(argv));
-    for (std::size_t i = 0; i <= scripts.size(); ++i) {
-      pids.push_back(read_pid(launcher.out));
-      pidfds.push_back(open_process(pids.back()));
-      EXPECT_TRUE(pidfds.back()) << "process " << i;
+  // What a dead guardian leaves becomes ours.
+  GuardianTest() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
+  ~GuardianTest() override { ::prctl(PR_SET_CHILD_SUBREAPER, 0); }
+
+  // Starts a launcher and reads the numbers of guardian, launcher and the shell of each script.
+  void start(std::vector<std::string> words, std::size_t shells) {
+    words.insert(words.begin(), {DOOMED_LAUNCHER, LAUNCH_GUARDIAN});
+    ProcessSpec spec;
+    spec.name = "test";
+    spec.argv = std::move(words);
+    spec.environment = {{"PATH", "/usr/bin:/bin"}};
+    run = runner->spawn(spec);
+    guardian = read_pid();
+    launcher = read_pid();
+    EXPECT_EQ(guardian, run.pid);
+    for (std::size_t i = 0; i < shells; ++i) {
+      shell_pids.push_back(read_pid());
+      shells_.push_back(open_process(shell_pids.back()));
+      EXPECT_TRUE(shells_.back()) << "shell " << i;
     }
-    return launcher;
   }
-  void kill_launcher(const Process& launcher) const {
-    ASSERT_EQ(::kill(launcher.pid, SIGKILL), 0);
-    ASSERT_TRUE(wait_for(launcher.pidfd));
-    EXPECT_EQ(runner->reap(launcher).code, -SIGKILL);
+  std::string read_line() {
+    std::string line;
+    pollfd readable{run.out.get(), POLLIN, 0};
+    for (char byte = 0; ::poll(&readable, 1, kPatience) == 1 && ::read(run.out.get(), &byte, 1) == 1 && byte != '\n';) {
+      line.push_back(byte);
+    }
+    return line;
   }
-  bool runs(std::size_t i) const {
-    pollfd descriptor{pidfds.at(i).get(), POLLIN, 0};
-    return ::poll(&descriptor, 1, 0) == 0;
+  pid_t read_pid() {
+    const std::string line = read_line();
+    return line.empty() ? -1 : std::stoi(line);
+  }
+  // How the guardian ended. Everything else has ended then.
+  int end() {
+    EXPECT_TRUE(wait_for_end(run.pidfd));
+    return runner->reap(run).code;
+  }
+  // Nothing that was started is left, neither as our child.
+  static void expect_nothing_left() {
+    while (::waitpid(-1, nullptr, 0) > 0) {
+    }
+    EXPECT_EQ(errno, ECHILD);
+  }
+  pid_t child_of_guardian(const std::string& name) const {
+    std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", guardian));
+    for (pid_t child; children >> child;) {
+      if (read_file(fmt::format("/proc/{}/comm", child)) == name + "\n") {
+        return child;
+      }
+    }
+    return -1;
+  }
+  pid_t wait_for_spare(pid_t former = -1) const {
+    for (pid_t spare = -1;; ::sched_yield()) {
+      if ((spare = child_of_guardian("guardian-spare")) > 0 && spare != former) {
+        return spare;
+      }
+    }
   }
 
+  const TemporaryDirectory directory;
   std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
-  std::vector<pid_t> pids;
-  std::vector<UniqueFd> pidfds;
+  Process run;
+  pid_t guardian = -1;
+  pid_t launcher = -1;
+  std::vector<pid_t> shell_pids;
+  std::vector<UniqueFd> shells_;
 };
 
 TEST_F(GuardianTest, EndsAllProcessesOfALauncherThatIsKilled) {
-  const std::string sleeper = "echo ready; exec sleep 1000";
-  const Process launcher = start_launcher(kPatience * 1ms, {sleeper, sleeper, sleeper});
-  EXPECT_TRUE(runs(1) && runs(2) && runs(3));
-  kill_launcher(launcher);
-  for (const UniqueFd& pidfd : pidfds) {
-    EXPECT_TRUE(wait_for(pidfd));
+  start({kSleeper, kSleeper, kSleeper}, 3);
+  EXPECT_TRUE(runs(shells_[0]) && runs(shells_[1]) && runs(shells_[2]));
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL) << "it ends as the launcher did";
+  for (const UniqueFd& shell : shells_) {
+    EXPECT_FALSE(runs(shell));
   }
+  expect_nothing_left();
 }
 
-TEST_F(GuardianTest, KillsWhatDoesNotEndInTheGracePeriod) {
-  const Process launcher = start_launcher(20ms, {"trap '' TERM INT; echo ready; while :; do sleep 1000; done"});
-  kill_launcher(launcher);
-  EXPECT_TRUE(wait_for(pidfds[1]));
-  EXPECT_TRUE(wait_for(pidfds[0])) << "the guardian itself ends, too";
+TEST_F(GuardianTest, AsksWithEachSignalForTheTimeOfTheProcess) {
+  const std::string told = directory.path() + "/told";
+  start({"--timeouts", "300", "300",
+         fmt::format("trap 'echo INT >> {0}' INT; trap 'echo TERM >> {0}' TERM; echo ready; "
+                     "while :; do sleep 0.01; done",
+                     told)},
+        1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  EXPECT_EQ(read_file(told), "INT\nTERM\n");
+  EXPECT_FALSE(runs(shells_[0]));
 }
 
-TEST_F(GuardianTest, EndsDescendants) {
-  // The whole group holds it open, so it hangs up when the last member has gone.
-  const TemporaryDirectory directory;
-  const std::string fifo = directory.path() + "/group";
-  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-  const UniqueFd group(::open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  const Process launcher = start_launcher(
-      kPatience * 1ms, {"exec 3> " + fifo + "; (trap '' TERM; exec sleep 1000) & echo ready; exec sleep 1000"});
-  pollfd hung_up{group.get(), 0, 0};
-  EXPECT_EQ(::poll(&hung_up, 1, 0), 0);
-  kill_launcher(launcher);
-  EXPECT_EQ(::poll(&hung_up, 1, kPatience), 1);
-}
-
-TEST_F(GuardianTest, HasASessionOfItsOwnAndIgnoresInterrupts) {
-  const Process launcher = start_launcher(kPatience * 1ms, {"echo ready; exec sleep 1000"});
-  EXPECT_EQ(::getsid(pids[0]), pids[0]);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    ::kill(pids[0], signal);
-  }
-  kill_launcher(launcher);
-  EXPECT_TRUE(wait_for(pidfds[1])) << "the guardian was there to end it";
-}
-
-TEST_F(GuardianTest, LeavesDetachedGroupsAlone) {
-  const Process sleeper = runner->spawn(command({"sleep", "1000"}));
-  {
-    Guardian guardian(LAUNCH_GUARDIAN);
-    guardian.attach(sleeper.pid);
-    guardian.detach(sleeper.pid);
-  }
-  pollfd exited{sleeper.pidfd.get(), POLLIN, 0};
-  EXPECT_EQ(::poll(&exited, 1, 0), 0);
-  runner->signal_group(sleeper, SIGKILL);
-  ASSERT_TRUE(wait_for(sleeper.pidfd));
-  runner->reap(sleeper);
-}
-
-TEST_F(GuardianTest, EndsWhatIsStillAttachedWhenItIsDestroyed) {
-  const Process sleeper = runner->spawn(command({"sleep", "1000"}));
-  {
-    Guardian guardian(LAUNCH_GUARDIAN);
-    guardian.attach(sleeper.pid);
-  }
-  ASSERT_TRUE(wait_for(sleeper.pidfd));
-  EXPECT_EQ(runner->reap(sleeper).code, -SIGTERM);
-}
-
-TEST_F(GuardianTest, CleansUpAfterTheGroupsHaveEndedTheLastCommandFirst) {
-  const TemporaryDirectory directory;
+TEST_F(GuardianTest, GivesAProcessItsWholeTime) {
   const std::string done = directory.path() + "/done";
-  const Process sleeper = runner->spawn(command({"sleep", "1000"}));
-  {
-    Guardian guardian(LAUNCH_GUARDIAN);
-    guardian.attach(sleeper.pid);
-    guardian.add_clean_up({"/bin/sh", "-c", "echo 'first one' >> " + done});
-    // The sleeper is not reaped yet: it is a zombie.
-    guardian.add_clean_up(
-        {"/bin/sh", "-c",
-         "grep -q State:.Z /proc/" + std::to_string(sleeper.pid) + "/status && echo ended >> " + done});
-  }
-  std::ifstream file(done);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, "ended\nfirst one\n");
-  ASSERT_TRUE(wait_for(sleeper.pidfd));
-  runner->reap(sleeper);
+  start({"--timeouts", "1000000", "0",
+         fmt::format("trap 'sleep 0.3; echo clean > {}; exit' INT; echo ready; while :; do sleep 0.01; done", done)},
+        1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  EXPECT_EQ(read_file(done), "clean\n");
 }
 
-TEST_F(GuardianTest, DoesNotRunACleanUpThatWasTakenBack) {
-  const TemporaryDirectory directory;
+TEST_F(GuardianTest, ReadsOutputToTheEnd) {
+  const std::string log = directory.path() + "/launch.log";
+  std::ofstream(log) << "";
+  // More than a pipe holds. A shell whose output nobody reads dies of SIGPIPE.
+  start(
+      {"--timeouts", "1000000", "0", "--log", log,
+       "trap 'seq 1 30000; echo the last words >&2; printf begun; exit' INT; echo ready; while :; do sleep 0.01; done"},
+      1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  const std::string text = read_file(log);
+  EXPECT_THAT(text, HasSubstr(" [ERROR] [launch]: the launcher was ended by SIGKILL: ending "));
+  EXPECT_THAT(text, HasSubstr(" [shell-1] 1\n"));
+  EXPECT_THAT(text, HasSubstr(" [shell-1] 30000\n"));
+  EXPECT_THAT(text, HasSubstr(" [shell-1] the last words\n"));
+  EXPECT_THAT(text, HasSubstr(" [shell-1] begun\n"));
+}
+
+TEST_F(GuardianTest, EndsWhatHasLeftTheGroupAndTheSession) {
+  start({"--timeouts", "100", "100", kDaemon + kDaemon + "exec sleep 1000"}, 1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();
+}
+
+TEST_F(GuardianTest, ContinuesAStoppedProcess) {
   const std::string done = directory.path() + "/done";
-  {
-    Guardian guardian(LAUNCH_GUARDIAN);
-    guardian.remove_clean_up(guardian.add_clean_up({"/bin/sh", "-c", "echo no >> " + done}));
-    guardian.add_clean_up({"/bin/sh", "-c", "echo yes >> " + done});
+  start(
+      {"--timeouts", "1000000", "0",
+       fmt::format("trap 'echo clean > {}; exit' INT; echo ready; kill -STOP $$; while :; do sleep 0.01; done", done)},
+      1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  EXPECT_EQ(read_file(done), "clean\n");
+}
+
+TEST_F(GuardianTest, PassesTheExitCodeOn) {
+  start({"--exit", "7"}, 0);
+  EXPECT_EQ(end(), 7);
+  expect_nothing_left();
+}
+
+TEST_F(GuardianTest, PassesSignalsToTheLauncher) {
+  start({}, 0);
+  ::kill(guardian, SIGTERM);
+  EXPECT_EQ(end(), -SIGTERM);
+}
+
+TEST_F(GuardianTest, TellsOfWhatALauncherLeavesAtItsOrdinaryEnd) {
+  const std::string log = directory.path() + "/launch.log";
+  std::ofstream(log) << "";
+  start({"--timeouts", "100", "100", "--log", log, "--exit", "0", kDaemon + "exec sleep 1000"}, 1);
+  EXPECT_EQ(end(), 0);
+  EXPECT_THAT(read_file(log), MatchesRegex("[0-9.]+ \\[WARNING\\] \\[launch\\]: shell-1 left 2 processes running: "
+                                           "(sh|sleep) \\([0-9]+\\), (sh|sleep) \\([0-9]+\\); ending them\n"));
+  expect_nothing_left();
+}
+
+TEST_F(GuardianTest, LeavesWhatIsMeantToGoOn) {
+  start({"--timeouts", "100", "100", "--leave", "--exit", "0", kDaemon + "exec sleep 1000"}, 1);
+  EXPECT_EQ(end(), 0);
+  EXPECT_FALSE(runs(shells_[0])) << "it has no session of its own";
+  pid_t left = 0;
+  while ((left = ::waitpid(-1, nullptr, WNOHANG)) > 0) {
   }
-  std::ifstream file(done);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, "yes\n");
+  EXPECT_EQ(left, 0) << "there is a child that runs";
+  std::ifstream children(fmt::format("/proc/self/task/{}/children", ::getpid()));
+  for (pid_t child; children >> child;) {
+    ::kill(child, SIGKILL);
+  }
+  expect_nothing_left();
 }
 
-TEST_F(GuardianTest, GuardsFromTheStartOfAProcessUntilItIsReaped) {
-  Guardian guardian(LAUNCH_GUARDIAN);
-  GuardedProcessRunner guarded(*runner, guardian);
-  const Process process = guarded.spawn(command({"true"}));
-  ASSERT_TRUE(wait_for(process.pidfd));
-  EXPECT_EQ(guarded.outcome(process).code, 0);
-  EXPECT_EQ(guarded.reap(process).code, 0);
+TEST_F(GuardianTest, LeavesEarlierChildrenAlone) {
+  ProcessSpec spec;
+  spec.name = "test";
+  spec.argv = {"sh", "-c", fmt::format("sleep 1000 & echo $!; exec {} {} --exit 0", DOOMED_LAUNCHER, LAUNCH_GUARDIAN)};
+  spec.environment = {{"PATH", "/usr/bin:/bin"}};
+  run = runner->spawn(spec);
+  const pid_t earlier = read_pid();
+  EXPECT_EQ(end(), 0);
+  EXPECT_EQ(::kill(earlier, 0), 0);
+  ::kill(earlier, SIGKILL);
+  expect_nothing_left();
 }
 
-TEST_F(GuardianTest, TheLaunchGoesOnWhenTheGuardianWasKilled) {
-  Guardian guardian(LAUNCH_GUARDIAN);
-  const UniqueFd pidfd = open_process(guardian.pid());
-  ::kill(guardian.pid(), SIGKILL);
-  ASSERT_TRUE(wait_for(pidfd));
-  guardian.attach(::getpid());
-  guardian.detach(::getpid());
+TEST_F(GuardianTest, CleansUpAfterTheProcessesHaveEndedTheLastCommandFirst) {
+  const std::string done = directory.path() + "/done";
+  start({"--clean-up", "echo 'first one' >> " + done, "--forgotten", "echo no >> " + done, "--clean-up",
+         fmt::format("kill -0 -$(head -n 3 {0}.pids | tail -n 1) 2> /dev/null || echo ended >> {0}", done),
+         fmt::format("echo 0 > {0}.pids; echo 0 >> {0}.pids; echo $$ >> {0}.pids; ", done) + kSleeper},
+        1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  EXPECT_EQ(read_file(done), "ended\nfirst one\n");
+}
+
+TEST_F(GuardianTest, TheSpareEndsWhatLauncherAndGuardianLeaveWhenBothAreKilled) {
+  const std::string done = directory.path() + "/done";
+  start({"--timeouts", "100", "100", "--clean-up", "echo clean > " + done, kDaemon + "exec sleep 1000", kSleeper}, 2);
+  wait_for_spare();
+  ::kill(launcher, SIGKILL);
+  ::kill(guardian, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();
+  EXPECT_EQ(read_file(done), "clean\n");
+}
+
+TEST_F(GuardianTest, TheLauncherIsToldWhenTheGuardianIsKilled) {
+  start({"--timeouts", "100", "100", kDaemon + "exec sleep 1000"}, 1);
+  wait_for_spare();
+  ::kill(guardian, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();  // SIGTERM has ended the launcher, and the spare the rest
+}
+
+TEST_F(GuardianTest, AStoppedGuardianGoesOnWhenTheLauncherIsKilled) {
+  start({kSleeper}, 1);
+  wait_for_spare();
+  ::kill(guardian, SIGSTOP);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();
+}
+
+TEST_F(GuardianTest, HasANewSpareWhenTheSpareWasKilled) {
+  start({kSleeper}, 1);
+  const pid_t first = wait_for_spare();
+  ::kill(first, SIGKILL);
+  const pid_t second = wait_for_spare(first);
+  EXPECT_EQ(::getsid(second), second) << "Ctrl-C does not reach it";
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();
+}
+
+TEST_F(GuardianTest, ReapsOrphans) {
+  start({"--timeouts", "0", "0", "(setsid sh -c 'echo $$' &) ; sleep 1000 & wait"}, 1);
+  // The line of the orphan is the one that the shell was waited for. It ends, and no zombie stays.
+  while (true) {
+    std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", guardian));
+    std::size_t count = 0;
+    for (pid_t child; children >> child;) {
+      ++count;
+    }
+    if (count == 2) {
+      break;  // the launcher and the spare
+    }
+    ::sched_yield();
+  }
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
 }
 
 TEST_F(GuardianTest, SaysWhichProgramIsMissing) {
-  try {
-    const Guardian guardian("/nowhere/launch-guardian");
-    FAIL();
-  } catch (const std::system_error& error) {
-    EXPECT_EQ(std::string(error.what()), "cannot start '/nowhere/launch-guardian': No such file or directory");
-  }
+  ProcessSpec spec;
+  spec.name = "test";
+  spec.argv = {DOOMED_LAUNCHER, "/nowhere/launch-guardian"};
+  run = runner->spawn(spec);
+  EXPECT_EQ(end(), 1);
+  std::string text(200, '\0');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(run.err.get(), text.data(), text.size()))));
+  EXPECT_EQ(text, "launch: error: cannot start '/nowhere/launch-guardian': No such file or directory\n");
 }
 
 }  // namespace

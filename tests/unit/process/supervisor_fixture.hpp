@@ -42,6 +42,7 @@ class EventText {
     return fmt::format("SIG{} after SIG{} and {} s", ::sigabbrev_np(sent.signal), ::sigabbrev_np(sent.escalated_from),
                        std::chrono::duration<double>(sent.waited).count());
   }
+  std::string operator()(const ProcessLeft& left) const { return left.foreign ? "left, foreign" : "left"; }
   std::string operator()(const ProcessDone&) const { return "done"; }
 
  private:

@@ -300,5 +300,15 @@ TEST_F(Supervisor, ReportsGeneratedFilesThatCannotBeWrittenAsAFailedStart) {
   EXPECT_TRUE(runner.spawned().empty());
 }
 
+TEST_F(Supervisor, GivesUpAProcessOfAnotherUserAfterSigkill) {
+  runner.script("a", {{.refuses_signals = true}});
+  supervisor->start(spec("a"));
+  supervisor->shutdown();
+  loop.advance(60s);
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "0.0 a-1 SIGINT", "5.0 a-1 SIGTERM after SIGINT and 5 s",
+                          "10.0 a-1 SIGKILL after SIGTERM and 5 s", "10.0 a-1 left, foreign", "10.0 a-1 done"}));
+  EXPECT_EQ(supervisor->active(), 0U);
+}
+
 }  // namespace
 }  // namespace launch

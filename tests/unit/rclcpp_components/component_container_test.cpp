@@ -91,6 +91,7 @@ TEST_P(ComponentContainer, GivesComponentsThreadsOfTheirOwnOnlyIfIsolated) {
     publisher->publish(std_msgs::msg::String());
     return threads == expected;
   })) << testing::PrintToString(threads);
+  box.end_gently();
 }
 
 TEST_P(ComponentContainer, WrongArgumentsEndItWithAMessage) {

@@ -62,6 +62,7 @@ TEST_F(LedTalker, IsHeardByTheListenerWhileItIsActive) {
   const CommandResult talked = talker.wait();
   EXPECT_EQ(talked.exit_code, 0) << talked.err;
   EXPECT_THAT(talked.err, HasSubstr("[lc_talker]: on shutdown is called from state active.\n"));
+  listener.end_gently();
 }
 
 TEST(LifecycleNodes, ClientLeadsTheTalkerThroughItsLife) {

@@ -14,7 +14,7 @@ namespace {
 // The output of a printer for a small trace with a loss.
 std::string printed(std::unique_ptr<EventPrinter> (*make)(std::FILE*)) {
   const testing::TemporaryDirectory directory;
-  testing::TraceWriter writer(directory.path());
+  testing::TraceWriter writer(directory.path(), {.vppid = 70});
   constexpr std::int64_t kBegin = 1'767'225'600'000'000'000;
   const testing::Thread thread{71, 72, "ping"};
   writer.write(0, kBegin, thread, ros2::RclNodeInit{0xabc, 2, "say \"hi\"", "/"});
@@ -52,36 +52,37 @@ std::string printed(std::unique_ptr<EventPrinter> (*make)(std::FILE*)) {
 }
 
 TEST(EventPrinter, WritesText) {
-  EXPECT_EQ(printed(make_text_printer),
-            "2026-01-01 00:00:00.000000000 +0.000000000 ros2:rcl_node_init cpu 0 ping [71/72] node_handle=0xabc "
-            "rmw_handle=0x2 node_name=\"say \\\"hi\\\"\" namespace=\"/\"\n"
-            "2026-01-01 00:00:00.000000000 LOST 3 events of ros2_0, within 1.500000000 s\n"
-            "2026-01-01 00:00:01.500000000 +1.500000000 own:values cpu 0 ping [71/72] temperature=-2 ratio=0.5 "
-            "bytes=[1 2 3]\n");
+  EXPECT_EQ(
+      printed(make_text_printer),
+      "2026-01-01 00:00:00.000000000 +0.000000000 ros2:rcl_node_init cpu 0 ping [71/72] {vppid=70} node_handle=0xabc "
+      "rmw_handle=0x2 node_name=\"say \\\"hi\\\"\" namespace=\"/\"\n"
+      "2026-01-01 00:00:00.000000000 LOST 3 events of ros2_0, within 1.500000000 s\n"
+      "2026-01-01 00:00:01.500000000 +1.500000000 own:values cpu 0 ping [71/72] {vppid=70} temperature=-2 ratio=0.5 "
+      "bytes=[1 2 3]\n");
 }
 
 TEST(EventPrinter, WritesLinesOfJson) {
   EXPECT_EQ(
       printed(make_json_printer),
       R"({"time_ns":1767225600000000000,"event":"ros2:rcl_node_init","cpu_id":0,"vpid":71,"vtid":72,)"
-      R"("procname":"ping","fields":{"node_handle":2748,"rmw_handle":2,"node_name":"say \"hi\"",)"
+      R"("procname":"ping","contexts":{"vppid":70},"fields":{"node_handle":2748,"rmw_handle":2,"node_name":"say \"hi\"",)"
       R"("namespace":"/"}})"
       "\n"
       R"({"time_ns":1767225600000000000,"lost":"events","count":3,"end_ns":1767225601500000000,"stream":"ros2_0"})"
       "\n"
       R"({"time_ns":1767225601500000000,"event":"own:values","cpu_id":0,"vpid":71,"vtid":72,"procname":"ping",)"
-      R"("fields":{"temperature":-2,"ratio":0.5,"bytes":[1,2,3]}})"
+      R"("contexts":{"vppid":70},"fields":{"temperature":-2,"ratio":0.5,"bytes":[1,2,3]}})"
       "\n");
 }
 
 TEST(EventPrinter, WritesCsv) {
   ::testing::internal::CaptureStderr();
   EXPECT_EQ(printed([](std::FILE* out) {
-              return make_csv_printer(out, {"bytes", "node_name", "ratio"});
+              return make_csv_printer(out, {"bytes", "node_name", "ratio", "vppid"});
             }),
-            "time_ns,event,cpu_id,vpid,vtid,procname,bytes,node_name,ratio\n"
-            "1767225600000000000,ros2:rcl_node_init,0,71,72,ping,,\"say \"\"hi\"\"\",\n"
-            "1767225601500000000,own:values,0,71,72,ping,[1 2 3],,0.5\n");
+            "time_ns,event,cpu_id,vpid,vtid,procname,bytes,node_name,ratio,vppid\n"
+            "1767225600000000000,ros2:rcl_node_init,0,71,72,ping,,\"say \"\"hi\"\"\",,70\n"
+            "1767225601500000000,own:values,0,71,72,ping,[1 2 3],,0.5,70\n");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "launch trace read: warning: 3 events of ros2_0 were lost\n");
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/command.hpp"
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
@@ -51,11 +53,75 @@ TEST_F(LaunchTraceRead, CountsByName) {
   EXPECT_EQ(result.out, "    3 ros2:callback_start\n    2 ros2:rcl_init\n    5 in all\n");
 }
 
+TEST_F(LaunchTraceRead, ChoosesTheEventsOfANode) {
+  const std::string events =
+      "    2 ros2:callback_end\n    2 ros2:callback_start\n    1 ros2:rcl_node_init\n    1 ros2:rcl_publish\n"
+      "    1 ros2:rcl_publisher_init\n    1 ros2:rcl_subscription_init\n    1 ros2:rclcpp_callback_register\n"
+      "    2 ros2:rclcpp_executor_execute\n    1 ros2:rclcpp_publish\n"
+      "    1 ros2:rclcpp_subscription_callback_added\n    1 ros2:rclcpp_subscription_init\n"
+      "    1 ros2:rclcpp_timer_link_node\n    1 ros2:rmw_publish\n    1 ros2:rmw_take\n   17 in all\n";
+  for (const char* name : {"/ping", "ping", "pi?g", "*/pin*"}) {
+    const CommandResult result = read({path(), "--count", "--node", name});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out, events) << name;
+  }
+  EXPECT_EQ(lines(read({path(), "--node", "ping", "--node", "/pong"}).out), lines(read({path(), "--node", "*"}).out));
+  // The columns of CSV take a reading of their own.
+  EXPECT_EQ(lines(read({path(), "--node", "ping", "--format", "csv"}).out), 18u);
+}
+
+TEST_F(LaunchTraceRead, SaysThatThereIsNoSuchNode) {
+  const CommandResult result = read({path(), "--node", "/nobody"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "launch trace read: warning: no node is called '/nobody'; what was read has /ping, /pong\n");
+}
+
 TEST_F(LaunchTraceRead, ChoosesAndLimits) {
   const CommandResult result = read({path(), "--process", "pong", "--where", "topic_name == '/ping'", "--limit", "1"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(lines(result.out), 1u);
   EXPECT_THAT(result.out, HasSubstr(" ros2:rcl_subscription_init cpu 1 pong [72/72] "));
+}
+
+TEST_F(LaunchTraceRead, SaysThatATraceIsStillBeingWritten) {
+  const std::string trace = path() / "trace";
+  const std::ofstream writing(path() / "trace/ros2_0", std::ios::binary | std::ios::app);
+  const CommandResult result = read({path()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "launch trace read: note: the trace '" + trace + "' is still being written; what is complete is read\n");
+  EXPECT_EQ(lines(result.out), testing::ping_pong_sequence().size());
+}
+
+// LTTng writes the description of an event later than the event.
+TEST_F(LaunchTraceRead, SaysThatEventsOfAnOpenTraceAreNotDescribedYet) {
+  const std::filesystem::path trace = path() / "open";
+  testing::TraceWriter writer(trace, {.identity = 4});
+  writer.write(0, 5, testing::kPing, ros2::RclTake{9});
+  writer.write_raw(0, 6, testing::kPing, 77, "");
+  writer.finish();
+  std::ofstream writing(trace / "ros2_0", std::ios::binary | std::ios::app);
+  const CommandResult result = read({trace, "--count"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "    1 ros2:rcl_take\n    1 in all\n");
+  EXPECT_EQ(result.err,
+            "launch trace read: note: the trace '" + trace.string() +
+                "' is still being written; what is complete is read\n"
+                "launch trace read: note: events that LTTng has not described yet are left out; it describes "
+                "them when a traced program ends or the session is stopped\n");
+  writing.close();
+  EXPECT_EQ(read({trace, "--count"}).exit_code, 1) << "a trace that nobody writes lacks them for ever";
+}
+
+TEST_F(LaunchTraceRead, ChoosesByContextsAndPutsThemIntoColumns) {
+  testing::TraceWriter writer(path() / "more", {.identity = 4, .vppid = 70});
+  writer.write(0, 5, testing::kPing, ros2::RclTake{9});
+  writer.finish();
+  const CommandResult result = read({path(), "--where", "vppid == 70", "--format", "csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "time_ns,event,cpu_id,vpid,vtid,procname,message,vppid\n5,ros2:rcl_take,0,71,71,ping,9,70\n");
 }
 
 // The damage at the end of the last packet shows that the rest is not read.

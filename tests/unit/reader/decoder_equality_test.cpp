@@ -10,7 +10,7 @@
 
 #include "tests/support/trace_writer/random_trace.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
-#include "tests/unit/reader/trace_text.hpp"
+#include "tests/support/trace_writer/trace_text.hpp"
 
 namespace tracing {
 namespace {

@@ -21,8 +21,17 @@ using testing::RecordingSink;
 
 class RecordedTrace : public ::testing::Test {
  protected:
+  void run(const std::vector<std::string>& argv) {
+    const auto result = run_command(argv);
+    ASSERT_EQ(result.exit_code, 0) << argv[0] << ' ' << result.err;
+  }
   // Records `traced` in a session whose channel has these options and the contexts vpid, vtid, procname, in this order.
   void record(const std::vector<std::string>& channel_options, const std::vector<std::string>& traced) {
+    ASSERT_NO_FATAL_FAILURE(start(channel_options));
+    ASSERT_NO_FATAL_FAILURE(run(traced));
+    run({"lttng", "destroy"});
+  }
+  void start(const std::vector<std::string>& channel_options) {
     std::vector<std::string> channel{"lttng", "enable-channel", "--userspace", "ros2"};
     channel.insert(channel.end(), channel_options.begin(), channel_options.end());
     for (const std::vector<std::string>& argv : std::vector<std::vector<std::string>>{
@@ -31,11 +40,8 @@ class RecordedTrace : public ::testing::Test {
              channel,
              {"lttng", "enable-event", "--userspace", "--channel=ros2", "ros2:*"},
              {"lttng", "add-context", "--userspace", "--type=vpid", "--type=vtid", "--type=procname"},
-             {"lttng", "start"},
-             traced,
-             {"lttng", "destroy"}}) {
-      const auto result = run_command(argv);
-      ASSERT_EQ(result.exit_code, 0) << argv[0] << ' ' << result.err;
+             {"lttng", "start"}}) {
+      ASSERT_NO_FATAL_FAILURE(run(argv));
     }
   }
 
@@ -114,6 +120,23 @@ TEST_F(RecordedTrace, CountsEveryEventThatLttngDiscarded) {
   }
   EXPECT_GT(lost, 0u);
   EXPECT_EQ(sink.events.size() + lost, kFired + 1) << "and the one rcl_init";
+}
+
+TEST_F(RecordedTrace, IsReadWhileItIsBeingWritten) {
+  ASSERT_NO_FATAL_FAILURE(start({"--subbuf-size=4096", "--num-subbuf=2"}));
+  ASSERT_NO_FATAL_FAILURE(run({TRACED_APP, "20000", "200"}));
+  RecordingSink early;
+  TraceReader open(trace_);
+  EXPECT_EQ(open.open_directories().size(), 1u);
+  open.read(early);  // throws nothing: what is not there yet is no damage
+
+  ASSERT_NO_FATAL_FAILURE(run({"lttng", "destroy"}));
+  RecordingSink late;
+  TraceReader whole(trace_);
+  EXPECT_THAT(whole.open_directories(), IsEmpty());
+  whole.read(late);
+  EXPECT_GT(late.events.size(), 0u);
+  EXPECT_LE(early.events.size(), late.events.size());
 }
 
 TEST_F(RecordedTrace, KnowsTheProcessOfItsOwnBuffers) {

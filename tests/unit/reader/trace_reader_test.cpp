@@ -269,6 +269,78 @@ TEST(TraceReader, GivesTheEventsBeforeDamagedData) {
   EXPECT_EQ(sink.events.size(), 100u);
 }
 
+// A program has the file open for writing, and the end of its last packet is not there yet.
+TEST(TraceReader, GivesTheWholePacketsOfATraceThatIsStillBeingWritten) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  writer.write(0, 100, kPing, ros2::RclTake{5});
+  writer.end_packet(0);
+  writer.write(0, 200, kPing, ros2::RclTake{6});
+  writer.finish();
+  const fs::path stream = directory.path() / "ros2_0";
+  const std::uintmax_t size = fs::file_size(stream);
+  for (const std::uintmax_t missing : {std::uintmax_t{3}, size / 2 - 20}) {
+    fs::resize_file(stream, size - missing);
+    std::ofstream writing(stream, std::ios::binary | std::ios::app);
+    for (const auto decoder : {TraceReader::Decoder::kDirect, TraceReader::Decoder::kAny}) {
+      TraceReader reader(directory.path(), decoder);
+      EXPECT_THAT(reader.open_directories(), ElementsAre(directory.path()));
+      ASSERT_TRUE(reader.next());
+      EXPECT_FALSE(reader.next());
+      EXPECT_TRUE(reader.damage().empty()) << reader.damage()[0];
+    }
+    writing.close();
+    TraceReader reader(directory.path());
+    EXPECT_TRUE(reader.open_directories().empty());
+    while (reader.next()) {
+    }
+    EXPECT_FALSE(reader.damage().empty());
+  }
+}
+
+// LTTng writes the metadata in parts, and some only after the events.
+TEST(TraceReader, ReadsAnOpenTraceAsFarAsItsMetadataGo) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  writer.write(0, 100, kPing, ros2::RclTake{5});
+  writer.end_packet(0);
+  writer.write(0, 200, kPing, ros2::CallbackEnd{6});
+  writer.finish();
+  std::string metadata;
+  std::getline(std::ifstream(directory.path() / "metadata"), metadata, '\0');
+  const std::ofstream writing(directory.path() / "ros2_0", std::ios::binary | std::ios::app);
+  const std::size_t second = metadata.rfind("event {");
+  for (const auto& [size, events] : std::vector<std::pair<std::size_t, std::size_t>>{
+           {metadata.size(), 2}, {second + 40, 1}, {second, 1}, {metadata.find("event {"), 0}, {20, 0}, {0, 0}}) {
+    std::ofstream(directory.path() / "metadata") << metadata.substr(0, size);
+    TraceReader reader(directory.path());
+    std::size_t seen = 0;
+    while (reader.next()) ++seen;
+    EXPECT_EQ(seen, events) << size;
+    EXPECT_TRUE(reader.damage().empty()) << size;
+    EXPECT_EQ(reader.lacks_descriptions(), events < 2) << size;
+  }
+}
+
+TEST(TraceReader, DescribesTheTraces) {
+  const TemporaryDirectory directory;
+  for (const int chunk : {0, 1}) {
+    TraceWriter writer(directory.path() / std::to_string(chunk), {.per_process_vpid = 71, .identity = 3});
+    writer.write(0, 1000 * (chunk + 1), kPing, ros2::RclTake{5});
+    writer.finish();
+  }
+  for (const auto decoder : {TraceReader::Decoder::kDirect, TraceReader::Decoder::kBabeltrace}) {
+    TraceReader reader(directory.path(), decoder);
+    ASSERT_TRUE(reader.next());
+    ASSERT_EQ(reader.traces().size(), 1u);
+    const TraceDescription& trace = reader.traces()[0];
+    EXPECT_EQ(trace.uuid, "11111111-1111-1111-1111-111111111103");
+    EXPECT_EQ(trace.directories.at(0), directory.path() / "0");
+    EXPECT_EQ(trace.environment.at("domain"), ctf::EnvironmentValue("ust"));
+    EXPECT_EQ(trace.environment.at("vpid"), ctf::EnvironmentValue(std::int64_t{71}));
+  }
+}
+
 TEST(TraceReader, LetsAnExceptionOfTheSinkPass) {
   const TemporaryDirectory directory;
   TraceWriter writer(directory.path());

@@ -18,7 +18,9 @@ namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using testing::TemporaryDirectory;
 using testing::TraceWriter;
@@ -71,46 +73,83 @@ Recorded   2026-01-01 00:00:00.000000 UTC, for 507 ms
 Events     57 of 2 processes
 Losses     no events lost
 
-Events by process                              total  ping [71]  pong [72]
-  ros2:callback_end                                3          2          1
-  ros2:callback_start                              3          2          1
-  ros2:rcl_init                                    2          1          1
-  ros2:rcl_node_init                               2          1          1
-  ros2:rcl_publish                                 2          1          1
-  ros2:rcl_publisher_init                          2          1          1
-  ros2:rcl_subscription_init                       2          1          1
-  ros2:rcl_take                                    2          1          1
-  ros2:rcl_timer_init                              1          1          0
-  ros2:rclcpp_callback_register                    3          2          1
-  ros2:rclcpp_executor_execute                     3          2          1
-  ros2:rclcpp_executor_get_next_ready              6          4          2
-  ros2:rclcpp_executor_wait_for_work               3          2          1
-  ros2:rclcpp_publish                              2          1          1
-  ros2:rclcpp_subscription_callback_added          2          1          1
-  ros2:rclcpp_subscription_init                    2          1          1
-  ros2:rclcpp_take                                 2          1          1
-  ros2:rclcpp_timer_callback_added                 1          1          0
-  ros2:rclcpp_timer_link_node                      1          1          0
-  ros2:rmw_publish                                 3          2          1
-  ros2:rmw_publisher_init                          3          2          1
-  ros2:rmw_subscription_init                       3          1          2
-  ros2:rmw_take                                    4          1          3
+Worth a look
+  Slowest chain     /ping -> /pong -> /ping: 3 steps take 342 us, at p99 342 us, at most 342 us
+  Busiest executor  /ping [71]: 0.025 % busy, once for 75.0 us in /ping, timer 500 ms
 
-Callbacks                              count    mean  stddev     min     p50     p90     p99     max
-/ping, ping [71]
-  subscription /pong                       1 30.0 us       - 30.0 us 30.0 us 30.0 us 30.0 us 30.0 us
-    Ping::?(std::shared_ptr<std_msgs::msg::String>)
-  timer 500 ms                             1 60.0 us       - 60.0 us 60.0 us 60.0 us 60.0 us 60.0 us
-    Ping::?()
-/pong, pong [72]
-  subscription /ping                       1 80.0 us       - 80.0 us 80.0 us 80.0 us 80.0 us 80.0 us
-    Pong::on_ping(std_msgs::msg::String const&)
+Chains                                   count     p50     p99     max  reaction p99  age max
+  /ping -> /pong -> /ping  timer 500 ms      1  342 us  342 us  342 us             -   342 us
 
-Topics                  published received  untaken    mean     min     p50     p90     p99     max
-  /ping                         1        1        0  150 us  150 us  150 us  150 us  150 us  150 us
-  /pong                         1        1        0  115 us  115 us  115 us  115 us  115 us  115 us
-  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)
+Callbacks                             rate  count      p50      p99      max  jitter  missed    load
+  /pong, subscription /ping              -      1  80.0 us  80.0 us  80.0 us       -       -  0.02 %
+  /ping, timer 500 ms  Ping::?           -      1  60.0 us  60.0 us  60.0 us       -       -  0.01 %
+  /ping, subscription /pong  Ping::?     -      1  30.0 us  30.0 us  30.0 us       -       -  0.01 %
+
+Topics   rate  sent  received  dropped     p50     p99     max
+  /ping     -     1         1        -  160 us  160 us  160 us
+  /pong     -     1         1        -  120 us  120 us  120 us
+
+Executors       busy  callbacks  longest busy                   in
+  /ping [71]  0.02 %          2       75.0 us  /ping, timer 500 ms
+  /pong [72]  0.02 %          1             -
 )");
+}
+
+TEST_F(LaunchReport, WhatTheVerdictMissesIsRepeated) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+  std::ofstream(directory_.path() / "verdict.json")
+      << R"json({"absent": ["camera [12] was never registered with the session daemon: 4 events that it fired are missing"],
+                 "event_cost": {"ns": 500}, "processes": [{"name": "ping", "pid": 71, "events": 30,
+                 "tracing": {"seconds": 0.000015, "processor_share": 0.00003, "ns_per_callback": 7500}}]})json";
+
+  const Outcome outcome = launch_report(path_);
+
+  EXPECT_NE(
+      outcome.out.find("\nNot there\n  camera [12] was never registered with the session daemon: 4 events that it "
+                       "fired are missing\n\nWorth a look\n"),
+      std::string::npos)
+      << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("\nCost       28.5 us of 500 ns for each event, 0.0056 % of a processor\n"));
+  EXPECT_THAT(
+      launch_report(path_ + " --all").out,
+      HasSubstr("\nCost of tracing                           events        time  of a processor for each callback\n"
+                "  ping [71]                                   30     15.0 us         0.003 %           7.50 us\n"));
+  const nlohmann::json cost = nlohmann::json::parse(launch_report(path_ + " --json").out)["cost"];
+  EXPECT_EQ(cost["ns_per_event"], 500.0);
+  EXPECT_EQ(cost["processes"][0]["vpid"], 71);
+}
+
+TEST_F(LaunchReport, KnowsTheChainsOfTheLaunchFile) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+  std::ofstream(directory_.path() / "chains.json") << R"json({"chains": [
+      {"name": "round", "nodes": ["/ping", "/pong", "/ping"], "budget_ms": 0.3},
+      {"name": "other", "nodes": ["/pong", "/nobody"]}]})json";
+  const Outcome outcome = launch_report(path_);
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out,
+              HasSubstr("\nNot there\n  chain 'other': no callbacks were seen that cause one another in this "
+                        "order\n"));
+  EXPECT_THAT(
+      outcome.out,
+      HasSubstr("  Over budget       round: /ping -> /pong -> /ping\n                    1 of 1 took longer than the "
+                "budget of 300 us, at most 342 us\n"));
+  EXPECT_THAT(outcome.out, ::testing::ContainsRegex("round: /ping -> /pong -> /ping .* 300 us +1 "));
+}
+
+TEST_F(LaunchReport, GoesOnWithoutAFileOfChainsThatIsDamaged) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+  std::ofstream(directory_.path() / "chains.json") << "{";
+  const Outcome outcome = launch_report(path_);
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "launch report: warning: the chains in '" + path_ +
+                             "/chains.json' cannot be read: it has no list 'chains'\n");
+  EXPECT_THAT(outcome.out, HasSubstr("/ping -> /pong -> /ping"));
 }
 
 TEST_F(LaunchReport, SummarisesInOneLine) {
@@ -134,7 +173,7 @@ TEST_F(LaunchReport, GivesStreamsRelativeToTheDirectory) {
   writer.write(0, testing::kPingPongBegin + 600'000'000, testing::kPing, ros2::RclTake{1});
   writer.finish();
   for (const std::string& given : {path_, path_ + "/", "$(realpath --relative-to=. " + path_ + ")"}) {
-    EXPECT_THAT(launch_report(given).out, HasSubstr("\n  ust/uid/0/64-bit/ros2_0  "));
+    EXPECT_THAT(launch_report("--events " + given).out, HasSubstr("\n  ust/uid/0/64-bit/ros2_0  "));
   }
 }
 
@@ -164,6 +203,100 @@ TEST_F(LaunchReport, ReportsWhatComesBeforeDamageAndFails) {
   EXPECT_THAT(outcome.out, HasSubstr("Events     57 of 2 processes\n"));
 }
 
+TEST_F(LaunchReport, WritesFilesInsteadOfAReport) {
+  TraceWriter writer(directory_.path() / "trace");
+  write_ping_pong(writer);
+  writer.finish();
+  const std::string out = path_ + "/out";
+  fs::create_directory(out);
+  const Outcome outcome =
+      launch_report(path_ + "/trace --html " + out + "/a.html --perfetto " + out + "/a.json --csv " + out +
+                    "/csv --sql " + out + "/a.db --dot " + out + "/a.dot --analysis-model " + out + "/model");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out,
+              ::testing::MatchesRegex(out + "/a.html: [0-9.]+ kB\n" + out + "/a.json: [0-9.]+ kB\n" + out + "/csv\n" +
+                                      out + "/a.db: [0-9.]+ kB\n" + out + "/a.dot: [0-9]+ bytes\n" + out + "/model\n"));
+  EXPECT_THAT(content(out + "/a.html"), StartsWith("<!DOCTYPE html>"));
+  EXPECT_EQ(nlohmann::json::parse(content(out + "/a.json"))["otherData"]["begin_ns"], testing::kPingPongBegin);
+  EXPECT_THAT(content(out + "/csv/nodes.csv"), ::testing::EndsWith("/ping\n1,1,/pong\n"));
+  EXPECT_THAT(content(out + "/a.db"), StartsWith("SQLite format 3"));
+  EXPECT_THAT(content(out + "/a.dot"), HasSubstr("digraph system"));
+  EXPECT_THAT(content(out + "/model/callback_instances.csv"), HasSubstr(",80000,False,72\n"));
+}
+
+TEST_F(LaunchReport, WritesAPartOfTheTrace) {
+  TraceWriter writer(directory_.path() / "trace");
+  write_ping_pong(writer);
+  writer.finish();
+  const std::string begin = path_ + "/trace --csv " + path_ + "/csv --from +0.50705";
+  EXPECT_EQ(launch_report(begin).exit_code, 0);
+  EXPECT_THAT(content(path_ + "/csv/callback_instances.csv"),
+              ::testing::MatchesRegex("id,[^\n]*\n0,2,1,1767225600507070000,80000,0,\n"
+                                      "1,0,0,1767225600507220000,30000,0,0\n"));
+  EXPECT_EQ(launch_report(begin + " --to 2026-01-01T00:00:00.5071").exit_code, 0);
+  EXPECT_THAT(content(path_ + "/csv/callback_instances.csv"),
+              ::testing::EndsWith("\n0,2,1,1767225600507070000,80000,0,\n"));
+  EXPECT_EQ(launch_report(path_ + "/trace --analysis-model " + path_ + "/model --from +0.50705 --to +0.5071").out,
+            path_ + "/model\n");
+  EXPECT_THAT(content(path_ + "/model/callback_instances.csv"),
+              ::testing::MatchesRegex("callback_object,[^\n]*\n[0-9]+,1767225600507070000,80000,False,72\n"));
+  EXPECT_THAT(launch_report(begin + " --to never").err, HasSubstr("--to: 'never' is no time; write seconds since "));
+  EXPECT_THAT(launch_report(path_ + "/trace --from +1").err,
+              HasSubstr("--from: goes with the options that write files, such as --html"));
+}
+
+TEST_F(LaunchReport, WritesWhatComesBeforeDamageToFiles) {
+  TraceWriter writer(directory_.path() / "trace");
+  write_ping_pong(writer);
+  writer.write_raw(0, testing::kPingPongBegin + 600'000'000, testing::kPing, 999, "");
+  writer.finish();
+  const Outcome outcome = launch_report(path_ + "/trace --csv " + path_ + "/csv");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out, path_ + "/csv\n");
+  EXPECT_THAT(outcome.err,
+              StartsWith("launch report: error: the trace '" + path_ + "/trace' is damaged or ends early: "));
+  EXPECT_THAT(content(path_ + "/csv/trace.csv"), HasSubstr(",57,0,0,"));
+  EXPECT_THAT(content(path_ + "/csv/trace.csv"), HasSubstr("is damaged or ends early: "));
+}
+
+TEST_F(LaunchReport, SaysWhichFileCannotBeWritten) {
+  TraceWriter writer(directory_.path());
+  write_ping_pong(writer);
+  writer.finish();
+  for (const char* option : {"--html", "--perfetto", "--sql", "--dot"}) {
+    const Outcome outcome = launch_report(path_ + " " + option + " /nowhere/file");
+    EXPECT_EQ(outcome.exit_code, 1) << option;
+    EXPECT_EQ(outcome.out, "") << option;
+    EXPECT_EQ(outcome.err, "launch report: error: cannot write /nowhere/file: No such file or directory\n") << option;
+  }
+  EXPECT_EQ(launch_report(path_ + " --html /dev/full").err,
+            "launch report: error: cannot write /dev/full: No space left on device\n");
+}
+
+TEST_F(LaunchReport, ReadsSeveralDirectoriesAsOneTrace) {
+  for (const std::uint8_t identity : {1, 2}) {
+    TraceWriter writer(directory_.path() / std::to_string(identity), {.identity = identity});
+    write_ping_pong(writer);
+    writer.finish();
+  }
+  const Outcome outcome = launch_report("--summary " + path_ + "/1 " + path_ + "/2 " + path_ + "/1/");
+  EXPECT_EQ(outcome.out, "114 events, 4 processes, none lost\n");
+  EXPECT_EQ(launch_report("--summary " + path_).out, outcome.out);
+}
+
+TEST_F(LaunchReport, ShowsWhatIsChosen) {
+  TraceWriter writer(directory_.path());
+  write_ping_pong(writer);
+  writer.finish();
+  EXPECT_THAT(launch_report(path_ + " --node /pong").out,
+              AllOf(HasSubstr("\n  /pong, subscription /ping "), Not(HasSubstr("\n  /ping, timer"))));
+  EXPECT_THAT(launch_report(path_ + " --top 1").out, HasSubstr("\nCallbacks, 1 of 3 "));
+  EXPECT_THAT(launch_report(path_ + " --chain /ping /pong").out, HasSubstr("\n    /ping on its way "));
+  EXPECT_THAT(launch_report(path_ + " --events").out, HasSubstr("\n  ros2:callback_end "));
+  EXPECT_THAT(launch_report(path_ + " --all").out, HasSubstr("\nWays of messages "));
+}
+
 TEST_F(LaunchReport, FailsWithoutATrace) {
   for (const char* option : {"", " --json", " --summary"}) {
     const Outcome outcome = launch_report(path_ + option);
@@ -181,7 +314,10 @@ TEST_F(LaunchReport, RefusesWrongArguments) {
   EXPECT_EQ(launch_report("").exit_code, 2);
   EXPECT_EQ(launch_report("--unknown " + path_).exit_code, 2);
   EXPECT_EQ(launch_report("--json --summary " + path_).exit_code, 2);
-  EXPECT_EQ(launch_report(path_ + " " + path_).exit_code, 2);
+  EXPECT_EQ(launch_report("--json --html x.html " + path_).exit_code, 2);
+  EXPECT_EQ(launch_report("--summary --dot x.dot " + path_).exit_code, 2);
+  EXPECT_EQ(launch_report("--sort size " + path_).exit_code, 2);
+  EXPECT_EQ(launch_report("--chain /a " + path_).exit_code, 2);
 }
 
 TEST_F(LaunchReport, ExplainsItself) {

@@ -143,7 +143,7 @@ TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2TracingButForItsBuffers) {
   tracer->start(config_named("run"));
   const std::string listing = run_command({"lttng", "list", "run"}).out;
   for (const char* expected : {"Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
-                               "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     inactive",
+                               "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     5000000 us",
                                "Read timer:       50000 us", "Output mode:      mmap"}) {
     EXPECT_THAT(listing, testing::HasSubstr(expected));
   }

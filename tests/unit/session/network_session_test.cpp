@@ -2,14 +2,25 @@
 // Traces that go to a relay daemon, and live sessions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
 
+#include "launcher/base/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/account/loss_account.hpp"
+#include "tracing/account/loss_text.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/plan/trace_error.hpp"
 #include "tracing/session/tracer.hpp"
@@ -38,6 +49,21 @@ struct NetworkSession : testing::Test {
   }
   std::filesystem::path relayed() const { return sandbox.directory() / "relayed"; }
 
+  // That of this test; all sandboxes share the numbers of processes.
+  static void signal_relay_daemon(int number) {
+    int signalled = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      const pid_t pid = static_cast<pid_t>(std::strtol(entry.path().filename().c_str(), nullptr, 10));
+      if (pid <= 0 || launch::read_process_stat(pid).name != "lttng-relayd") continue;
+      std::error_code gone;
+      const auto network = std::filesystem::read_symlink(entry.path() / "ns/net", gone);
+      if (gone || network != std::filesystem::read_symlink("/proc/self/ns/net")) continue;
+      kill(pid, number);
+      ++signalled;
+    }
+    EXPECT_EQ(signalled, 1);
+  }
+
   test_support::Sandbox sandbox;
   std::unique_ptr<tracing::Tracer> tracer = tracing::make_lttng_tracer();
 };
@@ -63,6 +89,46 @@ TEST_F(NetworkSession, ALiveSessionHasItsTimerAndIsRelayed) {
   TracedApp(25, 10).end();
   tracer->finish(live, [] { return false; });
   EXPECT_EQ(read_trace(relayed()).events.at("ros2:rclcpp_callback_register"), 25);
+}
+
+TEST_F(NetworkSession, TheRelayDaemonIsWatched) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  start_relay_daemon();
+  tracer->start(config());
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<std::string> told;
+  const auto next = [&] {
+    std::unique_lock lock(mutex);
+    changed.wait_for(lock, std::chrono::seconds(60), [&] { return !told.empty(); });
+    std::string sentence = told.empty() ? "nothing" : told.front();
+    if (!told.empty()) told.erase(told.begin());
+    return sentence;
+  };
+  std::unique_ptr<tracing::RunWatch> watch = tracer->watch(config(), [&](const std::string& sentence) {
+    const std::lock_guard lock(mutex);
+    told.push_back(sentence);
+    changed.notify_one();
+  });
+  TracedApp app(25, 10);
+  signal_relay_daemon(SIGSTOP);
+  EXPECT_EQ(next(),
+            "the relay daemon at net://127.0.0.1 takes no data: events are lost when the buffers are full; see whether "
+            "it is stopped");
+  signal_relay_daemon(SIGKILL);
+  EXPECT_EQ(next(),
+            "the relay daemon at net://127.0.0.1 is gone: the trace there ends here, and what is recorded from now on "
+            "is lost; the system goes on");
+  watch.reset();
+  EXPECT_TRUE(told.empty()) << "each is said once";
+  app.end();
+  const tracing::LossAccount losses = tracer->finish(config(), [] { return false; });
+  EXPECT_FALSE(losses.complete());
+  EXPECT_TRUE(losses.has_losses());
+  EXPECT_THAT(tracing::describe_losses(losses),
+              testing::HasSubstr("the relay daemon was gone before the session ended: what was recorded since then is "
+                                 "lost"));
+  EXPECT_EQ(trace_test::listed_sessions(), "");
 }
 
 TEST_F(NetworkSession, SnapshotsAreRelayed) {

@@ -10,8 +10,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <mutex>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -124,6 +128,75 @@ TEST_F(RobustControl, AKilledConsumerIsAnErrorAndBlocksNoApplication) {
   EXPECT_NE(error, "no error");
   // Sometimes LTTng's daemon ends with its consumer: then there is no session, either.
   EXPECT_THAT(listed_sessions(), testing::AnyOf("", HasSubstr("No session daemon is available")));
+  signal(SIGPIPE, SIG_IGN);  // as launch does; LTTng's library writes to a daemon that may have ended
+  const tracing::SetupReport next = tracer->start(config("next"));
+  EXPECT_TRUE(next.started_daemon ||
+              next.warnings == std::vector<std::string>{"LTTng's consumer had been killed; the session daemon, which a "
+                                                        "launch had started, was restarted"});
+  TracedApp(10, 10).end();
+  tracer->finish(config("next"), never);
+  EXPECT_EQ(read_trace(config("next").trace_directory()).events.at("ros2:rclcpp_callback_register"), 10);
+}
+
+// A daemon that somebody else has started, or that others use, is not ended.
+TEST_F(RobustControl, AfterAKilledConsumerADaemonOfOthersIsToldOf) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
+  tracer->start(config());
+  const pid_t daemon = tracing::session_daemon_pid();
+  kill_processes("lttng-consumerd");
+  error_of([this] { tracer->finish(config(), never); });
+  signal(SIGPIPE, SIG_IGN);
+  const std::string error = error_of([this] { tracer->start(config("next")); });
+  // Sometimes LTTng's daemon ends with its consumer.
+  if (processes("lttng-sessiond") == std::vector<pid_t>{daemon}) {
+    EXPECT_THAT(error,
+                HasSubstr("restart lttng-sessiond: its consumer has ended, and it starts no other one. `kill " +
+                          std::to_string(daemon) + "` ends it with all its sessions; the next trace starts a new one"));
+  }
+}
+
+TEST_F(RobustControl, WhatARecordingNeedsIsWatched) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  tracer->start(config());
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<std::string> told;
+  const auto next = [&] {
+    std::unique_lock lock(mutex);
+    changed.wait_for(lock, std::chrono::seconds(30), [&] { return !told.empty(); });
+    std::string sentence = told.empty() ? "nothing" : told.front();
+    if (!told.empty()) told.erase(told.begin());
+    return sentence;
+  };
+  std::unique_ptr<tracing::RunWatch> watch = tracer->watch(config(), [&](const std::string& sentence) {
+    const std::lock_guard lock(mutex);
+    told.push_back(sentence);
+    changed.notify_one();
+  });
+  const pid_t daemon = tracing::session_daemon_pid();
+  const pid_t consumer = processes("lttng-consumerd").at(0);
+  kill(daemon, SIGSTOP);
+  EXPECT_EQ(next(), "the LTTng session daemon (process " + std::to_string(daemon) +
+                        ") is stopped: processes that start now are not recorded; continue it with `kill -CONT " +
+                        std::to_string(daemon) + "`");
+  kill(daemon, SIGCONT);
+  kill(consumer, SIGSTOP);
+  EXPECT_EQ(next(), "LTTng's consumer (process " + std::to_string(consumer) +
+                        ") is stopped: events are lost when the buffers are full; continue it with `kill -CONT " +
+                        std::to_string(consumer) + "`");
+  kill(consumer, SIGKILL);
+  EXPECT_EQ(next(), "LTTng's consumer (process " + std::to_string(consumer) +
+                        ") has ended: nothing is written any more, and the trace ends here; the next trace starts "
+                        "another one");
+  kill(daemon, SIGKILL);
+  EXPECT_EQ(next(), "the LTTng session daemon (process " + std::to_string(daemon) +
+                        ") has ended: nothing is recorded any more, and the trace ends here; the system goes on");
+  watch.reset();
+  EXPECT_TRUE(told.empty()) << "each is said once";
+  EXPECT_THAT(error_of([this] { tracer->finish(config(), never); }), HasSubstr("run"));
+  EXPECT_THAT(test_support::read_file(fs::path(config().trace_directory()) / "verdict.json"),
+              HasSubstr("\"complete\": false"));
 }
 
 TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndDoesNotBlock) {

@@ -74,7 +74,7 @@ TEST_F(SessionAttributes, DefaultsOfTheUserspaceChannel) {
   EXPECT_EQ(channel.subbuffer_size, defaults.subbuffer_size_ust);
   EXPECT_EQ(channel.subbuffer_count, defaults.subbuffer_count_ust);
   EXPECT_EQ(channel.read_timer, defaults.read_timer_ust);
-  EXPECT_EQ(channel.switch_timer, 0u);
+  EXPECT_EQ(channel.switch_timer, 5'000'000u);
   EXPECT_EQ(channel.blocking_timeout, 0);
   EXPECT_EQ(channel.tracefile_size, 0u);
   EXPECT_EQ(channel.tracefile_count, 0u);
@@ -119,6 +119,7 @@ TEST_F(SessionAttributes, SnapshotSessionsOverwrite) {
   const ListedSession session = session_of(asked);
   EXPECT_TRUE(session.snapshot);
   EXPECT_TRUE(session.channel("ros2").overwrite);
+  EXPECT_EQ(session.channel("ros2").switch_timer, 0u) << "a part-full sub-buffer would be room that is wasted";
   EXPECT_EQ(session.channel("ros2").subbuffer_count, asked.subbuffer_count_ust);
 }
 

@@ -2,9 +2,16 @@
 // The counts of fired events that processes publish, as the launcher reads them.
 #include "tracing/account/event_counters.hpp"
 
+#include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -81,6 +88,53 @@ TEST_F(EventCountersOfProcesses, AreRightForMoreThreadsThanBlocksAndForTheChildO
 TEST_F(EventCountersOfProcesses, ADirectoryThatIsNotThereDisturbsNobody) {
   EXPECT_EQ(run_command({.argv = {FIRE_ALL_EVENTS}, .environment = {{"TRACETOOLS_EVENT_COUNTERS", "/no/where"}}}).err,
             "");
+}
+
+TEST_F(EventCountersOfProcesses, OfProcessesThatHaveEndedArePutAwayAndCountedOnce) {
+  record("ros2:*,ros2_ext:*");
+  run(FIRE_ALL_EVENTS);
+  test_support::RunningCommand living(
+      {.argv = {OBJECTS_ON_COMMAND}, .environment = {{"TRACETOOLS_EVENT_COUNTERS", directory_.string()}}});
+  living.write("make 1\n");
+  ASSERT_TRUE(living.wait_for_output("make 1\n"));
+  tracing::EventCounters open(directory_);
+  const std::vector<EventCounts> before = open.read();
+  ASSERT_EQ(before.size(), 2u);
+
+  tracing::EventCounters::put_ended_processes_away(directory_);
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_)) files.push_back(entry.path().filename());
+  EXPECT_THAT(files,
+              testing::UnorderedElementsAre("ended.json", testing::StartsWith(std::to_string(living.pid()) + "-")));
+  for (const std::vector<EventCounts>& after : {open.read(), tracing::EventCounters(directory_).read()}) {
+    ASSERT_EQ(after.size(), 2u);
+    EXPECT_EQ(after[0].process, "fire_all_events");
+    EXPECT_EQ(after[0].begin, before[0].begin);
+    EXPECT_EQ(after[0].end, before[0].end);
+    EXPECT_EQ(after[0].events, before[0].events);
+  }
+
+  living.send_signal(SIGKILL);
+  living.wait();
+  tracing::EventCounters::put_ended_processes_away(directory_);
+  const std::vector<EventCounts> after = open.read();
+  ASSERT_EQ(after.size(), 2u);
+  EXPECT_EQ(after[1].events, (std::map<std::string, std::uint64_t>{{"ros2:rcl_timer_init", 1}}));
+  EXPECT_EQ(after[1].end, 0u) << "it was killed";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 1) << "only ended.json is left";
+}
+
+// As of a process in another container, whose number here is another one.
+TEST_F(EventCountersOfProcesses, WhoseFileIsLockedAreNotPutAway) {
+  run(FIRE_ALL_EVENTS);
+  const std::filesystem::path file = std::filesystem::directory_iterator(directory_)->path();
+  const int locked = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(locked, LOCK_SH), 0);
+  tracing::EventCounters::put_ended_processes_away(directory_);
+  EXPECT_TRUE(std::filesystem::exists(file));
+  close(locked);
+  tracing::EventCounters::put_ended_processes_away(directory_);
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(EventCountersOfProcesses, FilesThatAreNoneAreLeftOut) {

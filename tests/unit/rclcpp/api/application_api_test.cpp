@@ -140,10 +140,14 @@ TEST_F(Application, DrivesClocksOfItsOwnFromSimulatedTime) {
   const auto clock = std::make_shared<rclcpp::Clock>(RCL_ROS_TIME);
   source.attachClock(clock);
   EXPECT_FALSE(clock->ros_time_is_active());
-  EXPECT_THROW(source.attachClock(std::make_shared<rclcpp::Clock>(RCL_STEADY_TIME)), std::invalid_argument);
+  const auto steady = std::make_shared<rclcpp::Clock>(RCL_STEADY_TIME);
+  source.attachClock(steady);
+  EXPECT_FALSE(node_->set_parameter(rclcpp::Parameter("use_sim_time", true)).successful);
+  source.detachClock(steady);
 
-  node_->set_parameter(rclcpp::Parameter("use_sim_time", true));
+  ASSERT_TRUE(node_->set_parameter(rclcpp::Parameter("use_sim_time", true)).successful);
   EXPECT_TRUE(clock->ros_time_is_active());
+  EXPECT_THROW(source.attachClock(steady), std::invalid_argument);
   const auto publisher = node_->create_publisher<rosgraph_msgs::msg::Clock>("/clock", rclcpp::QoS(1));
   rosgraph_msgs::msg::Clock time;
   time.clock.sec = 42;

@@ -33,9 +33,15 @@ TEST(ParameterValue, RefusesAnotherType) {
   }
 }
 
+TEST(Parameter, IsNotReadAsAnotherParameterType) {
+  const Parameter parameter("speed", 1);
+  EXPECT_THROW((void)parameter.as_double(), rclcpp::ParameterTypeException);
+  EXPECT_THROW((void)parameter.get_value<rclcpp::PARAMETER_DOUBLE>(), rclcpp::ParameterTypeException);
+}
+
 TEST(Parameter, RefusesAnotherTypeWithItsName) {
   try {
-    (void)Parameter("speed", 1).as_double();
+    (void)Parameter("speed", 1).get_value<double>();
     FAIL() << "no exception";
   } catch (const rclcpp::exceptions::InvalidParameterTypeException& error) {
     EXPECT_STREQ(error.what(), "parameter 'speed' has invalid type: expected [double] got [integer]");

@@ -86,4 +86,72 @@ TEST_F(TimeSource, HasAThreadWhileTimeIsSimulated) {
   EXPECT_FALSE(source.clock_thread_is_joinable());
 }
 
+// Sleeps in another thread, until `until` on the clock of `node`.
+std::future<bool> sleeping(const rclcpp::Node::SharedPtr& node, const rclcpp::Time& until) {
+  return std::async(std::launch::async, [clock = node->get_clock(), until] { return clock->sleep_until(until); });
+}
+
+bool is_ready(const std::future<bool>& future) {
+  return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+constexpr int32_t kHour = 3600;  // seconds
+
+TEST_F(TimeSource, AnHourOfSimulatedTimeIsSleptAsFastAsItPasses) {
+  const auto node = std::make_shared<rclcpp::Node>("sleeper", simulated());
+  simulate(5, [&] { return node->now().seconds() == 5; });
+  auto slept = std::async(std::launch::async, [&] { return node->get_clock()->sleep_for(rclcpp::Duration(kHour, 0)); });
+  // The thread may look at the clock late, hence more than an hour.
+  for (int32_t now = 5 + kHour; !is_ready(slept); now += kHour) {
+    simulate(now, [&] { return is_ready(slept) || node->now().seconds() == now; });
+  }
+  EXPECT_TRUE(slept.get());
+}
+
+TEST_F(TimeSource, ASleepEndsWhenSimulatedTimeBeginsOrEnds) {
+  const auto node = std::make_shared<rclcpp::Node>("switched");
+  auto slept = sleeping(node, node->now() + rclcpp::Duration(kHour, 0));
+  bool on = false;
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (!is_ready(slept)) {  // the first change may come before the sleep
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    on = !on;
+    ASSERT_TRUE(node->set_parameter(rclcpp::Parameter("use_sim_time", on)).successful);
+    slept.wait_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_FALSE(slept.get());
+}
+
+TEST_F(TimeSource, ASleepIsCancelledNowOrWhenItBegins) {
+  for (const bool simulate_time : {false, true}) {
+    const auto node = std::make_shared<rclcpp::Node>("cancelled", simulate_time ? simulated() : rclcpp::NodeOptions());
+    auto slept = sleeping(node, node->now() + rclcpp::Duration(kHour, 0));
+    node->get_clock()->cancel_sleep_or_wait();
+    EXPECT_FALSE(slept.get());
+  }
+}
+
+TEST_F(TimeSource, TheEndOfTheContextEndsASleep) {
+  const auto node = std::make_shared<rclcpp::Node>("sleeper", simulated());
+  rclcpp::Rate rate(1.0 / kHour, node->get_clock());
+  auto slept = std::async(std::launch::async, [&] { return rate.sleep(); });
+  rclcpp::shutdown();
+  EXPECT_FALSE(slept.get());
+  EXPECT_FALSE(rate.sleep()) << "a loop that has just seen ok() must not end with an exception";
+}
+
+TEST_F(TimeSource, ASteadyClockCannotBeSimulated) {
+  const auto steady = rclcpp::NodeOptions().clock_type(RCL_STEADY_TIME);
+  const auto node = std::make_shared<rclcpp::Node>("steady", steady);
+  const auto result = node->set_parameter(rclcpp::Parameter("use_sim_time", true));
+  EXPECT_FALSE(result.successful);
+  EXPECT_EQ(result.reason, "use_sim_time parameter can't be true while clocks are not all of RCL_ROS_TIME type");
+  try {
+    rclcpp::Node("never", simulated().clock_type(RCL_STEADY_TIME));
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "ros_time_active_ can't be true while clock is not of RCL_ROS_TIME type");
+  }
+}
+
 }  // namespace

@@ -32,7 +32,8 @@ TEST(Duration, RefusesOverflow) {
   EXPECT_THROW(Duration::from_nanoseconds(-kMax) - Duration(2, 0), std::underflow_error);
   EXPECT_THROW(Duration::from_nanoseconds(kMax) * 2.0, std::overflow_error);
   EXPECT_THROW(Duration::from_nanoseconds(kMax) * -2.0, std::underflow_error);
-  EXPECT_THROW(Duration(1, 0) * std::numeric_limits<double>::quiet_NaN(), std::overflow_error);
+  EXPECT_THROW(Duration(1, 0) * std::numeric_limits<double>::quiet_NaN(), std::runtime_error);
+  EXPECT_THROW(Duration(1, 0) * std::numeric_limits<double>::infinity(), std::runtime_error);
   EXPECT_EQ(Duration(1, 0) * 2.5, Duration(2, 500'000'000));
 }
 
@@ -53,10 +54,43 @@ TEST(Time, CalculatesOnOneClock) {
   EXPECT_EQ(message.nanosec, 5u);
 }
 
-TEST(Time, RefusesNegativeTimesAndOverflow) {
+TEST(Time, RefusesNegativeSecondsAndOverflow) {
   EXPECT_THROW(Time(-1, 0), std::runtime_error);
-  EXPECT_THROW(Time(1) - Duration(1, 0), std::runtime_error);
+  builtin_interfaces::msg::Time message;
+  message.sec = -1;
+  EXPECT_THROW((void)Time(message), std::runtime_error);
   EXPECT_THROW(Time(kMax) + Duration(0, 1), std::overflow_error);
+  try {
+    (void)(Time(-kMax) - Duration(2, 0));
+    FAIL() << "no exception";
+  } catch (const std::underflow_error& error) {
+    EXPECT_STREQ(error.what(), "time subtraction leads to int64_t underflow");
+  }
+}
+
+TEST(Time, IsNegativeAfterArithmetic) {
+  const Time before = Time(2, 0) - Duration(5, 0);
+  EXPECT_EQ(before.nanoseconds(), -3'000'000'000);
+  EXPECT_EQ(Time(-1).nanoseconds(), -1);
+  const builtin_interfaces::msg::Time message = before - Duration(0, 1);
+  EXPECT_EQ(message.sec, -4);
+  EXPECT_EQ(message.nanosec, 999'999'999u);
+}
+
+TEST(Time, BecomesTheLargestMessageIfItIsLarger) {
+  const builtin_interfaces::msg::Time last = Time::max(RCL_ROS_TIME);
+  EXPECT_EQ(last.sec, std::numeric_limits<int32_t>::max());
+  EXPECT_EQ(last.nanosec, 999'999'999u);
+  EXPECT_EQ(Time::max(RCL_ROS_TIME).get_clock_type(), RCL_ROS_TIME);
+  const builtin_interfaces::msg::Time later = Time::max() + Duration(0, 1);
+  EXPECT_EQ(later.sec, std::numeric_limits<int32_t>::max());
+  EXPECT_EQ(later.nanosec, std::numeric_limits<uint32_t>::max());
+  const builtin_interfaces::msg::Duration longest = Duration::max();
+  EXPECT_EQ(longest.sec, std::numeric_limits<int32_t>::max());
+  EXPECT_EQ(longest.nanosec, 999'999'999u);
+  const builtin_interfaces::msg::Duration smallest = Duration::from_nanoseconds(-kMax);
+  EXPECT_EQ(smallest.sec, std::numeric_limits<int32_t>::min());
+  EXPECT_EQ(smallest.nanosec, 0u);
 }
 
 TEST(Time, RefusesToMixClocks) {
@@ -64,7 +98,12 @@ TEST(Time, RefusesToMixClocks) {
   const Time steady(1, 0, RCL_STEADY_TIME);
   EXPECT_THROW((void)(system == steady), std::runtime_error);
   EXPECT_THROW((void)(system < steady), std::runtime_error);
-  EXPECT_THROW(system - steady, std::runtime_error);
+  try {
+    (void)(system - steady);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "can't subtract times with different time sources [2 != 3]");
+  }
 }
 
 TEST(Clock, GoesForwardAndKnowsItsType) {

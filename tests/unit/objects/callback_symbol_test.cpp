@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/analysis/callback_symbol.hpp"
+#include "tracing/objects/callback_symbol.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +30,21 @@ TEST(CallbackSymbol, LeavesOthersAsTheyAre) {
   EXPECT_EQ(readable_symbol("std::_Bind<void (*(int))(int)>"), "void (*(int))(int)");
   EXPECT_EQ(readable_symbol("std::_Bind<broken (A::*("), "std::_Bind<broken (A::*(");
   EXPECT_EQ(readable_symbol(""), "");
+}
+
+TEST(ShortSymbol, LeavesClassAndMethod) {
+  EXPECT_EQ(short_symbol("Ping::?()"), "Ping::?");
+  EXPECT_EQ(short_symbol("robot::Ping::on_pong(std::shared_ptr<std_msgs::msg::String>)"), "Ping::on_pong");
+  EXPECT_EQ(short_symbol("void filter::Fusion<int, float>::handle<long>(std::vector<int> const&) const"),
+            "Fusion::handle");
+  EXPECT_EQ(short_symbol("main"), "main");
+  EXPECT_EQ(short_symbol(""), "");
+}
+
+TEST(ShortSymbol, NamesALambdaAfterItsFunction) {
+  EXPECT_EQ(short_symbol("robot::Ping::Ping(rclcpp::NodeOptions const&)::{lambda(int)#1}"), "Ping::Ping lambda");
+  EXPECT_EQ(short_symbol("main::{lambda()#2}::operator()() const::{lambda(int)#1}"), "main lambda");
+  EXPECT_EQ(short_symbol("(anonymous namespace)::tick()"), "tick");
 }
 
 }  // namespace

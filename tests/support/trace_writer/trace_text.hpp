@@ -41,6 +41,9 @@ inline std::vector<std::string> trace_text(const std::filesystem::path& director
       for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) {
         line += fmt::format(" {}={}", event.event_class->fields[i], text_of(event.field(i)));
       }
+      for (std::size_t i = 0; i < event.event_class->contexts.size(); ++i) {
+        line += fmt::format(" context {}={}", event.event_class->contexts[i], text_of(event.context(i)));
+      }
       lines.emplace_back(event.timestamp_ns, std::move(line));
     }
     void on_loss(const Loss& loss) override {

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A default that is none of the choices."""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('mode', default_value='quick', choices=['fast', 'slow']),
+        Node(package='demo', executable='talker'),
+    ])

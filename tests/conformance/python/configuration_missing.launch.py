@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A configuration that nobody declares, without a default."""
+
+from launch import LaunchDescription
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package='demo', executable='talker', arguments=[LaunchConfiguration('nowhere')]),
+    ])

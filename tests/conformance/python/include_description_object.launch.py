@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An include of a description that another file gave as an object."""
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        IncludeLaunchDescription(PythonLaunchDescriptionSource(get_package_share_directory(
+            'demo') + '/launch/one.launch.py'),
+                                 condition=IfCondition('true')),
+        IncludeLaunchDescription(PythonLaunchDescriptionSource(get_package_share_directory(
+            'demo') + '/launch/one.launch.py'),
+                                 condition=IfCondition('false')),
+    ])

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What became of messages: the parts of their latency, and the places where they got lost.
+#include <gtest/gtest.h>
+
+#include "tests/unit/analysis/ros2_feed.hpp"
+
+namespace tracing {
+namespace {
+
+using testing::Feed;
+
+// Process 71 publishes /topic (rmw 1, rcl 11); process 72 subscribes (rmw 2, callback 0xcb) with room for two messages.
+class Deliveries : public ::testing::Test {
+ protected:
+  Deliveries() {
+    feed.in(71, 71)(ros2::RclNodeInit{1, 0, "talker", "/"})(ros2::RmwPublisherInit{1, {}});
+    feed(ros2::RclPublisherInit{11, 1, 1, "/topic", 10});
+    feed.in(72, 72)(ros2::RclNodeInit{1, 0, "listener", "/"})(ros2::RmwSubscriptionInit{2, {}});
+    feed(ros2::RclSubscriptionInit{12, 1, 2, "/topic", 2});
+    feed(ros2::RclcppSubscriptionInit{12, 22})(ros2::RclcppSubscriptionCallbackAdded{22, 0xcb});
+  }
+  void publish(std::int64_t time_ns, std::int64_t number) {
+    feed.in(71, 71).at(time_ns)(ros2::RmwPublish{1, 9, number});
+  }
+  void receive(std::int64_t time_ns, std::int64_t number) {
+    feed.in(72, 72).at(time_ns)(ros2::RmwTake{2, 9, number, true});
+    feed.at(time_ns + 5)(ros2::CallbackStart{0xcb, false}).at(time_ns + 9)(ros2::CallbackEnd{0xcb});
+  }
+  SubscriptionResult result() {
+    const Ros2Results results = feed.results();
+    EXPECT_EQ(results.subscriptions.size(), 1u);
+    return results.subscriptions.at(0);
+  }
+  Feed feed;
+};
+
+TEST_F(Deliveries, DivideTheTimeOfAMessageThatTheExecutorWaitsFor) {
+  feed.in(72, 72).at(1'000)(ros2::RclcppExecutorWaitForWork{-1});
+  feed.in(71, 71).at(2'000)(ros2::RclcppPublish{9}).at(2'001)(ros2::RclPublish{11, 9});
+  feed.at(2'004)(ros2::RmwPublish{1, 9, 777});
+  feed.in(72, 72).at(2'104)(ros2::RclcppExecutorGetNextReady{}).at(2'124)(ros2::RmwTake{2, 8, 777, true});
+  feed.at(2'130)(ros2::CallbackStart{0xcb, false}).at(2'150)(ros2::CallbackEnd{0xcb});
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.node, "/listener");
+  EXPECT_EQ(subscription.topic, "/topic");
+  EXPECT_EQ(subscription.queue_depth, 2u);
+  EXPECT_EQ(subscription.rclcpp.max_ns, 1);
+  EXPECT_EQ(subscription.rcl.max_ns, 3);
+  EXPECT_EQ(subscription.transport.max_ns, 100);
+  EXPECT_EQ(subscription.executor.max_ns, 20);
+  EXPECT_EQ(subscription.take.max_ns, 6);
+  EXPECT_EQ(subscription.latency.max_ns, 1 + 3 + 100 + 20 + 6);
+}
+
+TEST_F(Deliveries, CountTheTimeOfABusyExecutorForIt) {
+  feed.in(72, 72).at(1'000)(ros2::RclcppExecutorWaitForWork{-1}).at(1'100)(ros2::RclcppExecutorGetNextReady{});
+  publish(2'000, 777);
+  feed.in(72, 72).at(5'000)(ros2::RclcppExecutorWaitForWork{-1}).at(5'010)(ros2::RclcppExecutorGetNextReady{});
+  receive(5'030, 777);
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.transport.max_ns, 10);
+  EXPECT_EQ(subscription.executor.max_ns, 3'000 + 20);
+  EXPECT_EQ(subscription.latency.max_ns, 3'035);
+}
+
+TEST_F(Deliveries, DontDivideTheTimeWithoutAnExecutorThatTells) {
+  publish(2'000, 777);
+  receive(2'100, 777);
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.latency.max_ns, 105);
+  EXPECT_EQ(subscription.transport.count, 0u);
+  EXPECT_EQ(subscription.executor.count, 0u);
+  EXPECT_EQ(subscription.take.max_ns, 5);
+}
+
+TEST_F(Deliveries, TellWhereMessagesGotLost) {
+  publish(100, 1);  // before the subscription is connected
+  publish(200, 2);
+  receive(250, 2);
+  for (const std::int64_t number : {3, 4, 5, 6}) publish(300 + number, number);
+  receive(400, 5);  // 3 and 4 did not fit any more
+  receive(420, 6);
+  publish(500, 7);
+  publish(600, 8);
+  receive(650, 8);  // 7 would have fitted
+  feed.in(72, 72).at(700)(ros2::RmwTake{2, 9, 8, true})(ros2::RclcppExecutorWaitForWork{-1});
+  publish(800, 9);
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.received, 5u);
+  EXPECT_EQ(subscription.delivered, 4u);
+  EXPECT_EQ(subscription.not_executed, 1u);
+  EXPECT_EQ(subscription.before_first, 1u);
+  EXPECT_EQ(subscription.overwritten, 2u);
+  EXPECT_EQ(subscription.lost, 1u);
+  EXPECT_EQ(subscription.after_last, 1u);
+  EXPECT_EQ(subscription.dropped(), 4u);
+}
+
+TEST_F(Deliveries, GiveTheRateOfATopic) {
+  for (int i = 0; i < 11; ++i) publish(1'000'000'000 + i * 100'000'000, i + 1);
+  const Ros2Results results = feed.results();
+  const TopicResult& topic = testing::topic(results, "/topic");
+  EXPECT_DOUBLE_EQ(topic.rate_hz, 10);
+  EXPECT_EQ(topic.interval.count, 10u);
+  EXPECT_EQ(topic.interval.min_ns, 100'000'000);
+}
+
+}  // namespace
+}  // namespace tracing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// How busy the threads of executors are.
+#include <gtest/gtest.h>
+
+#include "tests/unit/analysis/ros2_feed.hpp"
+
+namespace tracing {
+namespace {
+
+using testing::Feed;
+
+TEST(ExecutorLoad, IsTheTimeWithoutWaiting) {
+  Feed feed;
+  feed(ros2::RclNodeInit{1, 0, "busy", "/"})(ros2::RclTimerInit{3, 100})(ros2::RclcppTimerCallbackAdded{3, 0xee});
+  feed(ros2::RclcppTimerLinkNode{3, 1});
+  feed.at(1'000)(ros2::RclcppExecutorWaitForWork{-1}).at(1'600)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'610)(ros2::CallbackStart{0xee, false}).at(1'650)(ros2::CallbackEnd{0xee});
+  feed.at(1'660)(ros2::RclcppExecutorWaitForWork{-1}).at(1'700)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'710)(ros2::CallbackStart{0xee, false}).at(1'990)(ros2::CallbackEnd{0xee});
+  feed.at(1'995)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'996)(ros2::RclcppExecutorWaitForWork{-1}).at(2'000)(ros2::RclcppExecutorGetNextReady{});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.executors.size(), 1u);
+  const ExecutorResult& executor = results.executors[0];
+  EXPECT_EQ(executor.vtid, 71);
+  EXPECT_EQ(executor.span_ns, 1'000);
+  EXPECT_EQ(executor.callbacks, 2u);
+  EXPECT_EQ(executor.callback_ns, 40 + 280);
+  EXPECT_EQ(executor.waited_ns, 600 + 40 + 4);
+  EXPECT_DOUBLE_EQ(executor.utilisation, 0.356);
+  EXPECT_EQ(executor.longest_busy_ns, 296);
+  EXPECT_EQ(executor.longest_busy_begin_ns, 1'700);
+  EXPECT_EQ(executor.longest_callback, "/busy, timer 100 ns");
+}
+
+TEST(ExecutorLoad, IsTheTimeInCallbacksOfAnExecutorThatRecordsNoWaits) {
+  Feed feed;
+  feed.at(1'000)(ros2::CallbackStart{1, false}).at(1'100)(ros2::CallbackStart{2, false});
+  feed.at(1'200)(ros2::CallbackEnd{2}).at(1'250)(ros2::CallbackEnd{1});
+  feed.at(1'900)(ros2::CallbackStart{2, false}).at(2'000)(ros2::CallbackEnd{2});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.executors.size(), 1u);
+  EXPECT_EQ(results.executors[0].callbacks, 2u);
+  EXPECT_EQ(results.executors[0].callback_ns, 350);
+  EXPECT_EQ(results.executors[0].waited_ns, std::nullopt);
+  EXPECT_DOUBLE_EQ(results.executors[0].utilisation, 0.35);
+}
+
+}  // namespace
+}  // namespace tracing

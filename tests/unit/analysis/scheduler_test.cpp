@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the time of callbacks goes, according to the kernel's scheduler.
+#include <gtest/gtest.h>
+
+#include "tests/support/trace_writer/scheduler_writer.hpp"
+#include "tests/support/trace_writer/temporary_directory.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/analysis/trace_analysis.hpp"
+
+namespace tracing {
+namespace {
+
+using testing::TemporaryDirectory;
+using testing::Thread;
+using testing::TraceWriter;
+
+constexpr std::int64_t kEpoch = 1'767'225'600'000'000'000;
+constexpr Thread kNode{71, 74, "node"};
+constexpr Thread kStress{90, 90, "stress"};
+constexpr Thread kIdle{0, 0, "swapper/0"};
+
+class Scheduler : public ::testing::Test {
+ protected:
+  // `state`: 0 when the previous thread could go on.
+  void switches(std::int64_t time, const Thread& previous, std::int64_t state, const Thread& next) {
+    scheduler_.switches(0, kEpoch + time, previous, state, next);
+  }
+  void wakes(std::int64_t time, const Thread& waker, const Thread& woken) {
+    scheduler_.wakes(0, kEpoch + time, waker, woken);
+  }
+  template <class Struct>
+  void writes(std::int64_t time, const Struct& event) {
+    writer_.write(0, kEpoch + time, kNode, event);
+  }
+  CallbackResult result() {
+    writer_.finish();
+    TraceAnalysis analysis(&sink_);
+    TraceReader(directory_.path()).read(analysis);
+    return analysis.finish().ros2.callbacks.at(0);
+  }
+
+  struct Intervals : ExecutionSink {
+    void on_thread_state(const ThreadInterval& interval) override {
+      if (interval.thread.vtid == kNode.vtid) states.push_back(interval.state);
+    }
+    std::vector<ThreadInterval::State> states;
+  };
+  Intervals sink_;
+
+ private:
+  TemporaryDirectory directory_;
+  TraceWriter writer_{directory_.path()};
+  testing::SchedulerWriter scheduler_{writer_};
+};
+
+TEST_F(Scheduler, DividesTheTimeOfACallback) {
+  switches(100, kNode, 1, kIdle);
+  wakes(200, kIdle, kNode);
+  switches(210, kIdle, 0, kNode);
+  writes(1'000, ros2::CallbackStart{0xcb, false});
+  switches(1'100, kNode, 0, kStress);  // preempted
+  switches(9'100, kStress, 0, kNode);
+  switches(9'200, kNode, 1, kStress);  // sleeps
+  wakes(9'500, kStress, kNode);
+  switches(9'520, kStress, 1, kNode);
+  writes(10'000, ros2::CallbackEnd{0xcb});
+  const CallbackResult callback = result();
+  EXPECT_EQ(callback.durations.max_ns, 9'000);
+  EXPECT_EQ(callback.running.count, 1u);
+  EXPECT_EQ(callback.running.max_ns, 100 + 100 + 480);
+  EXPECT_EQ(callback.runnable.max_ns, 8'000 + 20);
+  EXPECT_EQ(callback.blocked.max_ns, 300);
+  EXPECT_EQ(callback.longest_runnable_ns, 8'000);
+  EXPECT_EQ(callback.ran_instead, "stress");
+  using State = ThreadInterval::State;
+  EXPECT_EQ(sink_.states, (std::vector{State::kBlocked, State::kRunnable, State::kRunning, State::kRunnable,
+                                       State::kRunning, State::kBlocked, State::kRunnable}));
+}
+
+TEST_F(Scheduler, SaysNothingOfAThreadThatTheKernelDidNotTellOf) {
+  writes(1'000, ros2::CallbackStart{0xcb, false});
+  switches(1'100, kStress, 0, kIdle);
+  writes(2'000, ros2::CallbackEnd{0xcb});
+  EXPECT_EQ(result().running.count, 0u);
+}
+
+}  // namespace
+}  // namespace tracing

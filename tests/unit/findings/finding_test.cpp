@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/findings/finding.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tracing {
+namespace {
+
+TEST(Finding, SaysWhichCallbackOrTopicItIsAbout) {
+  TraceResults results;
+  CallbackResult timer;
+  timer.id = 7;
+  timer.node = "/slow";
+  timer.owner = CallbackResult::Owner::kTimer;
+  timer.period_ns = 100'000'000;
+  timer.jitter.count = 20;
+  timer.jitter.max_ns = 50'000'000;
+  results.ros2.callbacks = {timer};
+  SubscriptionResult subscription;
+  subscription.node = "/slow";
+  subscription.topic = "/scan";
+  subscription.delivered = 10;
+  subscription.lost = 2;
+  results.ros2.subscriptions = {subscription};
+
+  const std::vector<Finding> findings = find_worth_a_look(results);
+
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].kind, Finding::Kind::kDroppedMessages);
+  EXPECT_EQ(findings[0].topic, "/scan");
+  EXPECT_EQ(findings[0].callback, std::nullopt);
+  EXPECT_EQ(findings[1].kind, Finding::Kind::kWorstJitter);
+  EXPECT_EQ(findings[1].callback, 7u);
+  EXPECT_EQ(findings[1].topic, "");
+}
+
+TEST(Finding, ThereIsNoneInAnEmptyTrace) {
+  EXPECT_TRUE(find_worth_a_look({}).empty());
+}
+
+}  // namespace
+}  // namespace tracing

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/live/live_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/trace_writer/example_system.hpp"
+#include "tests/support/trace_writer/temporary_directory.hpp"
+
+namespace tracing {
+namespace {
+
+// The system that example_system.hpp describes.
+class LiveViewOfTheExample : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    testing::write_example_system(directory_.path(), 100);
+    TraceReader(directory_.path()).read(view_);
+  }
+  testing::TemporaryDirectory directory_;
+  LiveView view_;
+};
+
+TEST_F(LiveViewOfTheExample, TellsRatesLatenciesAndLossesInALine) {
+  EXPECT_EQ(view_.line(2), "1360 events/s, 149 callbacks/s, 99 messages/s, latency p50 205 us, p99 205 us, none lost");
+}
+
+TEST_F(LiveViewOfTheExample, ShowsSubscriptionsAndCallbacks) {
+  EXPECT_EQ(view_.screen(2, {.width = 80}),
+            R"(1360 events/s, 149 callbacks/s, 99 messages/s, latency p50 205 us, p99 205 us
+none lost
+
+Messages, publish to callback   rate     p50     p99     max
+  /scan  to /filter            50 Hz  205 us  205 us  205 us
+  /points  to /display         49 Hz  205 us  205 us  205 us
+
+Callbacks                         rate      p50      p99      max
+  /filter subscription /scan     50 Hz   400 us  4.00 ms  4.00 ms
+  /sensor timer 10 ms            50 Hz   200 us   200 us   200 us
+  /display subscription /points  49 Hz  50.0 us  50.0 us  50.0 us
+)");
+  EXPECT_EQ(view_.screen(2, {.width = 60, .top = 1}), R"(1360 events/s, 149 callbacks/..atency p50 205 us, p99 205 us
+none lost
+
+Messages, publish to callback, 1 of 2   rate     p50     p99     max
+  /scan  to /filter            50 Hz  205 us  205 us  205 us
+
+Callbacks, 1 of 3             rate     p50      p99      max
+  /filter subs..ption /scan  50 Hz  400 us  4.00 ms  4.00 ms
+)");
+}
+
+TEST_F(LiveViewOfTheExample, BeginsAnewWhenItIsCleared) {
+  view_.clear();
+  EXPECT_EQ(view_.line(2), "0 events/s, 0 callbacks/s, 0 messages/s, none lost");
+  EXPECT_EQ(view_.screen(2, {}), "0 events/s, 0 callbacks/s, 0 messages/s\nnone lost\n");
+}
+
+TEST_F(LiveViewOfTheExample, CountsLossesToTheEnd) {
+  const Stream stream{"stream", 0, std::nullopt};
+  view_.on_loss({.kind = Loss::Kind::kEvents, .stream = &stream, .begin_ns = 1, .end_ns = 2, .count = 7});
+  view_.clear();
+  EXPECT_EQ(view_.line(1), "0 events/s, 0 callbacks/s, 0 messages/s, 7 lost");
+  view_.on_loss({.kind = Loss::Kind::kPackets, .stream = &stream, .begin_ns = 1, .end_ns = 2, .count = 1});
+  EXPECT_EQ(view_.line(1), "0 events/s, 0 callbacks/s, 0 messages/s, at least 7 lost");
+}
+
+// The same model as that of `launch report`.
+TEST_F(LiveViewOfTheExample, GivesTheResultsOfTheWholeTraceAtTheEnd) {
+  view_.clear();
+  TraceAnalysis analysis;
+  TraceReader(directory_.path()).read(analysis);
+  const Report expected{directory_.path(), analysis.finish(), ""};
+  EXPECT_EQ(json_report({directory_.path(), view_.finish(), ""}), json_report(expected));
+}
+
+}  // namespace
+}  // namespace tracing

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The launcher's packages against the names of ROS 2's launch and launch_ros (ros2_names.tsv), and the page about them.
+
+`python3 python_names_test.py --page` prints docs/python_names.md. LAUNCH_PACKAGES is the folder of the packages.
+"""
+
+import importlib
+import inspect
+import os
+import pathlib
+import sys
+import types
+import unittest
+
+HERE = pathlib.Path(__file__).parent
+PAGE = HERE.parents[2] / 'docs/python_names.md'
+HEAD = """# Names of launch and launch_ros
+
+What of ROS 2's Python packages launch files can import here. This page is generated from the list of ROS 2's names in
+`tests/unit/python/ros2_names.tsv`; `python_names_test` compares it with the packages.
+
+| module | name | arguments | what can be asked |
+| --- | --- | --- | --- |
+"""
+
+
+def rows():
+    for line in (HERE / 'ros2_names.tsv').read_text().splitlines()[1:]:
+        module, name, arguments, members, absent = line.split('\t')
+        yield module, name, arguments.split(), members.split(), absent
+
+
+def page():
+    text = HEAD
+    for module, name, arguments, members, absent in rows():
+        given = ', '.join(f'`{argument}`' for argument in arguments)
+        asked = absent and f'not available: {absent}' or ', '.join(f'`{member}`' for member in members)
+        text += f'| `{module}` | `{name}` | {given} | {asked} |\n'
+    return text
+
+
+class PythonNames(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        engine = types.ModuleType('_launch_engine')
+        engine.is_running = lambda: False
+        sys.modules['_launch_engine'] = engine
+        sys.path.insert(0, os.environ['LAUNCH_PACKAGES'])
+
+    def has(self, thing, member):
+        """A class has a member, or its objects get it when they are made."""
+        return hasattr(thing, member) or any(
+            f'self.{member} = ' in inspect.getsource(base) for base in thing.__mro__ if base.__module__ != 'builtins')
+
+    def takes(self, thing, argument):
+        """A function or a class has the argument, or hands all that it has not on."""
+        parameters = inspect.signature(thing.__init__ if inspect.isclass(thing) else thing).parameters
+        return argument in parameters or any(each.kind is each.VAR_KEYWORD for each in parameters.values())
+
+    def test_every_name_of_ros2_is_there_or_told_to_be_absent(self):
+        for module, name, arguments, members, absent in rows():
+            with self.subTest(module=module, name=name):
+                thing = getattr(importlib.import_module(module), name, None)
+                self.assertEqual(thing is None, bool(absent))
+                if thing is not None:
+                    self.assertEqual([member for member in members if not self.has(thing, member)], [])
+                    self.assertEqual([each for each in arguments if not self.takes(thing, each)], [])
+
+    def test_the_page_is_generated(self):
+        self.assertEqual(PAGE.read_text(), page())
+
+
+if __name__ == '__main__':
+    if sys.argv[1:] == ['--page']:
+        print(page(), end='')
+    else:
+        unittest.main()
