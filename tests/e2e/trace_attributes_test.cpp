@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
             .attributes = "",
             .expected = {"Recording session run: [active]", "/traces/run\n", "Domain: User space",
                          "Buffering scheme: per-user", "- ros2: [enabled]", "Event-loss mode:  discard",
-                         "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     inactive",
+                         "Sub-buffer size:  1048576 bytes", "Sub-buffer count: 4", "Switch timer:     5000000 us",
                          "Read timer:       50000 us", "Blocking timeout: 0 us", "Trace file count: 1 per stream",
                          "Trace file size:  unlimited", "Output mode:      mmap",
                          "ros2:rcl_init (type: tracepoint) [enabled]", "launch:* (type: tracepoint) [enabled]"}},

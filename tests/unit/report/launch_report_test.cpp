@@ -336,8 +336,9 @@ TEST_F(LaunchReport, CountsWhatIsRecordedOfEachProcessForTheVerdict) {
   const Outcome outcome = launch_report("--recorded " + path_);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
-            R"({"processes":[{"vpid":12,"nodes":["/other","/robot/talker"],"events":{"ros2:rcl_node_init":2}},)"
-            R"({"vpid":13,"nodes":[],"events":{"ros2:rcl_take":1}}]})"
+            R"({"processes":[{"vpid":12,"name":"talker","seconds":1e-07,"nodes":["/other","/robot/talker"],)"
+            R"("events":{"ros2:rcl_node_init":2}},)"
+            R"({"vpid":13,"name":"x","seconds":0.0,"nodes":[],"events":{"ros2:rcl_take":1}}]})"
             "\n");
 }
 
