@@ -49,6 +49,14 @@ std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// Empty when the process has gone.
+std::string name_of(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/comm", process));
+  std::string name;
+  std::getline(file, name);
+  return name;
+}
+
 class GuardianTest : public testing::Test {
  protected:
   // What a dead guardian leaves becomes ours.
@@ -98,7 +106,7 @@ class GuardianTest : public testing::Test {
   pid_t child_of_guardian(const std::string& name) const {
     std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", guardian));
     for (pid_t child; children >> child;) {
-      if (read_file(fmt::format("/proc/{}/comm", child)) == name + "\n") {
+      if (name_of(child) == name) {
         return child;
       }
     }
