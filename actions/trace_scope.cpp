@@ -315,6 +315,8 @@ void TraceScope::tell_result(const Tell& tell) const {
     tell(true, "no report: " + (config_.over_network() ? "the trace is on another machine"
                                 : hurry_               ? "the launch was to end at once"
                                          : fmt::format("see what 'launch report {}' says", config_.trace_directory())));
+  } else if (!config_.over_network() && !config_.records_snapshots()) {
+    tell(false, fmt::format("what is in it: launch report {}", config_.trace_directory()));
   }
 }
 

@@ -6,6 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "launcher/base/usage_error.hpp"
+#include "launcher/cli/further_commands.hpp"
+
 namespace launch {
 
 namespace {
@@ -15,15 +18,7 @@ constexpr int kUsageError = 2;
 constexpr const char* kDescription =
     "Runs a ROS 2 launch file (XML, YAML or Python): starts its traces and processes, and supervises them to the end.";
 
-constexpr const char* kFooter =
-    "Other commands:\n"
-    "  launch trace …    records a trace by hand (launch trace --help)\n"
-    "  launch report DIR describes a recorded trace (launch report --help)\n"
-    "  launch check FILE finds errors without running anything (launch check --help)\n"
-    "  launch explain ID explains a finding of launch check (launch explain --help)\n"
-    "  launch graph FILE draws nodes, namespaces, includes and remapped topics (launch graph --help)\n"
-    "  launch schema     prints a schema for editors (launch schema --help)\n"
-    "  launch reference  prints the reference of the launch language\n"
+constexpr const char* kExamples =
     "\n"
     "Examples:\n"
     "  launch system.launch.xml rate:=20\n"
@@ -31,8 +26,8 @@ constexpr const char* kFooter =
     "  launch --show-args system.launch.xml\n"
     "  launch --dry-run system.launch.xml\n";
 
-ExitNow usage_error(const std::string& message) {
-  fmt::print(stderr, "launch: error: {}\n", message);
+ExitNow wrong_use(const std::string& message) {
+  fmt::print(stderr, "{}", usage_error("launch", message));
   return {kUsageError};
 }
 
@@ -48,7 +43,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   bool noninteractive = false;
 
   CLI::App app(kDescription, "launch");
-  app.footer(kFooter);
+  app.footer(list_of_further_commands() + kExamples);
   app.set_version_flag("--version", LAUNCH_VERSION);
   app.add_option("words", words,
                  "launch files, - for standard input, or a package and a file of it; then arguments, name:=value")
@@ -79,7 +74,8 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
     fmt::print("launch {}\n", version.what());
     return ExitNow{0};
   } catch (const CLI::ParseError& error) {
-    return usage_error(error.what());
+    fmt::print(stderr, "{}", usage_error_of(app, error));
+    return ExitNow{kUsageError};
   }
 
   for (const std::string& word : words) {
@@ -87,19 +83,19 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
     if (separator == std::string::npos && command.arguments.empty()) {
       command.target.push_back(word);
     } else if (separator == std::string::npos || separator == 0 || separator + 2 == word.size()) {
-      return usage_error(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", word));
+      return wrong_use(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", word));
     } else {
       command.arguments.emplace_back(word.substr(0, separator), word.substr(separator + 2));
     }
   }
   if (command.target.empty()) {
-    return usage_error("no launch file given, see launch --help");
+    return wrong_use("no launch file given, see launch --help");
   }
   if (int(!dry_run.empty()) + int(show_arguments) + int(print) > 1) {
-    return usage_error("--dry-run, --show-args and --print exclude each other");
+    return wrong_use("--dry-run, --show-args and --print exclude each other");
   }
   if (!command.launch_prefix_filter.empty() && command.launch_prefix.empty()) {
-    return usage_error("--launch-prefix-filter needs --launch-prefix");
+    return wrong_use("--launch-prefix-filter needs --launch-prefix");
   }
   if (show_arguments) {
     command.mode = CommandMode::kShowArguments;
@@ -112,7 +108,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   } else if (dry_run == "shell") {
     command.mode = CommandMode::kDryRunShell;
   } else if (!dry_run.empty()) {
-    return usage_error(fmt::format("--dry-run={} is unknown, expected text, json or shell", dry_run));
+    return wrong_use(fmt::format("--dry-run={} is unknown, expected text, json or shell", dry_run));
   }
   return command;
 }

@@ -10,6 +10,7 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check/finding_table.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/cli/further_commands.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -21,7 +22,6 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
-const Words kCommands = {"check", "explain", "graph", "reference", "report", "schema", "trace"};
 const Words kOptions = {"--debug",  "--dry-run",       "--dry-run=json",         "--dry-run=shell",
                         "--help",   "--launch-prefix", "--launch-prefix-filter", "--print",
                         "--report", "--show-args",     "--strict-args",          "--timing",
@@ -77,7 +77,8 @@ class Completer {
     if (target.empty()) {
       Words all = scope_.packages->packages(scope_.environment);
       if (is_run) {
-        all.insert(all.end(), kCommands.begin(), kCommands.end());
+        const Words commands = further_command_names();
+        all.insert(all.end(), commands.begin(), commands.end());
       }
       return all;
     }

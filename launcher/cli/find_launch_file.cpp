@@ -12,6 +12,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/nearest_name.hpp"
+#include "launcher/cli/further_commands.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/visit/joined_description.hpp"
 
@@ -28,7 +29,11 @@ std::string find_in_package(const std::string& package, const std::string& name,
   try {
     share = scope.packages->share(package, scope.environment);
   } catch (const std::runtime_error& error) {
-    throw LaunchError(error.what(), {}, did_you_mean(package, scope.packages->packages(scope.environment)));
+    std::string help = did_you_mean(package, scope.packages->packages(scope.environment));
+    if (help.empty()) {
+      help = did_you_mean_command(package);
+    }
+    throw LaunchError(error.what(), {}, std::move(help));
   }
   std::vector<std::string> found;
   std::vector<std::string> names;
@@ -74,9 +79,38 @@ LaunchError no_launch_file(const std::string& path) {
     }
   }
   const std::string nearest = nearest_name(name.substr(0, name.size() - ending.size()), names);
-  return LaunchError(fmt::format("launch file '{}' does not exist", path), {},
-                     nearest.empty() ? "a file of a package is named by two words: launch PACKAGE FILE"
-                                     : fmt::format("did you mean '{}'?", (directory / (nearest + ending)).string()));
+  std::string help = nearest.empty() ? did_you_mean_command(path)
+                                     : fmt::format("did you mean '{}'?", (directory / (nearest + ending)).string());
+  if (help.empty()) {
+    help = "a file of a package is named by two words: launch PACKAGE FILE";
+  }
+  return LaunchError(fmt::format("launch file '{}' does not exist", path), {}, std::move(help));
+}
+
+// Whether the text is a Python launch file. XML begins with "<", and no key of a YAML launch file begins a line so.
+bool is_python(std::string_view text) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    if (line.starts_with('<')) {
+      return false;
+    }
+    for (const std::string_view start : {"def generate_launch_description", "import ", "from "}) {
+      if (line.starts_with(start)) {
+        return true;
+      }
+    }
+    begin = end + 1;
+  }
+  return false;
+}
+
+std::shared_ptr<const LaunchDescription> load_standard_input(const Registry& registry, const Scope& scope) {
+  std::string text(std::istreambuf_iterator<char>(std::cin), {});
+  const LaunchFileLoader* const python = is_python(text) ? registry.find_loader(".py") : nullptr;
+  auto file = std::make_shared<SourceFile>("standard input", std::move(text));
+  return python != nullptr ? (*python)(std::move(file), registry, scope)
+                           : parse_launch_description(std::move(file), registry, scope);
 }
 
 }  // namespace
@@ -109,9 +143,7 @@ std::shared_ptr<const LaunchDescription> load_launch_files(const std::vector<std
   std::vector<std::shared_ptr<const LaunchDescription>> descriptions;
   for (const std::string& path : paths) {
     if (path == kStandardInput) {
-      std::string text(std::istreambuf_iterator<char>(std::cin), {});
-      descriptions.push_back(
-          parse_launch_description(std::make_shared<SourceFile>("standard input", std::move(text)), registry, scope));
+      descriptions.push_back(load_standard_input(registry, scope));
     } else {
       descriptions.push_back(load_launch_description(path, registry, scope));
     }

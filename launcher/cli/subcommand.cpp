@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "launcher/base/usage_error.hpp"
+
 namespace launch {
 
 Subcommand::Subcommand(const std::string& name, const std::string& description)
@@ -47,7 +49,7 @@ std::optional<int> Subcommand::parse(std::vector<std::string> words) {
     fmt::print("{}", app_->help());
     return 0;
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "{}: error: {}\n", app_->get_name(), error.what());
+    fmt::print(stderr, "{}", usage_error_of(*app_, error));
     return kWrongCommandLine;
   }
   if (target_ == nullptr) {
@@ -62,7 +64,7 @@ std::optional<int> Subcommand::parse(std::vector<std::string> words) {
     }
   }
   if (target_->words.empty()) {
-    fmt::print(stderr, "{}: error: no launch file given\n", app_->get_name());
+    fmt::print(stderr, "{}", usage_error(app_->get_name(), "no launch file given"));
     return kWrongCommandLine;
   }
   return std::nullopt;

@@ -50,6 +50,52 @@ TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
   EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err,
             "launch: error: --dry-run=xml is unknown, expected text, json or shell\n");
   EXPECT_EQ(launch({"--no-such-option", "file.xml"}).exit_code, 2);
+  EXPECT_EQ(launch({"check", "--werror"}).err, "launch check: error: words is required\n");
+}
+
+TEST_F(CommandLine, MistypedOptionsAndCommandsAreSuggested) {
+  const auto expect_error = [&](const std::vector<std::string>& arguments, const std::string& error) {
+    const CommandResult result = launch(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, error);
+  };
+  expect_error({"--dryrun", "file.xml"},
+               "launch: error: unknown option '--dryrun'\n      = help: did you mean '--dry-run'?\n");
+  expect_error({"--frobnicate", "file.xml"},
+               "launch: error: unknown option '--frobnicate'\n      = help: see launch --help\n");
+  expect_error({"check", "--formt=json", "file.xml"},
+               "launch check: error: unknown option '--formt'\n      = help: did you mean '--format'?\n");
+  expect_error({"graph", "--otput", "x", "file.xml"},
+               "launch graph: error: unknown option '--otput'\n      = help: did you mean '--output'?\n");
+  expect_error({"report", "--jsn", "directory"},
+               "launch report: error: unknown option '--jsn'\n      = help: did you mean '--json'?\n");
+  expect_error({"trace", "read", "--evnt", "x", "directory"},
+               "launch trace read: error: unknown option '--evnt'\n      = help: did you mean '--event'?\n");
+  expect_error({"trace", "strat", "session"},
+               "launch trace: error: unknown command 'strat'\n      = help: did you mean 'start'?\n");
+
+  EXPECT_EQ(launch({"chek"}).err,
+            "error: launch file 'chek' does not exist\n      = help: did you mean the command 'launch check'?\n");
+  EXPECT_THAT(launch({"chek", "system.launch.xml"}).err, HasSubstr("did you mean the command 'launch check'?"));
+}
+
+TEST_F(CommandLine, StandardInputMayBeAPythonFile) {
+  const auto launch_text = [](const std::string& text) {
+    return run_command({"sh", "-c", "printf '%s' \"$1\" | \"$0\" --dry-run=shell -", LAUNCH_PROGRAM, text});
+  };
+  const CommandResult python = launch_text(
+      "from launch import LaunchDescription\n"
+      "from launch.actions import ExecuteProcess\n\n"
+      "def generate_launch_description():\n"
+      "    return LaunchDescription([ExecuteProcess(cmd=['echo', 'from python'])])\n");
+  EXPECT_EQ(python.exit_code, 0) << python.err;
+  EXPECT_THAT(python.out, HasSubstr("echo 'from python'"));
+  EXPECT_EQ(launch_text("import launch\n\nlaunch.LaunchDescriptio()\n").err,
+            "standard input:3:1: error: this launcher's launch has no 'LaunchDescriptio'\n"
+            "    3 | launch.LaunchDescriptio()\n"
+            "      | ^~~~~~~~~~~~~~~~~~~~~~~\n"
+            "      = help: did you mean 'LaunchDescription'?\n");
+  EXPECT_THAT(launch_text("launch:\n- executable: {cmd: echo yaml}\n").out, HasSubstr("echo yaml"));
 }
 
 TEST_F(CommandLine, MissingFilesAndPackagesAreNamed) {

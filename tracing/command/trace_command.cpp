@@ -238,7 +238,7 @@ int run_trace_command(const std::vector<std::string>& arguments, Tracer& tracer)
     if (message->exit_code == kSuccess) {
       fmt::print("{}", message->text);
     } else {
-      fmt::print(stderr, "error: {}\n", message->text);
+      fmt::print(stderr, "{}", message->text);
     }
     return message->exit_code;
   }

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "launcher/base/own_environment.hpp"
+#include "launcher/base/usage_error.hpp"
 
 namespace tracing {
 namespace {
@@ -207,7 +208,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
     const auto chosen = command.get_subcommands();
     return ParserMessage{0, chosen.empty() ? command.help() : chosen.front()->help("launch trace")};
   } catch (const CLI::ParseError& error) {
-    return ParserMessage{kUsageError, error.what()};
+    return ParserMessage{kUsageError, launch::usage_error_of(command, error)};
   }
   for (const auto& [verb, value] : verbs) {
     if (verb->parsed()) options.verb = value;

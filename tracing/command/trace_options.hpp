@@ -36,7 +36,8 @@ struct TraceOptions {
   std::string directory;                      // of the file that save writes and load reads; empty: LTTng's own
 };
 
-// What the parser wants printed in place of running something: help on stdout (exit code 0), or an error on stderr (2).
+// What the parser wants printed in place of running something, with its line ends: help on stdout (exit code 0), or an
+// error on stderr (2).
 struct ParserMessage {
   int exit_code = 0;
   std::string text;

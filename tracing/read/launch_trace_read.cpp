@@ -14,6 +14,7 @@
 #include <map>
 #include <set>
 
+#include "launcher/base/usage_error.hpp"
 #include "tracing/read/event_filter.hpp"
 #include "tracing/read/event_printer.hpp"
 #include "tracing/reader/trace_reader.hpp"
@@ -248,7 +249,9 @@ int main(int argc, char** argv) {
     arguments.filter.end = time_bound("--to", to);
     for (const std::string& expression : expressions) add_expression(arguments.filter, expression);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kSuccess : kUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    fmt::print(stderr, "{}", launch::usage_error_of(app, error));
+    return kUsage;
   }
   try {
     return arguments.count ? print_count(arguments) : print_events(arguments);

@@ -17,6 +17,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "launcher/base/usage_error.hpp"
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/live/live_report.hpp"
 #include "tracing/report/comparison_command.hpp"
@@ -340,7 +341,9 @@ int main(int argc, char** argv) {
     arguments.files.from = time_bound("--from", from, arguments.files);
     arguments.files.to = time_bound("--to", to, arguments.files);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kSuccess : kUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    fmt::print(stderr, "{}", launch::usage_error_of(app, error));
+    return kUsage;
   }
 
   arguments.comparison.json = arguments.json;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/base/usage_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "launcher/base/diagnostic.hpp"
+
+namespace launch {
+
+namespace {
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::string usage_error(std::string_view command, std::string_view message, std::string_view help) {
+  return fmt::format("{}: error: {}\n{}", command, message,
+                     help.empty() ? "" : fmt::format("      = help: {}\n", help));
+}
+
+std::string unexpected_word_error(std::string_view command, const std::vector<std::string>& words,
+                                  const KnownWords& known, std::string_view message) {
+  const std::string see_help = fmt::format("see {} --help", command);
+  const auto unknown = [&](std::string_view what, const std::string& word, const std::vector<std::string>& names) {
+    const std::string nearest = did_you_mean(word, names);
+    return usage_error(command, fmt::format("unknown {} '{}'", what, word), nearest.empty() ? see_help : nearest);
+  };
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));  // without the value of "--format=json"
+    if (name.starts_with('-') && name.size() > 1 && !contains(known.options, name)) {
+      return unknown("option", name, known.options);
+    }
+    if (!name.starts_with('-') && !known.commands.empty() && !contains(known.commands, word)) {
+      return unknown("command", word, known.commands);
+    }
+  }
+  return usage_error(command, message, see_help);
+}
+
+}  // namespace launch
