@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "actions/builtin_actions.hpp"
 
+#include "launcher/python/exposed_names.hpp"
 #include "launcher/python/python_launch_file.hpp"
 
 namespace launch {
@@ -63,6 +64,8 @@ Registry builtin_actions() {
 #define LAUNCH_ADD_ACTION(name) registry.add(name##_action());
   LAUNCH_BUILTIN_ACTIONS(LAUNCH_ADD_ACTION)
   registry.add_loader(".py", load_python_launch_file);
+  registry.use_foreign_actions(exposed_actions());
+  use_foreign_substitutions(exposed_substitutions());
   return registry;
 }
 

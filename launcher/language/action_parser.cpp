@@ -154,14 +154,12 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
   }
   const ActionType* const type = registry_.find(entity.type_name);
   if (type == nullptr) {
-    std::vector<std::string> tags;
-    for (const auto& [tag, unused] : registry_.types()) {
-      tags.push_back(tag);
+    bool known = false;
+    ActionPtr made = parse_foreign_action(entity, known);
+    if (!known) {
+      report_unknown_action(entity, {}, "");
     }
-    errors_.push_back({Severity::kError, fmt::format("unrecognized entity of the type '{}'", entity.type_name),
-                       entity.where, help_for_name(entity.type_name, tags, help_for_former_tag(entity.type_name), ""),
-                       is_item_somewhere(entity.type_name) ? Finding::kWrongPlace : Finding::kUnknownName});
-    return nullptr;
+    return made;
   }
 
   const std::size_t errors_before = errors_.size();
@@ -182,8 +180,16 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
       if (ActionPtr action = parse_action(child)) {
         fields.actions_.push_back(std::move(action));
       }
+    } else if (type->holds_actions) {
+      bool known = false;
+      if (ActionPtr action = parse_foreign_action(child, known)) {
+        fields.actions_.push_back(std::move(action));
+      }
+      if (!known) {
+        report_unknown_action(child, items.tags(), fmt::format("'{}' can hold", entity.type_name));
+      }
     } else {
-      report_unknown_child(entity, child, items, type->holds_actions);
+      report_unknown_child(entity, child, items);
     }
   }
 
@@ -194,22 +200,45 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
   return action;
 }
 
-void ActionParser::report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions) {
-  std::vector<std::string> known = items.tags();
-  if (actions) {
-    for (const auto& [tag, unused] : registry_.types()) {
-      known.push_back(tag);
-    }
+ActionPtr ActionParser::parse_foreign_action(const Entity& entity, bool& known) {
+  ActionPtr made;
+  // A name of ROS 1 is explained, not looked for.
+  if (registry_.foreign_actions().make && help_for_former_tag(entity.type_name).empty() &&
+      !is_item_somewhere(entity.type_name)) {
+    const std::size_t errors_before = errors_.size();
+    collect([&] { made = registry_.foreign_actions().make(entity, registry_); });
+    known = made != nullptr || errors_.size() != errors_before;
   }
-  const std::string message =
-      actions ? fmt::format("unrecognized entity of the type '{}'", child.type_name)
-              : fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name);
-  const bool misplaced = !actions && registry_.find(child.type_name) != nullptr;
+  return made;
+}
+
+// `known` are the tags that may stand there, too.
+void ActionParser::report_unknown_action(const Entity& entity, std::vector<std::string> known, std::string_view what) {
+  const std::string former = help_for_former_tag(entity.type_name);
+  for (const auto& [tag, unused] : registry_.types()) {
+    known.push_back(tag);
+  }
+  std::string problem;
+  if (former.empty() && registry_.foreign_actions().names) {
+    ForeignNames foreign = registry_.foreign_actions().names();
+    known.insert(known.end(), foreign.names.begin(), foreign.names.end());
+    problem = std::move(foreign.problem);
+  }
+  errors_.push_back({Severity::kError, fmt::format("unrecognized entity of the type '{}'", entity.type_name),
+                     entity.where,
+                     problem.empty() || !did_you_mean(entity.type_name, known).empty()
+                         ? help_for_name(entity.type_name, known, former, what)
+                         : problem,
+                     is_item_somewhere(entity.type_name) ? Finding::kWrongPlace : Finding::kUnknownName});
+}
+
+void ActionParser::report_unknown_child(const Entity& parent, const Entity& child, const Items& items) {
+  const bool misplaced = registry_.find(child.type_name) != nullptr;
   errors_.push_back(
-      {Severity::kError, message, child.where,
+      {Severity::kError, fmt::format("unexpected nested tag '{}' in '{}'", child.type_name, parent.type_name),
+       child.where,
        misplaced ? fmt::format("'{}' is an action: put it before or behind '{}'", child.type_name, parent.type_name)
-                 : help_for_name(child.type_name, known, actions ? help_for_former_tag(child.type_name) : "",
-                                 fmt::format("'{}' can hold", parent.type_name)),
+                 : help_for_name(child.type_name, items.tags(), "", fmt::format("'{}' can hold", parent.type_name)),
        misplaced || is_item_somewhere(child.type_name) ? Finding::kWrongPlace : Finding::kUnknownName});
 }
 
@@ -340,7 +369,7 @@ void ActionParser::parse_item(const Entity& entity, const ItemSpec& spec, Fields
     if (const ItemSpec* const item = items.find(child.type_name)) {
       parse_item(child, *item, fields);
     } else {
-      report_unknown_child(entity, child, items, false);
+      report_unknown_child(entity, child, items);
     }
   }
   parent.items_.push_back({spec.tag, std::move(fields)});

@@ -36,10 +36,13 @@ class ActionParser {
   // `items` are the items that may stand beside the attributes.
   void parse_attributes(const Entity& entity, const std::vector<AttributeSpec>& specs, const Items& items,
                         bool conditions, Fields& fields);
+  // The action that no declaration makes; null when there is none, or an error of it was kept.
+  ActionPtr parse_foreign_action(const Entity& entity, bool& known);
   void parse_condition(const Entity& entity, Fields& fields);
   void parse_item(const Entity& entity, const ItemSpec& spec, Fields& fields);
   Fields::Parsed parse_value(const Entity& entity, const Attribute& attribute, const AttributeSpec& spec) const;
-  void report_unknown_child(const Entity& parent, const Entity& child, const Items& items, bool actions);
+  void report_unknown_action(const Entity& entity, std::vector<std::string> known, std::string_view what);
+  void report_unknown_child(const Entity& parent, const Entity& child, const Items& items);
   // Whether an action can hold items of this tag.
   bool is_item_somewhere(const std::string& tag) const;
   // Runs `step` and keeps the errors that it throws.

@@ -11,12 +11,15 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "launcher/language/action.hpp"
+#include "launcher/substitution/foreign_substitutions.hpp"
 
 namespace launch {
 
+struct Entity;
 class Fields;
 class Registry;
 struct LaunchDescription;
@@ -69,6 +72,14 @@ struct ActionType {
 using LaunchFileLoader = std::function<std::shared_ptr<const LaunchDescription>(
     std::shared_ptr<const SourceFile> file, const Registry& registry, const Scope& scope)>;
 
+// Actions that no declaration makes: those of Python packages.
+struct ForeignActions {
+  // The action of an element; null when nothing knows its tag. Throws LaunchError.
+  std::function<ActionPtr(const Entity&, const Registry&)> make;
+  // The tags, and why some may be missing (empty: none is).
+  std::function<ForeignNames()> names;
+};
+
 class Registry {
  public:
   // Throws std::logic_error when the tag is taken.
@@ -80,7 +91,13 @@ class Registry {
   void add_loader(std::string ending, LaunchFileLoader loader);
   const LaunchFileLoader* find_loader(std::string_view path) const;
 
+  // Makes the actions whose tags have no declaration. At most one can be there.
+  void use_foreign_actions(ForeignActions actions) { foreign_actions_ = std::move(actions); }
+  // Without functions when there are none.
+  const ForeignActions& foreign_actions() const { return foreign_actions_; }
+
  private:
+  ForeignActions foreign_actions_;
   std::map<std::string, ActionType, std::less<>> types_;
   std::map<std::string, LaunchFileLoader> loaders_;  // by the ending of a path
 };

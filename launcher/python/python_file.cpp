@@ -19,6 +19,10 @@ namespace {
 
 // The call of a part whose only argument is a text as XML files write it.
 constexpr std::string_view kParsed = "parsed";
+// The call of a part that is a kept substitution, and the tag of an entity that is a kept element (launch/frontend/
+// _extensions.py).
+constexpr std::string_view kKeptSubstitution = "a template";
+constexpr std::string_view kKeptElement = "an element";
 
 // Throws OnlyARunCalls if the object calls a function of the launch file and the scope is one of a plan's events.
 void call_if_run(python::Object& object, const Scope& scope, const SourceRange& where) {
@@ -132,7 +136,20 @@ std::vector<ActionPtr> PythonFile::make_actions(const std::vector<python::Entity
   return ActionParser(registry_).parse(std::move(made));
 }
 
+std::size_t PythonFile::keep(Entity entity) {
+  elements_.push_back(std::move(entity));
+  return elements_.size() - 1;
+}
+
+std::size_t PythonFile::keep(SubstitutionPtr substitution) {
+  substitutions_.push_back(std::move(substitution));
+  return substitutions_.size() - 1;
+}
+
 Entity PythonFile::make_entity(const python::Entity& entity) {
+  if (entity.tag == kKeptElement) {
+    return elements_.at(static_cast<std::size_t>(std::get<std::int64_t>(entity.attributes.at(0).second.data)));
+  }
   Entity made;
   made.type_name = entity.tag;
   made.where = places_.range(entity.where);
@@ -212,6 +229,9 @@ SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRang
   }
   if (part.kind == python::Part::Kind::kObject) {
     return std::make_shared<PythonSubstitution>(part.object, shared_from_this(), std::move(where));
+  }
+  if (part.text == kKeptSubstitution) {
+    return substitutions_.at(std::stoul(part.arguments.at(0).parts.at(0).text));
   }
   std::vector<Template> arguments;
   std::string name = part.text;

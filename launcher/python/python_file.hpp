@@ -33,6 +33,10 @@ class PythonFile : public std::enable_shared_from_this<PythonFile> {
 
   PythonPlaces& places() { return places_; }
 
+  // Keeps an element or a substitution of an XML or YAML file. Python names it by the number that is returned.
+  std::size_t keep(Entity entity);
+  std::size_t keep(SubstitutionPtr substitution);
+
  private:
   Entity make_entity(const python::Entity& entity);
   Value make_value(const python::Value& value, const SourceRange& fallback);
@@ -40,6 +44,8 @@ class PythonFile : public std::enable_shared_from_this<PythonFile> {
 
   PythonPlaces places_;
   const Registry& registry_;
+  std::vector<Entity> elements_;
+  std::vector<SubstitutionPtr> substitutions_;
 };
 
 // The launch, for Python while it runs.

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "launcher/substitution/foreign_substitutions.hpp"
+
 namespace launch {
 
 namespace {
@@ -240,7 +242,7 @@ class TemplateParser {
     const std::vector<SubstitutionType>& types = substitution_types();
     const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == name; });
     if (type == types.end()) {
-      throw unknown(name, name_where);
+      return make_foreign(name, name_where, std::move(arguments), where);
     }
     if (std::optional<std::string> wrong = wrong_number_of_arguments(*type, arguments.size())) {
       const bool too_many = static_cast<int>(arguments.size()) > type->minimum_arguments;
@@ -253,21 +255,26 @@ class TemplateParser {
     return type->make(std::move(arguments), std::move(where));
   }
 
-  static LaunchError unknown(const std::string& name, const SourceRange& where) {
-    std::string help;
+  static SubstitutionPtr make_foreign(const std::string& name, const SourceRange& name_where,
+                                      std::vector<Template> arguments, const SourceRange& where) {
+    const std::string message = fmt::format("unknown substitution '{}'", name);
     for (const auto& [former, present] : kFormerNames) {
       if (name == former) {
-        help = fmt::format("in ROS 2 it is {}", present);
+        throw LaunchError(message, name_where, fmt::format("in ROS 2 it is {}", present), Finding::kUnknownName);
       }
     }
-    if (help.empty()) {
-      std::vector<std::string> names;
-      for (const SubstitutionType& type : substitution_types()) {
-        names.push_back(type.name);
+    const ForeignSubstitutions& foreign = foreign_substitutions();
+    if (foreign.make) {
+      if (SubstitutionPtr made = foreign.make(name, std::move(arguments), where)) {
+        return made;
       }
-      help = did_you_mean(name, names);
     }
-    return {fmt::format("unknown substitution '{}'", name), where, std::move(help), Finding::kUnknownName};
+    ForeignNames others = foreign.names ? foreign.names() : ForeignNames();
+    for (const SubstitutionType& type : substitution_types()) {
+      others.names.push_back(type.name);
+    }
+    std::string help = did_you_mean(name, others.names);
+    throw LaunchError(message, name_where, help.empty() ? others.problem : help, Finding::kUnknownName);
   }
 
   const LocatedText& source_;

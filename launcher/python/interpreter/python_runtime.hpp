@@ -66,6 +66,32 @@ struct Entity {
   std::string process_name;
 };
 
+// An element of an XML or YAML file, for the class of a package that makes an action of it.
+struct Element {
+  struct Attribute {
+    std::string name;
+    Place name_where;
+    Value value;
+    bool untyped = false;  // a text of XML, which has no type of its own
+  };
+
+  std::string tag;
+  Place where;
+  std::vector<Attribute> attributes;
+  std::vector<Element> children;
+  std::size_t number = 0;  // stands for the element in what Python gives back
+  bool is_item = false;    // an item of a YAML list under a key
+};
+
+// An argument of a substitution that a package makes: its pieces are texts, or numbers that stand for substitutions.
+using Argument = std::vector<std::variant<std::string, std::size_t>>;
+
+// What packages offer to XML and YAML files.
+struct ExposedNames {
+  std::vector<std::string> names;
+  std::string problem;  // why packages could not be loaded; empty when all could
+};
+
 // The launch, for Python while it runs. Calls throw what the launcher throws.
 class Host {
  public:
@@ -136,6 +162,12 @@ class Runtime {
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.
   virtual std::vector<Entity> load(const std::string& path, const std::string& text, Host& host) = 0;
+  // What a package makes of an element, or of the call of a substitution; nullopt when none knows the name. The first
+  // call imports the packages of the entry points `launch.frontend.launch_extension`. Throws Error.
+  virtual std::optional<std::vector<Entity>> make_action(const Element& element, Host& host) = 0;
+  virtual std::optional<Text> make_substitution(const std::string& name, const std::vector<Argument>& arguments,
+                                                const Place& where, Host& host) = 0;
+  virtual ExposedNames exposed_names(bool of_actions, Host& host) = 0;
   // Runs the coroutines until all of them wait. Throws the Error that one of them has raised.
   virtual Pause step_coroutines(Host& host) = 0;
   // Asks all coroutines to end, which takes further steps.

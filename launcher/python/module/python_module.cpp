@@ -11,6 +11,7 @@
 #include <string>
 
 #include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/python/module/element_writer.hpp"
 #include "launcher/python/module/entity_reader.hpp"
 #include "launcher/python/module/python_failure.hpp"
 
@@ -89,12 +90,37 @@ class CPython : public launch::python::Runtime {
                                            launch::python::Host& host) override {
     start();
     return launch::python::run_python(host, [&] {
-      if (!packages_found_) {
-        // Before everything else: an installed ROS 2 has packages of the same names.
-        py::module_::import("sys").attr("path").attr("insert")(0, package_directory());
-        packages_found_ = true;
-      }
+      find_packages();
       return launch::python::read_entities(py::module_::import("launch._load").attr("load")(path, text));
+    });
+  }
+
+  std::optional<std::vector<launch::python::Entity>> make_action(const launch::python::Element& element,
+                                                                 launch::python::Host& host) override {
+    start();
+    return launch::python::run_python(host, [&]() -> std::optional<std::vector<launch::python::Entity>> {
+      const py::object made = extensions().attr("make_action")(launch::python::write_element(element));
+      return made.is_none() ? std::nullopt : std::optional(launch::python::read_entities(made));
+    });
+  }
+
+  std::optional<launch::python::Text> make_substitution(const std::string& name,
+                                                        const std::vector<launch::python::Argument>& arguments,
+                                                        const launch::python::Place& where,
+                                                        launch::python::Host& host) override {
+    start();
+    return launch::python::run_python(host, [&]() -> std::optional<launch::python::Text> {
+      const py::object made =
+          extensions().attr("make_substitution")(name, arguments, launch::python::write_place(where));
+      return made.is_none() ? std::nullopt : std::optional(launch::python::read_text(made));
+    });
+  }
+
+  launch::python::ExposedNames exposed_names(bool of_actions, launch::python::Host& host) override {
+    start();
+    return launch::python::run_python(host, [&] {
+      const auto found = extensions().attr("exposed")(of_actions).cast<py::tuple>();
+      return launch::python::ExposedNames{found[0].cast<std::vector<std::string>>(), found[1].cast<std::string>()};
     });
   }
 
@@ -115,6 +141,19 @@ class CPython : public launch::python::Runtime {
     if (Py_IsInitialized() == 0) {
       start_interpreter();
     }
+  }
+
+  // Before everything else: an installed ROS 2 has packages of the same names.
+  void find_packages() {
+    if (!packages_found_) {
+      py::module_::import("sys").attr("path").attr("insert")(0, package_directory());
+      packages_found_ = true;
+    }
+  }
+
+  py::module_ extensions() {
+    find_packages();
+    return py::module_::import("launch.frontend._extensions");
   }
 
   bool packages_found_ = false;

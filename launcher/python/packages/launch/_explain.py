@@ -74,7 +74,7 @@ def explain(error, trace):
     """(message, place, help, traceback, number of the launcher's exception)."""
     text = ''.join(traceback.format_exception(type(error), error, trace))
     number = getattr(error, '_number', None)
-    place = _place(trace) or getattr(error, 'place', None)
+    place = getattr(error, 'of_element', None) or _place(trace) or getattr(error, 'place', None)
     if isinstance(error, LaunchFileError):
         return str(error), place, error.help, text, number
     if unknown := _unknown_name(error):

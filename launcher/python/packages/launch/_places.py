@@ -12,6 +12,7 @@ import sys
 _OWN_PACKAGES = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
 
 _sources = {}
+_element = None  # the place of the element of XML or YAML for which objects are being made
 _positions = {}
 _calls = {}
 
@@ -34,8 +35,33 @@ def name_of_function(function):
     return getattr(function, '__qualname__', None) or type(function).__name__
 
 
+class of_element:  # noqa: N801  as contextlib has it
+    """Objects that are made in the block have this place, and not that of the instruction that makes them."""
+
+    def __init__(self, place):
+        self._place = place
+
+    def __enter__(self):
+        global _element
+        self._outer, _element = _element, _Fixed(self._place)
+
+    def __exit__(self, *_error):
+        global _element
+        _element = self._outer
+        return False
+
+
+class _Fixed:
+    """Stands for an instruction whose place is known already."""
+
+    def __init__(self, place):
+        self.place = place
+
+
 def caller():
     """The instruction outside these packages that is being executed."""
+    if _element is not None:
+        return _element
     frame = sys._getframe(2)
     while frame is not None and is_own(frame.f_code.co_filename):
         frame = frame.f_back
@@ -44,8 +70,8 @@ def caller():
 
 def resolve(instruction):
     """The place of an instruction; only its line when the interpreter doesn't tell more."""
-    if instruction is None:
-        return None
+    if instruction is None or isinstance(instruction, _Fixed):
+        return instruction and instruction.place
     code, offset, line = instruction
     if hasattr(code, 'co_positions'):
         positions = _positions.get(code)

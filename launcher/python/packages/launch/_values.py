@@ -20,6 +20,7 @@ class LaunchFileError(Exception):
         super().__init__(message)
         self.help = help_
         self.place = place  # used when nothing of the launch file is being executed
+        self.of_element = None  # the place in a file of XML or YAML, which is used instead
 
 
 class WrongKind(LaunchFileError, TypeError):

@@ -48,16 +48,11 @@ class Action(LaunchDescriptionEntity):
             return []
         return [(f'Conditionally included by {self.describe()}', self.get_sub_entities())]
 
-    @staticmethod
-    def parse(entity, parser):
-        """The class and the arguments that all elements of XML and YAML files share: `if` and `unless`."""
-        from launch.conditions import IfCondition, UnlessCondition
-        given = {kind: entity.get_attr(name, optional=True)
-                 for name, kind in (('if', IfCondition), ('unless', UnlessCondition))}
-        given = {kind: value for kind, value in given.items() if value is not None}
-        if len(given) == 2:
-            raise RuntimeError("if and unless conditions can't be used simultaneously")
-        return Action, {'condition': kind(parser.parse_substitution(value)) for kind, value in given.items()}
+    @classmethod
+    def parse(cls, entity, parser, ignore=None):
+        """The class and the arguments that it takes from an element of XML or YAML."""
+        from launch.frontend._arguments import arguments_of
+        return cls, arguments_of(cls, entity, parser, ignore or ())
 
     def visit(self, context):
         if self.condition is None or self.condition.evaluate(context):

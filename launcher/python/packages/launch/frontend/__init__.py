@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names that packages use to offer their actions to XML and YAML files. Here those formats are the launcher's own."""
+"""What packages use to offer their actions and substitutions to XML and YAML files."""
 
 from launch import _names
 from launch.frontend._parser import Entity, InvalidFrontendLaunchFileError, Parser
@@ -21,12 +21,12 @@ def _exposed(name, methods, what):
 
 
 def expose_action(name):
-    """A decorator. XML and YAML files know the launcher's own actions only, so the name means nothing in them."""
+    """A decorator: elements of XML and YAML files that have this name are parsed by parse() of the class."""
     return _exposed(name, action_parse_methods, 'action')
 
 
 def expose_substitution(name):
-    """A decorator. The launcher's own substitutions are those of XML and YAML files."""
+    """A decorator: $(name …) in XML and YAML files is parsed by parse() of the class."""
     return _exposed(name, substitution_parse_methods, 'substitution')
 
 
