@@ -49,6 +49,7 @@ namespace launch {
   ACTION(shutdown)                     \
   ACTION(signal)                       \
   ACTION(stop)                         \
+  ACTION(test)                         \
   ACTION(timer)                        \
   ACTION(trace)                        \
   ACTION(unregister_event_handler)     \

@@ -60,7 +60,12 @@ std::vector<int> parse_cpus(const std::string& text, const SourceRange& where) {
   return cpus;
 }
 
-// "1500000", "64K", "512M", "2G"
+bool is_literal(const std::optional<Template>& text) {
+  return text && text->is_literal();
+}
+
+}  // namespace
+
 std::uint64_t parse_bytes(const std::string& text, const SourceRange& where) {
   std::string_view digits = text;
   unsigned shift = 0;
@@ -78,12 +83,6 @@ std::uint64_t parse_bytes(const std::string& text, const SourceRange& where) {
   }
   return value << shift;
 }
-
-bool is_literal(const std::optional<Template>& text) {
-  return text && text->is_literal();
-}
-
-}  // namespace
 
 std::vector<AttributeSpec> ResourceFields::attributes() {
   return {

@@ -2,13 +2,18 @@
 // The attributes of <executable> and <node> for the scheduling and limits of a process.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "launcher/language/fields.hpp"
 #include "launcher/process/resource_limits.hpp"
 
 namespace launch {
+
+// An amount of memory: "1500000", "64K", "512M", "2G". Throws LaunchError at `where`.
+std::uint64_t parse_bytes(const std::string& text, const SourceRange& where);
 
 class ResourceFields {
  public:

@@ -41,6 +41,9 @@ int main(int argc, char** argv) {
   if (command == "report") {
     return become("launch-report", "launch report", argv + 1);
   }
+  if (command == "test") {
+    return become("launch-test", "launch test", argv + 1);
+  }
   if (command == "trace" && argc > 2 && std::string_view(argv[2]) == "read") {
     return become("launch-trace-read", "launch trace read", argv + 2);
   }

@@ -11,7 +11,8 @@
 
 namespace launch {
 
-// The folder that holds the `bin` of this program: "/usr/local" for /usr/local/bin/launch, links resolved. "" when
+// The folder that holds the `bin` or `lib/launch` of this program: "/usr/local" for /usr/local/bin/launch, links
+// resolved. "" when
 // /proc cannot be read, so that own_prefix() + "/share" is an absolute path in any case.
 std::string own_prefix();
 

@@ -29,6 +29,9 @@ const Words kOptions = {"--debug",  "--dry-run",       "--dry-run=json",        
 const Words kCheckOptions = {"--disable", "--format", "--help", "--strict-ros2", "--werror"};
 const Words kGraphOptions = {"--format", "--help", "--output"};
 
+const Words kTestOptions = {"--directory", "--help", "--jobs", "--json", "--junit",
+                            "--keep",      "--list", "--name", "--tap"};
+
 const Words kLaunchFileEnds = {"launch.xml", "launch.yaml", "launch.yml", "launch.py"};
 
 bool is_launch_file(const fs::path& path) {
@@ -64,9 +67,9 @@ class Completer {
     if (command == "report" || command == "reference") {
       return {};
     }
-    const bool is_run = command != "check" && command != "graph";
+    const bool is_run = command != "check" && command != "graph" && command != "test";
     if (current.starts_with("-")) {
-      return is_run ? kOptions : command == "check" ? kCheckOptions : kGraphOptions;
+      return is_run ? kOptions : command == "check" ? kCheckOptions : command == "test" ? kTestOptions : kGraphOptions;
     }
     Words target;  // the words before the current one that name launch files
     for (std::size_t i = is_run ? 0 : 1; i + 1 < words.size(); ++i) {

@@ -15,6 +15,7 @@ const std::vector<CommandInfo>& further_commands() {
       {"reference", "", "prints the reference of the launch language"},
       {"report", "DIR", "describes a recorded trace"},
       {"schema", "", "prints a schema for editors, or that of the output for programs"},
+      {"test", "FILE", "runs the tests of launch files"},
       {"trace", "…", "records a trace by hand, or prints its events"},
   };
   return commands;

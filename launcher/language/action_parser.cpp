@@ -169,7 +169,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
   parse_condition(entity, fields);
 
   fields.items_.reserve(type->items.empty() ? 0 : entity.children.size());
-  if (type->holds_actions && !entity.has_children_list) {
+  if (type->holds_actions && !type->may_hold_none && !entity.has_children_list) {
     errors_.push_back({Severity::kError, fmt::format("expected '{}' to have a list of actions", entity.type_name),
                        entity.where, "add a `children:` list", Finding::kMissingAttribute});
   }

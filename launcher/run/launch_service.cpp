@@ -130,6 +130,10 @@ int LaunchService::run(const LaunchDescription& description) {
   return exit_code_;
 }
 
+void LaunchService::end(const std::string& reason) {
+  loop_.post([this, reason] { shutdown(reason); });
+}
+
 // The events in the course of the launch.
 
 void LaunchService::on_signal(int signal) {
@@ -286,6 +290,11 @@ void LaunchService::start(Round round) {
                                    to_string(request.where)));
     }
   }
+  if (begin_test_) {
+    for (TestRequest& test : requests.tests) {
+      begin_test_(std::move(test));
+    }
+  }
   for (EventHandler& handler : requests.handlers) {
     handlers_.add(std::move(handler), context_.ros_client());
   }
@@ -309,13 +318,16 @@ void LaunchService::start(Round round) {
 }
 
 void LaunchService::observe_output() {
-  if (!handlers_.watch_output() && !processes_.watch_output()) {
+  if (!handlers_.watch_output() && !processes_.watch_output() && !test_line_) {
     return;
   }
   supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
                                     OutputStream stream, std::string_view line) {
     processes_.on_line(id, stream, line);
     handlers_.on_line(spec, label, stream, line);
+    if (test_line_) {
+      test_line_(spec, label, stream, line);
+    }
   });
 }
 
@@ -336,6 +348,9 @@ void LaunchService::fail(const LaunchError& error) {
 void LaunchService::shutdown(const std::string& reason) {
   if (phase_ == Phase::kRunning) {
     phase_ = Phase::kFarewell;
+    if (test_ending_) {
+      test_ending_();
+    }
     rounds_.close();
     timers_.shutdown();
     processes_.shutdown();

@@ -56,6 +56,19 @@ class LaunchService {
   // must outlive the service.
   void use_ros_client(RosClient& client) { context_.use_ros_client(client); }
 
+  // For tests of systems. `begin` gets each test that the launch file requests, before the processes of its round
+  // start. `line` gets each line of each process, before the exit of the process is reported. `ending` is called when
+  // the shutdown begins, whatever its reason. None of them may call the service, but for end(), which begins the
+  // shutdown in a later turn of the loop.
+  using LineSink = std::function<void(const ProcessSpec& spec, const std::string& label, OutputStream stream,
+                                      std::string_view line)>;
+  void use_test(std::function<void(TestRequest)> begin, LineSink line, std::function<void()> ending) {
+    begin_test_ = std::move(begin);
+    test_line_ = std::move(line);
+    test_ending_ = std::move(ending);
+  }
+  void end(const std::string& reason);
+
   // Visits the description and runs the loop until nothing is left. Returns the exit code: 1 after an error of the
   // launch itself, such as a process that could not be started. Otherwise it is the exit code of the `required` process
   // that has ended the launch, 128+N when signal N ended it, else 0. The exit codes of other processes don't count.
@@ -110,6 +123,9 @@ class LaunchService {
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
+  std::function<void(TestRequest)> begin_test_;
+  LineSink test_line_;
+  std::function<void()> test_ending_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
   std::vector<TimedStep> timing_;

@@ -46,6 +46,14 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
   };
 }
 
+LaunchContext::TestPart LaunchContext::next_test() {
+  const std::size_t number = tests_++;
+  if (!takes_tests_) {
+    return TestPart::kNothing;
+  }
+  return chosen_test_ == number ? TestPart::kActionsToo : TestPart::kExpectations;
+}
+
 void LaunchContext::visit(const Action& action) {
   if (depth_ == kDeepest) {
     throw LaunchError(fmt::format("actions hold each other more than {} deep", kDeepest), action.where(),

@@ -45,6 +45,16 @@ class LaunchContext {
   void plan_only() { plan_only_ = true; }
   bool is_plan_only() const { return plan_only_; }
 
+  // From now on the tests of launch files are requested. Without this call they have no effect. The actions within a
+  // test are visited if `chosen` is its number, from 0 in the order of the visit.
+  void take_tests(std::optional<std::size_t> chosen) {
+    takes_tests_ = true;
+    chosen_test_ = chosen;
+  }
+  enum class TestPart { kNothing, kExpectations, kActionsToo };
+  // To be called once by each test that is visited: what it should request.
+  TestPart next_test();
+
   // The client that answers requests of actions to the ROS graph. It must outlive the context. Null while nothing is
   // carried out.
   void use_ros_client(RosClient& client) { ros_client_ = &client; }
@@ -105,6 +115,9 @@ class LaunchContext {
   Scope scope_;
   Requests requests_;
   bool plan_only_ = false;
+  bool takes_tests_ = false;
+  std::optional<std::size_t> chosen_test_;
+  std::size_t tests_ = 0;                              // visited so far
   int depth_ = 0;                                      // of the actions that are being visited
   Explorer explorer_;                                  // empty: not exploring
   std::set<std::pair<std::string, bool>> seen_files_;  // path, in what is left out

@@ -122,6 +122,7 @@ class Planner {
     append(plan.loads, requests.loads);
     append(plan.transitions, requests.transitions);
     append(plan.coroutines, requests.coroutines);
+    append(plan.tests, requests.tests);
     append(plan.logs, requests.logs);
     append(plan.python_includes, requests.python_includes);
     plan.includes += requests.includes;

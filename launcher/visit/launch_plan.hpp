@@ -21,6 +21,7 @@ struct LaunchPlan {
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;
   std::vector<CoroutineRequest> coroutines;  // of Python launch files
+  std::vector<TestRequest> tests;
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // Python launch files, which count as empty
   std::vector<LeftToRun> left_to_run;        // depends on functions that only a run calls

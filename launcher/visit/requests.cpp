@@ -5,7 +5,8 @@ namespace launch {
 
 bool Requests::empty() const {
   return scopes.empty() && processes.empty() && handlers.empty() && unregistered.empty() && commands.empty() &&
-         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && !shutdown;
+         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && tests.empty() &&
+         !shutdown;
 }
 
 }  // namespace launch

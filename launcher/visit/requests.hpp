@@ -21,6 +21,7 @@
 #include "launcher/visit/left_to_run.hpp"
 #include "launcher/visit/process_command.hpp"
 #include "launcher/visit/run_scope.hpp"
+#include "launcher/visit/test_request.hpp"
 
 namespace launch {
 
@@ -64,6 +65,7 @@ struct Requests {
   std::vector<TransitionRequest> transitions;
   std::vector<TimerRequest> timers;
   std::optional<ShutdownRequest> shutdown;
+  std::vector<TestRequest> tests;            // only if the visit takes tests (launch_context.hpp)
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // paths of Python launch files, which are only noted
   int includes = 0;                          // other launch files that were included

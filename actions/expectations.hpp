@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The items of <test> that say what must happen: <exit>, <output>, <in_order>, <graph>, <resources>.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+// Evaluates an item in the current scope. Throws LaunchError.
+using PerformExpectation = std::function<Expectation(LaunchContext&)>;
+
+struct ExpectationType {
+  ItemSpec item;
+  // Throws LaunchError when attributes don't go together.
+  std::function<PerformExpectation(const Fields&)> make;
+};
+
+const std::vector<ExpectationType>& expectation_types();
+
+}  // namespace launch

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/implied_check.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+
+#include "launcher/testing/check.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+namespace {
+
+bool is_crash(int code) {
+  constexpr int kCrashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGTRAP};
+  return std::find(std::begin(kCrashes), std::end(kCrashes), -code) != std::end(kCrashes);
+}
+
+}  // namespace
+
+void ImpliedCheck::on_process(const ProcessEvent& event) {
+  if (const auto* const failed = std::get_if<ProcessStartFailed>(&event.what)) {
+    if (!is_left_out(event)) {
+      fail(event, fmt::format("{} can't be started: {}", event.label, failed->reason));
+    }
+  } else if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
+    const bool by_itself = !exited->expected && exited->exit.code != 0 && !exited->will_respawn;
+    if ((by_itself || is_crash(exited->exit.code)) && !is_left_out(event)) {
+      fail(event, fmt::format("{} has exited with {}", event.label, exit_text(exited->exit.code)),
+           exited->expected ? std::string()
+                            : fmt::format("if that is right: <exit process=\"{}\" code=\"{}\"/>", event.spec.name,
+                                          exited->exit.code));
+    }
+  } else if (const auto* const left = std::get_if<ProcessLeft>(&event.what)) {
+    fail(event, fmt::format("{} can't be ended: its pid is {}", event.label, left->pid));
+  }
+}
+
+bool ImpliedCheck::is_left_out(const ProcessEvent& event) const {
+  std::vector<std::string> names = names_of(event.spec);
+  names.push_back(event.label);
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::find(left_out_.begin(), left_out_.end(), name) != left_out_.end();
+  });
+}
+
+void ImpliedCheck::fail(const ProcessEvent& event, std::string message, std::string help) {
+  Failure failure{std::move(message), event.spec.origin};
+  failure.help = std::move(help);
+  tail_.show(failure, {event.label});
+  failed_(std::move(failure));
+}
+
+}  // namespace launch

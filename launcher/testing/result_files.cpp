@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/result_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "launcher/cli/xml_text.hpp"
+
+namespace launch {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string whole_text(const TestResult& result) {
+  std::string text;
+  for (const TestFailure& failure : result.failures) {
+    text += failure.text;
+  }
+  if (!result.directory.empty()) {
+    text += fmt::format("files: {}\n", result.directory);
+  }
+  return text;
+}
+
+std::string first_message(const TestResult& result) {
+  return result.failures.empty() ? std::string() : result.failures.front().message;
+}
+
+// Characters that XML has no way to write are left out.
+std::string xml(const std::string& text) {
+  std::string clean;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(clean),
+               [](char c) { return static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t'; });
+  return as_xml_text(clean);
+}
+
+}  // namespace
+
+std::string as_junit(const std::vector<TestResult>& results) {
+  std::map<std::string, std::vector<const TestResult*>> suites;
+  double seconds = 0;
+  for (const TestResult& result : results) {
+    suites[result.file].push_back(&result);
+    seconds += result.seconds;
+  }
+  const auto failed = [](const auto& result) { return !result.passed(); };
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  text += fmt::format("<testsuites name=\"launch test\" tests=\"{}\" failures=\"{}\" errors=\"0\" time=\"{:.3f}\">\n",
+                      results.size(), std::count_if(results.begin(), results.end(), failed), seconds);
+  for (const auto& [file, tests] : suites) {
+    double time = 0;
+    std::size_t failures = 0;
+    for (const TestResult* const test : tests) {
+      time += test->seconds;
+      failures += test->passed() ? 0 : 1;
+    }
+    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" time=\"{:.3f}\">\n",
+                        xml(file), tests.size(), failures, time);
+    for (const TestResult* const test : tests) {
+      text += fmt::format("    <testcase name=\"{}\" classname=\"{}\" file=\"{}\" line=\"{}\" time=\"{:.3f}\"",
+                          xml(test->name), xml(file), xml(file), test->line, test->seconds);
+      text += test->passed() ? "/>\n"
+                             : fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
+                                           xml(first_message(*test)), xml(whole_text(*test)));
+    }
+    text += "  </testsuite>\n";
+  }
+  return text + "</testsuites>\n";
+}
+
+std::string as_tap(const std::vector<TestResult>& results) {
+  std::string text = fmt::format("TAP version 13\n1..{}\n", results.size());
+  std::size_t number = 0;
+  for (const TestResult& result : results) {
+    std::string title = result.title();
+    std::replace(title.begin(), title.end(), '#', '_');  // it begins a directive
+    text += fmt::format("{} {} - {}\n", result.passed() ? "ok" : "not ok", ++number, title);
+    if (!result.passed()) {
+      text += fmt::format("  ---\n  message: {}\n  duration_ms: {:.0f}\n  details: |\n",
+                          Json(first_message(result)).dump(-1, ' ', false, Json::error_handler_t::replace),
+                          result.seconds * 1000);
+      std::istringstream lines(whole_text(result));
+      for (std::string line; std::getline(lines, line);) {
+        text += "    " + line + "\n";
+      }
+      text += "  ...\n";
+    }
+  }
+  return text;
+}
+
+std::string as_json(const std::vector<TestResult>& results) {
+  Json tests = Json::array();
+  std::size_t failed = 0;
+  for (const TestResult& result : results) {
+    tests.push_back(Json::parse(to_json(result)));
+    failed += result.passed() ? 0 : 1;
+  }
+  const Json json = {{"passed", results.size() - failed}, {"failed", failed}, {"tests", tests}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace launch

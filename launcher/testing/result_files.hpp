@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results of tests for other programs: JUnit XML, TAP, JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/testing/test_result.hpp"
+
+namespace launch {
+
+// <testsuites> with a <testsuite> for each launch file, as build servers read it.
+std::string as_junit(const std::vector<TestResult>& results);
+// The Test Anything Protocol, version 13.
+std::string as_tap(const std::vector<TestResult>& results);
+std::string as_json(const std::vector<TestResult>& results);
+
+}  // namespace launch

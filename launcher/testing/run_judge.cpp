@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/run_judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace launch {
+
+RunJudge::RunJudge(EventLoop& loop, std::function<void(const std::string&)> end)
+    : loop_(loop), end_launch_(std::move(end)), implied_(tail_, [this](Failure failure) {
+        if (end_ == RunEnd::kNothingLeft || end_ == RunEnd::kMet) {
+          failures_.push_back(as_text(failure));
+          end_run(RunEnd::kFailure, "a process has failed");
+        }
+      }) {}
+
+void RunJudge::begin(TestRequest test) {
+  has_begun_ = true;
+  test_ = std::move(test);
+  timeout_ = loop_.after(test_.timeout, [this] { on_timeout(); });
+  if (test_.duration) {
+    duration_over_ = false;
+    duration_ = loop_.after(*test_.duration, [this] {
+      duration_over_ = true;
+      decide();
+    });
+  }
+  for (const Expectation& expectation : test_.expectations) {
+    if (std::holds_alternative<ExpectedExit>(expectation.what)) {
+      implied_.leave_out(expectation.process);
+    }
+    checks_.push_back(make_check(expectation));
+  }
+  for (const std::unique_ptr<Check>& check : checks_) {
+    check->begin(loop_, tail_, [this] { decide(); });
+  }
+}
+
+void RunJudge::on_process(const ProcessEvent& event) {
+  for (const std::unique_ptr<Check>& check : checks_) {
+    check->on_process(event);
+  }
+  implied_.on_process(event);
+}
+
+void RunJudge::on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
+  tail_.add(label, line);
+  for (const std::unique_ptr<Check>& check : checks_) {
+    check->on_line(spec, label, stream, line);
+  }
+}
+
+void RunJudge::on_shutdown() {
+  for (const std::unique_ptr<Check>& check : checks_) {
+    check->on_shutdown();
+  }
+}
+
+void RunJudge::on_error(const LaunchError& error) {
+  for (const Diagnostic& diagnostic : error.diagnostics()) {
+    failures_.push_back(as_text(diagnostic));
+  }
+  end_run(RunEnd::kFailure, "an error");
+}
+
+void RunJudge::decide() {
+  const auto failed = [](const auto& check) { return check->failure() != nullptr; };
+  if (std::any_of(checks_.begin(), checks_.end(), failed)) {
+    end_run(RunEnd::kFailure, "an expectation has failed");
+    return;
+  }
+  if (!duration_over_) {
+    return;
+  }
+  // Without anything to wait for, and without a duration, the system decides when it ends.
+  bool waited = test_.duration.has_value();
+  for (const std::unique_ptr<Check>& check : checks_) {
+    if (check->is_waited_for() && check->is_open()) {
+      return;
+    }
+    waited = waited || check->was_waited_for();
+  }
+  if (waited) {
+    end_run(RunEnd::kMet, "everything that the test waits for has happened");
+  }
+}
+
+void RunJudge::end_run(RunEnd end, const std::string& reason) {
+  if (has_ended_) {
+    return;
+  }
+  has_ended_ = true;
+  end_ = end;
+  timeout_.reset();
+  duration_.reset();
+  end_launch_(reason);
+}
+
+void RunJudge::on_timeout() {
+  const auto is_waited_for = [](const auto& check) { return check->is_open() && check->is_waited_for(); };
+  if (std::none_of(checks_.begin(), checks_.end(), is_waited_for)) {
+    Failure failure{fmt::format("the system has not ended within {:g} s, the timeout of the test",
+                                std::chrono::duration<double>(test_.timeout).count()),
+                    test_.where};
+    failure.help = "duration=\"…\" ends it after a while";
+    tail_.show(failure);
+    failures_.push_back(as_text(failure));
+  }
+  end_run(RunEnd::kTimeout, "the test has timed out");
+  for (const std::unique_ptr<Check>& check : checks_) {
+    if (is_waited_for(check)) {
+      check->finish(end_, describe(end_, test_.timeout));
+    }
+  }
+}
+
+void RunJudge::finish() {
+  timeout_.reset();
+  duration_.reset();
+  has_ended_ = true;
+  const std::string when = describe(end_, test_.timeout);
+  for (const std::unique_ptr<Check>& check : checks_) {
+    check->finish(end_, when);
+  }
+  std::vector<TestFailure> found;
+  for (const std::unique_ptr<Check>& check : checks_) {
+    if (check->failure() != nullptr) {
+      found.push_back(as_text(*check->failure()));
+    }
+  }
+  failures_.insert(failures_.begin(), found.begin(), found.end());
+  if (!has_begun_ && failures_.empty()) {
+    failures_.push_back({.message = "the test has not begun", .text = "error: the test has not begun\n"});
+  }
+}
+
+std::size_t RunJudge::met() const {
+  return static_cast<std::size_t>(
+      std::count_if(checks_.begin(), checks_.end(), [](const auto& check) { return check->is_met(); }));
+}
+
+std::size_t RunJudge::not_judged() const {
+  return static_cast<std::size_t>(
+      std::count_if(checks_.begin(), checks_.end(), [](const auto& check) { return check->is_open(); }));
+}
+
+}  // namespace launch

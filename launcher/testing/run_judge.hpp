@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Judges the run of a test: passes what happens to its checks, and decides when the run is over.
+//
+// The run ends at the first of these: a check has failed; everything that is waited for has happened, and the duration
+// of the test is over; its timeout is over; nothing is left to run.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/process/event_loop.hpp"
+#include "launcher/testing/check.hpp"
+#include "launcher/testing/implied_check.hpp"
+#include "launcher/testing/output_tail.hpp"
+#include "launcher/visit/test_request.hpp"
+
+namespace launch {
+
+class RunJudge {
+ public:
+  // `end` begins the shutdown of the launch. The loop must outlive the judge.
+  RunJudge(EventLoop& loop, std::function<void(const std::string& reason)> end);
+
+  // To be called once, before the processes start.
+  void begin(TestRequest test);
+
+  void on_process(const ProcessEvent& event);
+  void on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line);
+  void on_shutdown();
+  // An error of the launch itself.
+  void on_error(const LaunchError& error);
+
+  // After the run.
+  void finish();
+
+  const std::vector<TestFailure>& failures() const { return failures_; }
+  std::size_t met() const;
+  std::size_t not_judged() const;
+
+ private:
+  void decide();
+  void end_run(RunEnd end, const std::string& reason);
+  void on_timeout();
+
+  EventLoop& loop_;
+  std::function<void(const std::string&)> end_launch_;
+  TestRequest test_;
+  OutputTail tail_;
+  ImpliedCheck implied_;
+  std::vector<std::unique_ptr<Check>> checks_;
+  EventLoop::SourcePtr timeout_;
+  EventLoop::SourcePtr duration_;
+  bool has_begun_ = false;
+  bool duration_over_ = true;
+  bool has_ended_ = false;
+  RunEnd end_ = RunEnd::kNothingLeft;
+  std::vector<TestFailure> failures_;
+};
+
+}  // namespace launch

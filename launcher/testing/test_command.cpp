@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/test_command.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "actions/builtin_actions.hpp"
+#include "launcher/base/home_directory.hpp"
+#include "launcher/base/own_environment.hpp"
+#include "launcher/base/own_prefix.hpp"
+#include "launcher/cli/subcommand.hpp"
+#include "launcher/substitution/package_index.hpp"
+#include "launcher/testing/result_files.hpp"
+#include "launcher/testing/test_files.hpp"
+#include "launcher/testing/test_queue.hpp"
+#include "launcher/testing/test_report.hpp"
+
+namespace launch {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kInterrupted = 130;
+
+struct Options {
+  LaunchTarget target;
+  std::string jobs;
+  std::vector<std::string> names;
+  bool list = false;
+  std::string directory;
+  bool keep = false;
+  std::string junit;
+  std::string tap;
+  std::string json;
+};
+
+// A mistake in the command line.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+std::size_t whole_number(const std::string& text, const char* option) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number == 0) {
+    throw UsageError(fmt::format("{} takes a number from 1, got '{}'", option, text));
+  }
+  return number;
+}
+
+std::vector<TestCase> list_all(const Options& options, const Registry& registry, const Environment& environment) {
+  Scope scope;
+  scope.environment = environment;
+  scope.packages = std::make_shared<PackageIndex>(own_prefix());
+  std::vector<TestCase> tests;
+  std::vector<Diagnostic> errors;
+  for (const std::string& file : find_test_files(options.target.words, scope)) {
+    try {
+      for (TestCase& test : list_tests(file, registry, environment, options.target.arguments)) {
+        tests.push_back(std::move(test));
+      }
+    } catch (const LaunchError& error) {
+      errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!errors.empty()) {
+    throw LaunchError(std::move(errors));
+  }
+  return tests;
+}
+
+void keep_named(const std::vector<std::string>& patterns, std::vector<TestCase>& tests) {
+  if (patterns.empty()) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const TestCase& test : tests) {
+    names.push_back(test.name);
+  }
+  const auto matches = [](const std::string& pattern, const std::string& name) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  };
+  for (const std::string& pattern : patterns) {
+    if (std::none_of(names.begin(), names.end(), [&](const auto& name) { return matches(pattern, name); })) {
+      throw LaunchError(fmt::format("no test is named '{}'", pattern), {}, did_you_mean(pattern, names));
+    }
+  }
+  std::erase_if(tests, [&](const TestCase& test) {
+    return std::none_of(patterns.begin(), patterns.end(),
+                        [&](const std::string& pattern) { return matches(pattern, test.name); });
+  });
+}
+
+// "DIR/2026-05-04-12-30-59-4711" below the home of ROS.
+std::string default_directory(const Environment& environment) {
+  const std::time_t now = ::time(nullptr);
+  tm local{};
+  ::localtime_r(&now, &local);
+  std::array<char, 32> date{};
+  std::strftime(date.data(), date.size(), "%Y-%m-%d-%H-%M-%S", &local);
+  return fmt::format("{}/test/{}-{}", ros_home(environment), date.data(), ::getpid());
+}
+
+// False when it can't be written; that is told.
+bool write(const std::string& path, const std::string& text) {
+  if (path.empty()) {
+    return true;
+  }
+  std::error_code ignored;
+  if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) {
+    fs::create_directories(folder, ignored);
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) {
+    fmt::print(stderr, "launch test: error: can't write '{}'\n", path);
+  }
+  return static_cast<bool>(file);
+}
+
+bool write_results(const Options& options, const std::vector<TestResult>& results) {
+  const bool junit = options.junit.empty() || write(options.junit, as_junit(results));
+  const bool tap = options.tap.empty() || write(options.tap, as_tap(results));
+  const bool json = options.json.empty() || write(options.json, as_json(results));
+  return junit && tap && json;
+}
+
+int run(const Options& options) {
+  const Environment environment = own_environment();
+  const Registry registry = builtin_actions();
+  QueueOptions queue;
+  queue.jobs =
+      options.jobs.empty() ? std::max(1U, std::thread::hardware_concurrency()) : whole_number(options.jobs, "--jobs");
+  queue.keep = options.keep;
+  std::vector<TestCase> tests = list_all(options, registry, environment);
+  keep_named(options.names, tests);
+  if (options.list) {
+    for (const TestCase& test : tests) {
+      fmt::print("{}:{}: {}\n", test.file, test.line, test.name);
+    }
+    return 0;
+  }
+  queue.directory = fs::absolute(options.directory.empty() ? default_directory(environment) : options.directory);
+  fs::create_directories(queue.directory);
+
+  const auto begin = std::chrono::steady_clock::now();
+  TestReport report(stdout);
+  bool interrupted = false;
+  const std::vector<TestResult> results =
+      run_tests(tests, registry, environment, options.target.arguments, queue, report, interrupted);
+  report.finish(results, tests.size(), std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+                interrupted);
+  std::error_code not_empty;
+  fs::remove(queue.directory, not_empty);
+  const bool written = write_results(options, results);
+  const bool passed = std::all_of(results.begin(), results.end(), [](const auto& result) { return result.passed(); });
+  return interrupted ? kInterrupted : passed && written ? 0 : 1;
+}
+
+}  // namespace
+
+int test_command(std::vector<std::string> words) {
+  Options options;
+  Subcommand command("launch test", "Runs the tests of launch files, each in its own isolation.");
+  command.take_target(options.target);
+  command.take_text("-j,--jobs", options.jobs, "how many tests run at the same time; default: one for each processor");
+  command.take_texts("-n,--name", options.names, "only tests of this name, which may hold * and ?; may be repeated");
+  command.take_flag("--list", options.list, "only print the tests");
+  command.take_text("--directory", options.directory,
+                    "where the files of failed tests are kept; default: below ~/.ros/test");
+  command.take_flag("--keep", options.keep, "also keep the files of tests that pass");
+  command.take_text("--junit", options.junit, "write the results to this file as JUnit XML");
+  command.take_text("--tap", options.tap, "write the results to this file in the Test Anything Protocol");
+  command.take_text("--json", options.json, "write the results to this file as JSON");
+  if (const std::optional<int> code = command.parse(std::move(words))) {
+    return *code;
+  }
+  try {
+    return run(options);
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "launch test: error: {}\n", error.what());
+    return kWrongCommandLine;
+  } catch (const LaunchError& error) {
+    print_errors(error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "launch test: error: {}\n", error.what());
+  }
+  return 1;
+}
+
+}  // namespace launch

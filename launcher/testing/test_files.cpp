@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/test_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/own_prefix.hpp"
+#include "launcher/cli/find_launch_file.hpp"
+#include "launcher/visit/launch_plan.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool may_hold_test(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const bool is_xml = name.ends_with(".xml");
+  if (!is_xml && !name.ends_with(".yaml") && !name.ends_with(".yml")) {
+    return false;
+  }
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const bool is_launch_file = text.find(is_xml ? "<launch" : "launch:") != std::string::npos;
+  return is_launch_file && text.find(is_xml ? "<test" : "test:") != std::string::npos;
+}
+
+std::vector<std::string> search(const std::string& directory) {
+  std::vector<std::string> found;
+  std::error_code unreadable;
+  for (const fs::directory_entry& entry :
+       fs::recursive_directory_iterator(directory, fs::directory_options::skip_permission_denied, unreadable)) {
+    if (entry.is_regular_file(unreadable) && may_hold_test(entry.path())) {
+      found.push_back(entry.path().string());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  if (found.empty()) {
+    throw LaunchError(fmt::format("no launch file below '{}' has a test", directory), {});
+  }
+  return found;
+}
+
+// A visit of the file with the tests in it. `chosen` as in LaunchContext::take_tests().
+LaunchPlan plan(const LaunchDescription& description, const Registry& registry, const Environment& environment,
+                const LaunchArguments& arguments, std::optional<std::size_t> chosen) {
+  LaunchContext context(registry, environment, own_prefix(), [](LogLevel, std::string_view, std::string_view) {});
+  for (const auto& [name, value] : arguments) {
+    context.scope().configurations.insert_or_assign(name, value);
+  }
+  context.take_tests(chosen);
+  return plan_launch(context, description);
+}
+
+void add_names(const LaunchPlan& plan, std::set<std::string>& names, bool& is_complete) {
+  for (const ProcessSpec& spec : plan.processes) {
+    const std::vector<std::string> more = names_of(spec);
+    names.insert(more.begin(), more.end());
+  }
+  is_complete = is_complete && plan.left_to_run.empty() && plan.coroutines.empty();
+  for (const PlannedHandler& handler : plan.handlers) {
+    add_names(handler.plan, names, is_complete);
+  }
+}
+
+// "talker" of "talker-2".
+std::string without_number(const std::string& label) {
+  const std::size_t dash = label.rfind('-');
+  const bool has_number = dash != std::string::npos && dash + 1 < label.size() &&
+                          label.find_first_not_of("0123456789", dash + 1) == std::string::npos;
+  return has_number ? label.substr(0, dash) : label;
+}
+
+void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Diagnostic>& errors) {
+  std::set<std::string> names;
+  bool is_complete = true;
+  add_names(plan, names, is_complete);
+  if (!is_complete) {
+    return;  // what a function of a Python launch file starts is not known
+  }
+  for (const Expectation& expectation : test.expectations) {
+    const std::string& name = expectation.process;
+    if (!name.empty() && !names.contains(name) && !names.contains(without_number(name))) {
+      errors.push_back({Severity::kError, fmt::format("no process is named '{}'", name), expectation.process_where,
+                        did_you_mean(name, {names.begin(), names.end()}), Finding::kUnknownProcess});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> find_test_files(const std::vector<std::string>& words, const Scope& scope) {
+  std::error_code ignored;
+  if (std::none_of(words.begin(), words.end(), [&](const auto& word) { return fs::is_directory(word, ignored); })) {
+    return find_launch_files(words, scope);
+  }
+  std::vector<std::string> files;
+  for (const std::string& word : words) {
+    const std::vector<std::string> found =
+        fs::is_directory(word, ignored) ? search(word) : find_launch_files({word}, scope);
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+std::vector<TestCase> list_tests(const std::string& file, const Registry& registry, const Environment& environment,
+                                 const LaunchArguments& arguments) {
+  Scope scope;
+  scope.environment = environment;
+  const auto description = load_launch_files({file}, registry, scope);
+  const LaunchPlan all = plan(*description, registry, environment, arguments, std::nullopt);
+  if (all.tests.empty()) {
+    throw LaunchError("the launch file has no test", SourceRange{description->file, 0, 0},
+                      "a test says what must happen: <test name=\"…\"><output text=\"…\"/></test>");
+  }
+  std::vector<TestCase> tests;
+  std::set<std::string> names;
+  std::vector<Diagnostic> errors;
+  for (const TestRequest& test : all.tests) {
+    if (!names.insert(test.name).second) {
+      errors.push_back({Severity::kError, fmt::format("two tests are named '{}'", test.name), test.name_where,
+                        "in a loop, put $(index …) or $(for-var …) into the name", Finding::kNone});
+    }
+    check_names(test, plan(*description, registry, environment, arguments, tests.size()), errors);
+    const unsigned line = test.where ? test.where.file->position(test.where.begin).line : 0;
+    tests.push_back({file, description, tests.size(), test.name, line, test.timeout});
+  }
+  if (!errors.empty()) {
+    throw LaunchError(std::move(errors));
+  }
+  return tests;
+}
+
+}  // namespace launch

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the tests that launch files hold. Nothing is started.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/language/launch_description.hpp"
+#include "launcher/language/registry.hpp"
+#include "launcher/substitution/scope.hpp"
+#include "launcher/visit/test_request.hpp"
+
+namespace launch {
+
+using LaunchArguments = std::vector<std::pair<std::string, std::string>>;  // name, value
+
+struct TestCase {
+  std::string file;  // as it was given
+  std::shared_ptr<const LaunchDescription> description;
+  std::size_t number = 0;  // among the tests of the file, in the order of the visit
+  std::string name;
+  unsigned line = 0;
+  Duration timeout{0};
+};
+
+// The launch files that the words mean: files, directories, which are searched for launch files with a test, or a
+// package and a file of it. Throws LaunchError.
+std::vector<std::string> find_test_files(const std::vector<std::string>& words, const Scope& scope);
+
+// The tests of a launch file. Everything that is wrong with them is an error, also a process that they name and that
+// the launch file does not start. Throws LaunchError.
+std::vector<TestCase> list_tests(const std::string& file, const Registry& registry, const Environment& environment,
+                                 const LaunchArguments& arguments);
+
+}  // namespace launch

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/test_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/process_mark.hpp"
+#include "launcher/cli/launch_tracepoints.hpp"
+#include "launcher/process/guardian/guardian.hpp"
+#include "launcher/process/process_messages.hpp"
+#include "launcher/ros/ros_client_process.hpp"
+#include "launcher/run/launch_service.hpp"
+#include "launcher/testing/run_judge.hpp"
+#include "launcher/testing/test_result.hpp"
+#include "tracing/testing/own_domain.hpp"
+
+namespace launch {
+
+namespace {
+
+Environment own_surroundings(const TestRun& run, int domain) {
+  Environment environment = run.environment;
+  environment["ROS_DOMAIN_ID"] = std::to_string(domain);
+  environment["ROS_HOME"] = run.directory + "/ros";
+  environment["ROS_LOG_DIR"] = run.directory + "/log";
+  environment["ROS_TRACE_DIR"] = run.directory + "/traces";
+  return environment;
+}
+
+// Makes everything that a run needs. The order is that of destruction, backwards.
+void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
+  const launch_trace_testing::OwnDomain domain;
+  const Environment environment = own_surroundings(run, domain.id());
+  ::setenv("ROS_DOMAIN_ID", std::to_string(domain.id()).c_str(), 1);
+
+  const LogDirectory log_directory = LogDirectory::create(environment);
+  OutputRouter::Options options;
+  options.log_directory = log_directory.path;
+  OutputRouter output(options);
+  const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
+  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
+  guardian.set_log(log_directory.path + "/launch.log");
+
+  RosClientProcess ros_client(*loop);
+  LaunchContext context(run.registry, environment, own_prefix(),
+                        [&output](LogLevel level, std::string_view logger, std::string_view text) {
+                          output.message(level, logger, text);
+                        });
+  context.scope().log_directory = log_directory.path;
+  for (const auto& [name, value] : run.arguments) {
+    context.scope().configurations.insert_or_assign(name, value);
+  }
+  context.take_tests(run.test.number);
+
+  LaunchService* service = nullptr;
+  RunJudge judge(*loop, [&](const std::string& reason) { service->end(reason); });
+  ProcessSupervisor supervisor(*loop, *runner, output);
+  supervisor.use_guardian(guardian);
+  supervisor.observe(process_messages(output));
+  LaunchTracepoints tracepoints(own_prefix());
+  LaunchService launch(context, *loop, supervisor, [&](const LaunchError& error) {
+    fmt::print(stderr, "{}", render(error.diagnostics()));
+    judge.on_error(error);
+  });
+  service = &launch;
+  supervisor.observe([&](const ProcessEvent& event) { judge.on_process(event); });
+  launch.use_ros_client(ros_client);
+  launch.use_guardian(guardian);
+  launch.record_to(tracepoints);
+  launch.use_test(
+      [&](TestRequest test) {
+        if (test.name == run.test.name) {
+          judge.begin(std::move(test));
+        }
+      },
+      [&](const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
+        judge.on_line(spec, label, stream, line);
+      },
+      [&] { judge.on_shutdown(); });
+  guardian.wait_until_ready();
+  launch.run(*run.test.description);
+  judge.finish();
+  result.failures = judge.failures();
+  result.met = judge.met();
+  result.not_judged = judge.not_judged();
+}
+
+[[noreturn]] void run_in_child(const TestRun& run) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  TestResult result;
+  result.file = run.test.file;
+  result.name = run.test.name;
+  result.line = run.test.line;
+  result.directory = run.directory;
+  try {
+    Guardian guardian = Guardian::put_above({"launch", "test", run.test.file, run.test.name});
+    const std::string mark = guardian.mark("launch test", {});
+    ::setenv(kMarkVariable, mark.c_str() + std::string_view(kMarkVariable).size() + 1, 1);
+    run_launch(run, guardian, result);
+  } catch (const std::exception& error) {
+    result.failures.push_back({.message = error.what(), .text = fmt::format("error: {}\n", error.what())});
+  }
+  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  std::ofstream(result_file(run.directory)) << to_json(result) << '\n';
+  std::fflush(nullptr);
+  ::_exit(0);
+}
+
+}  // namespace
+
+std::string result_file(const std::string& directory) {
+  return directory + "/result.json";
+}
+
+pid_t start_test(const TestRun& run) {
+  std::fflush(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) {
+    throw std::system_error(errno, std::system_category(), "cannot start the process of a test");
+  }
+  if (child > 0) {
+    return child;
+  }
+  ::setpgid(0, 0);
+  if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) {
+    ::_exit(1);
+  }
+  for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP, SIGTSTP}) {
+    ::signal(signal, SIG_DFL);
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int input = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int output = ::open((run.directory + "/output.txt").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (input < 0 || output < 0 || ::dup2(input, STDIN_FILENO) < 0 || ::dup2(output, STDOUT_FILENO) < 0 ||
+      ::dup2(output, STDERR_FILENO) < 0) {
+    ::_exit(1);
+  }
+  run_in_child(run);
+}
+
+}  // namespace launch

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/test_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace launch {
+
+namespace {
+
+constexpr std::size_t kNarrow = 80;
+
+std::size_t width_of(std::FILE* stream) {
+  winsize size{};
+  return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kNarrow;
+}
+
+}  // namespace
+
+TestReport::TestReport(std::FILE* stream) : stream_(stream), is_terminal_(::isatty(::fileno(stream)) != 0) {}
+
+void TestReport::on_progress(std::size_t ended, std::size_t all, const std::vector<std::string>& running) {
+  if (!is_terminal_) {
+    return;
+  }
+  clear_line();
+  if (running.empty()) {
+    return;
+  }
+  std::string text = fmt::format("[{}/{}]{} {}", ended, all, failed_ == 0 ? "" : fmt::format(" {} failed,", failed_),
+                                 fmt::join(running, ", "));
+  text.resize(std::min(text.size(), width_of(stream_) - 1));
+  fmt::print(stream_, "{}", text);
+  std::fflush(stream_);
+  has_line_ = true;
+}
+
+void TestReport::clear_line() {
+  if (has_line_) {
+    fmt::print(stream_, "\r\x1b[K");
+    has_line_ = false;
+  }
+}
+
+void TestReport::on_result(const TestResult& result) {
+  clear_line();
+  const char* const word = result.passed() ? "PASS" : "FAIL";
+  const char* const colour = !is_terminal_ ? "" : result.passed() ? "\x1b[32m" : "\x1b[31m";
+  fmt::print(stream_, "{}{}{}  {}  {:.2f} s\n", colour, word, is_terminal_ ? "\x1b[0m" : "", result.title(),
+             result.seconds);
+  if (result.passed()) {
+    std::fflush(stream_);
+    return;
+  }
+  ++failed_;
+  for (const TestFailure& failure : result.failures) {
+    fmt::print(stream_, "{}", failure.text);
+  }
+  if (result.not_judged > 0) {
+    fmt::print(stream_, "      = not judged, because the run ended: {} expectation{}\n", result.not_judged,
+               result.not_judged == 1 ? "" : "s");
+  }
+  if (!result.directory.empty()) {
+    fmt::print(stream_, "      = files: {}\n", result.directory);
+  }
+  std::fflush(stream_);
+}
+
+void TestReport::finish(const std::vector<TestResult>& results, std::size_t all, double seconds, bool interrupted) {
+  clear_line();
+  const std::size_t passed = results.size() - failed_;
+  fmt::print(stream_, "\n{} test{}: {} passed{}{}, in {:.1f} s\n", all, all == 1 ? "" : "s", passed,
+             failed_ == 0 ? "" : fmt::format(", {} failed", failed_),
+             results.size() == all ? "" : fmt::format(", {} not run", all - results.size()), seconds);
+  if (interrupted) {
+    fmt::print(stream_, "interrupted\n");
+  }
+  if (failed_ > 0 && results.size() > 1) {
+    for (const TestResult& result : results) {
+      if (!result.passed()) {
+        fmt::print(stream_, "FAIL  {}\n", result.title());
+      }
+    }
+  }
+  std::fflush(stream_);
+}
+
+}  // namespace launch

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a <test> of a launch file asks for. It is plain data: nothing has been checked yet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/language/exit_code_filter.hpp"
+#include "launcher/language/output_pattern.hpp"
+#include "launcher/language/readiness_condition.hpp"
+#include "launcher/process/event_loop.hpp"
+
+namespace launch {
+
+// A line that a process should write.
+struct ExpectedLine {
+  OutputPattern pattern;
+  std::string text;  // a part of the line, as it stands; empty: any
+
+  bool matches(OutputStream stream, std::string_view line) const {
+    return pattern.matches(stream, line) && (text.empty() || line.find(text) != std::string_view::npos);
+  }
+  // "a line with 'ready' on stdout", "a line that matches 'rate: \d+'", "any line".
+  std::string describe() const;
+};
+
+// How a process ends.
+struct ExpectedExit {
+  ExitCodeFilter code;
+  bool after_shutdown = false;  // the end of the test ends it; else it ends by itself
+};
+struct ExpectedOutput {
+  ExpectedLine line;
+  std::uint64_t least = 1;
+  std::optional<std::uint64_t> most;  // nullopt: any number
+};
+// Each of the lines later than the one before.
+struct ExpectedSequence {
+  std::vector<ExpectedLine> lines;
+};
+struct ExpectedGraph {
+  std::shared_ptr<ReadinessCondition> condition;
+  bool absent = false;
+};
+// The most that a process may have used when it ends.
+struct ExpectedResources {
+  std::optional<std::uint64_t> memory;  // bytes in use at the same time
+  std::optional<Duration> processor_time;
+};
+
+struct Expectation {
+  std::variant<ExpectedExit, ExpectedOutput, ExpectedSequence, ExpectedGraph, ExpectedResources> what;
+  std::string process;             // a name (process_table.hpp); empty: every process
+  SourceRange process_where;       // the place of that name
+  std::optional<Duration> within;  // from the begin of the test
+  SourceRange where;
+};
+
+struct TestRequest {
+  std::string name;
+  Duration timeout{0};
+  std::optional<Duration> duration;  // the system runs so long at least
+  std::vector<Expectation> expectations;
+  SourceRange where;
+  SourceRange name_where;
+};
+
+}  // namespace launch

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+// `launch test`: the tests of launch files, those that pass and those that do not.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace fs = std::filesystem;
+
+class TestCommand : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& actions) {
+    const fs::path path = sandbox_.directory() / name;
+    fs::create_directories(path.parent_path());
+    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
+    return path.string();
+  }
+
+  static CommandResult run(std::vector<std::string> words) {
+    words.insert(words.begin(), {LAUNCH_PROGRAM, "test"});
+    return run_command({.argv = words}, std::chrono::seconds(100));
+  }
+
+  // Without times and directories, which differ.
+  std::string plain(const std::string& text) const {
+    std::string result = std::regex_replace(text, std::regex("(  |, in )[0-9.]+ s\n"), "$1T s\n");
+    result = std::regex_replace(result, std::regex("files: .*/"), "files: DIR/");
+    for (std::size_t at = 0; (at = result.find(sandbox_.directory().string() + "/", at)) != std::string::npos;) {
+      result.erase(at, sandbox_.directory().string().size() + 1);
+    }
+    return result;
+  }
+
+  // Waits until a process of a test has made the file.
+  bool appears(const std::string& name) const {
+    const fs::path path = sandbox_.directory() / name;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!fs::exists(path) && std::chrono::steady_clock::now() < end) {
+      ::usleep(10'000);
+    }
+    return fs::exists(path);
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(TestCommand, TellsWhatHasFailedAtItsPlace) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="counter" shell="true" cmd="for i in 1 2 3; do echo count $i; done; exec cat"/>
+  <test name="counts to four">
+    <output process="counter" text="count 4" within="0.2"/>
+  </test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.out), R"(FAIL  a.launch.xml: counts to four  T s
+a.launch.xml:5:6: error: there was not a line with 'count 4' from 'counter' within 0.2 s
+    5 |     <output process="counter" text="count 4" within="0.2"/>
+      |      ^~~~~~
+      = expected: a line with 'count 4'
+      = seen: none in 3 lines
+      = last lines of counter-1:
+          count 1
+          count 2
+          count 3
+      = files: DIR/0001-counts_to_four
+
+1 test: 0 passed, 1 failed, in T s
+)");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(TestCommand, PassesWhenEverythingHasHappenedAndRemovesItsFiles) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <arg name="word"/>
+  <executable name="server" shell="true" cmd="echo one; echo two $(var word) >&amp;2; exec cat"/>
+  <test name="speaks">
+    <in_order process="server"><line text="one"/></in_order>
+    <output process="server" pattern="^two b" stream="stderr"/>
+    <output text="three" absent="true"/>
+    <exit process="server" when="shutdown" code="SIGINT"/>
+    <resources process="server" max_memory="1G"/>
+  </test>
+  <test name="has a step">
+    <executable cmd="true" name="step"/>
+    <exit process="step"/>
+  </test>)xml");
+  const CommandResult result = run({file, "-j", "2", "word:=b"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: speaks  T s\n"));
+  EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: has a step  T s\n"));
+  EXPECT_THAT(plain(result.out), HasSubstr("\n2 tests: 2 passed, in T s\n"));
+  EXPECT_TRUE(fs::is_empty(fs::path(::getenv("ROS_HOME")) / "test"));
+}
+
+TEST_F(TestCommand, AProcessThatFailsWithoutBeingNamedFailsTheTest) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="bad" shell="true" cmd="echo oh; exit 7"/>
+  <executable name="good" cmd="cat"/>
+  <test name="t"><output process="good" text="never"/></test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.out), R"(FAIL  a.launch.xml: t  T s
+a.launch.xml:3:4: error: bad-1 has exited with code 7
+    3 |   <executable name="bad" shell="true" cmd="echo oh; exit 7"/>
+      |    ^~~~~~~~~~
+      = help: if that is right: <exit process="bad" code="7"/>
+      = last lines of bad-1:
+          oh
+      = not judged, because the run ended: 1 expectation
+      = files: DIR/0001-t
+
+1 test: 0 passed, 1 failed, in T s
+)");
+}
+
+TEST_F(TestCommand, ATestThatDoesNotEndHasTimedOut) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="server" cmd="cat"/>
+  <test name="silent" timeout="0.3"><output text="late" absent="true"/></test>
+  <test name="waits" timeout="0.3"><exit process="server"/></test>)xml");
+  const CommandResult result = run({file, "-j", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("error: the system has not ended within 0.3 s, the timeout of the test\n"));
+  EXPECT_THAT(result.out, HasSubstr("      = help: duration=\"…\" ends it after a while\n"));
+  EXPECT_THAT(result.out, HasSubstr("error: 'server' has not exited within 0.3 s, the timeout of the test\n"));
+  EXPECT_THAT(result.out, HasSubstr("      = seen: it was still running\n"));
+}
+
+TEST_F(TestCommand, ADurationEndsATestThatWaitsForNothing) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="server" cmd="cat"/>
+  <test name="silent" duration="0.2"><output text="late" absent="true"/></test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
+TEST_F(TestCommand, AMistakeIsToldBeforeAnythingStarts) {
+  const std::string good = write("good.launch.xml", R"xml(
+  <executable cmd="touch started" cwd="$(dirname)"/><test name="t"><exit process="touch"/></test>)xml");
+  const std::string bad = write("bad.launch.xml", R"xml(
+  <executable name="server" cmd="cat"/>
+  <test name="a"><output process="sever" text="x"/></test>
+  <test name="a"><output pattern="(" process="server"/></test>)xml");
+  CommandResult result = run({good, bad});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(plain(result.err), HasSubstr("bad.launch.xml:5:35: error: "));
+  write("bad.launch.xml", R"xml(
+  <executable name="server" cmd="cat"/>
+  <test name="a"><output process="sever" text="x"/></test>
+  <test name="a"><output process="server"/></test>)xml");
+  result = run({good, bad});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.err), R"(bad.launch.xml:4:35: error: no process is named 'sever'
+    4 |   <test name="a"><output process="sever" text="x"/></test>
+      |                                   ^~~~~
+      = help: did you mean 'server'?
+bad.launch.xml:5:15: error: two tests are named 'a'
+    5 |   <test name="a"><output process="server"/></test>
+      |               ^
+      = help: in a loop, put $(index …) or $(for-var …) into the name
+)");
+  EXPECT_FALSE(fs::exists(sandbox_.directory() / "started"));
+}
+
+TEST_F(TestCommand, ATestExpectsSomething) {
+  const std::string file = write("a.launch.xml", R"xml(<test name="t"/>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.err), R"(a.launch.xml:2:2: error: the test expects nothing
+    2 | <test name="t"/>
+      |  ^~~~
+      = help: say what must happen: <output text="…"/>, <exit process="…"/>, …
+)");
+  const std::string none = write("b.launch.xml", "");
+  EXPECT_THAT(plain(run({none}).err), HasSubstr("b.launch.xml:1:1: error: the launch file has no test\n"));
+}
+
+TEST_F(TestCommand, APlainLaunchPassesOverTests) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable cmd="echo system" output="screen"/>
+  <test name="t"><executable cmd="echo test" output="screen"/><output text="never"/></test>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("[echo-1] system"));
+  EXPECT_THAT(result.out, Not(HasSubstr("[echo-2] test")));
+  const CommandResult check = run_command({LAUNCH_PROGRAM, "check", file});
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+}
+
+TEST_F(TestCommand, WritesResultsForOtherPrograms) {
+  write("tests/a.launch.xml", R"xml(
+  <executable cmd="echo &lt;hello&gt;" name="greeter"/>
+  <test name="good"><output text="hello"/></test>
+  <test name="bad &amp; ugly"><output text="&lt;bye&gt;"/></test>)xml");
+  write("tests/no_test.launch.xml", R"xml(<executable cmd="true"/>)xml");
+  const fs::path out = sandbox_.directory() / "out";
+  const CommandResult result = run({(sandbox_.directory() / "tests").string(), "--junit", out / "j.xml", "--tap",
+                                    out / "t.tap", "--json", out / "r.json", "--directory", out / "files", "--keep"});
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string junit = read_file(out / "j.xml");
+  EXPECT_THAT(junit, HasSubstr("<testsuites name=\"launch test\" tests=\"2\" failures=\"1\" errors=\"0\""));
+  EXPECT_THAT(junit, HasSubstr("<testcase name=\"bad &amp; ugly\""));
+  EXPECT_THAT(junit, HasSubstr("<failure message=\"there was not a line with '&lt;bye>' before the system ended\">"));
+  EXPECT_EQ(run_command({"xmllint", "--noout", out / "j.xml"}).exit_code, 0);
+  const std::string tap = read_file(out / "t.tap");
+  EXPECT_THAT(tap, HasSubstr("TAP version 13\n1..2\nok 1 - "));
+  EXPECT_THAT(tap, HasSubstr("\nnot ok 2 - "));
+  const auto json = nlohmann::json::parse(read_file(out / "r.json"));
+  EXPECT_EQ(json["passed"], 1);
+  EXPECT_EQ(json["tests"][1]["outcome"], "failed");
+  EXPECT_EQ(json["tests"][1]["failures"][0]["line"], 5);
+  EXPECT_TRUE(fs::exists(out / "files" / "0001-good" / "output.txt"));
+}
+
+TEST_F(TestCommand, EachTurnOfALoopIsATestAndNamesChooseThem) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <for len="3" name="i"><test name="turn $(index i)">
+    <executable name="say" cmd="echo $(index i)"/><output process="say" text="$(index i)"/>
+  </test></for>)xml");
+  EXPECT_EQ(plain(run({file, "--list"}).out),
+            "a.launch.xml:3: turn 0\na.launch.xml:3: turn 1\na.launch.xml:3: turn 2\n");
+  const CommandResult result = run({file, "-n", "turn 1"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(plain(result.out), HasSubstr("\n1 test: 1 passed, in T s\n"));
+  EXPECT_THAT(run({file, "-n", "turn1"}).err, HasSubstr("error: no test is named 'turn1'\n"));
+  EXPECT_EQ(run({file, "-j", "none"}).exit_code, 2);
+}
+
+TEST_F(TestCommand, TestsBesideEachOtherHaveDomainsAndDirectoriesOfTheirOwn) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <for len="8" name="i"><test name="turn $(index i)">
+    <executable name="say" shell="true"
+                cmd="cd $(dirname); echo $ROS_DOMAIN_ID $ROS_HOME &gt; seen-$(index i); until [ -e seen-0 -a -e seen-7 ]; do sleep 0.05; done"/>
+    <exit process="say"/>
+  </test></for>)xml");
+  const CommandResult result = run({file, "-j", "8"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  std::set<std::string> domains;
+  std::set<std::string> homes;
+  for (int i = 0; i < 8; ++i) {
+    std::ifstream seen(sandbox_.directory() / ("seen-" + std::to_string(i)));
+    std::string domain;
+    std::string home;
+    seen >> domain >> home;
+    domains.insert(domain);
+    homes.insert(home);
+  }
+  EXPECT_EQ(domains.size(), 8U);
+  EXPECT_EQ(homes.size(), 8U);
+}
+
+TEST_F(TestCommand, CtrlCEndsTheTestsAndLeavesNothing) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="server" shell="true" cmd="touch $(dirname)/up; exec cat"/>
+  <test name="t"><output text="never"/></test>)xml");
+  RunningCommand command({.argv = {LAUNCH_PROGRAM, "test", file}});
+  ASSERT_TRUE(appears("up"));
+  command.send_signal(SIGINT);
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 130) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("error: the test was interrupted\n"));
+  Sandbox::wait_until_daemons_are_left();
+}
+
+TEST_F(TestCommand, TestsEndWhenTheRunnerIsKilled) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="server" shell="true" cmd="touch $(dirname)/up; exec cat"/>
+  <test name="t"><output text="never"/></test>)xml");
+  RunningCommand command({.argv = {LAUNCH_PROGRAM, "test", file}});
+  ASSERT_TRUE(appears("up"));
+  command.send_signal(SIGKILL);
+  command.wait();
+  Sandbox::wait_until_daemons_are_left();
+}
+
+class ExampleTests : public testing::TestWithParam<const char*> {};
+
+TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
+  Sandbox sandbox;
+  const std::string folder = EXAMPLES_DIRECTORY "/";
+  const CommandResult good = run_command({.argv = {LAUNCH_PROGRAM, "test", folder + "40_test.launch." + GetParam()}},
+                                         std::chrono::seconds(100));
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  EXPECT_THAT(good.out, HasSubstr("\n3 tests: 3 passed, in "));
+  const CommandResult bad = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "41_failing_test.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.out, HasSubstr("\n4 tests: 0 passed, 4 failed, in "));
+  EXPECT_THAT(bad.out, HasSubstr("error: there is a line with 'count 3' from 'counter'\n"));
+  EXPECT_THAT(bad.out, HasSubstr("error: 'crash' has exited with code 2\n"));
+  EXPECT_THAT(bad.out, HasSubstr("      = expected: an exit with code 3\n"));
+  EXPECT_THAT(bad.out, HasSubstr("error: unexpected-2 has exited with code 7\n"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));
+
+}  // namespace
