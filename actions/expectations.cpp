@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// <exit>, <output>, <in_order>, <graph>, <resources>.
 #include "actions/expectations.hpp"
 
 #include <fmt/format.h>
@@ -7,22 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "actions/expectation_fields.hpp"
 #include "actions/resource_fields.hpp"
 #include "actions/ros_condition.hpp"
 
 namespace launch {
 
 namespace {
-
-AttributeSpec own_attribute(std::string name, AttributeType type, bool required, std::string fallback,
-                            std::string help) {
-  return {std::move(name), type, required, std::move(fallback), std::move(help), true};
-}
-
-AttributeSpec process_attribute(bool required) {
-  return own_attribute("process", AttributeType::kText, required, required ? "" : "every process",
-                       "a process, by its name or that of its node");
-}
 
 AttributeSpec within_attribute() {
   return own_attribute("within", AttributeType::kFloat, false, "none", "seconds from the begin of the test");
@@ -35,47 +27,9 @@ std::vector<AttributeSpec> line_attributes() {
       own_attribute("stream", AttributeType::kText, false, "both", "stdout, stderr or both")};
 }
 
-Duration as_duration(double number) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(number));
-}
-
-std::optional<NumberField> from_zero(const Fields& fields, const char* attribute) {
-  std::optional<NumberField> number = fields.number(attribute);
-  if (number) {
-    number->require_not_negative();
-  }
-  return number;
-}
-
 std::optional<Duration> perform_seconds(const std::optional<NumberField>& number, Scope& scope) {
   return number ? std::optional(as_duration(number->perform(scope))) : std::nullopt;
 }
-
-// What most items have in common.
-class ExpectationSubject {
- public:
-  explicit ExpectationSubject(const Fields& fields)
-      : where_(fields.where()), process_(fields.optional_text("process")), within_(from_zero(fields, "within")) {}
-
-  template <typename What>
-  Expectation of(What what, Scope& scope) const {
-    Expectation expectation;
-    expectation.what = std::move(what);
-    expectation.where = where_;
-    expectation.process_where = where_;
-    if (process_) {
-      expectation.process = process_->perform(scope);
-      expectation.process_where = process_->where();
-    }
-    expectation.within = perform_seconds(within_, scope);
-    return expectation;
-  }
-
- private:
-  SourceRange where_;
-  std::optional<Template> process_;
-  std::optional<NumberField> within_;
-};
 
 class Line {
  public:
@@ -192,14 +146,6 @@ PerformExpectation resources_expectation(const Fields& fields) {
   };
 }
 
-ItemSpec expectation_item(std::string tag, std::string help, std::vector<AttributeSpec> attributes) {
-  return {.tag = std::move(tag),
-          .help = std::move(help),
-          .attributes = std::move(attributes),
-          .has_condition = true,
-          .extension = true};
-}
-
 ItemSpec exit_item() {
   return expectation_item(
       "exit", "how a process ends",
@@ -255,11 +201,17 @@ ItemSpec resources_item() {
 }  // namespace
 
 const std::vector<ExpectationType>& expectation_types() {
-  static const std::vector<ExpectationType> types = {{exit_item(), exit_expectation},
-                                                     {output_item(), output_expectation},
-                                                     {in_order_item(), in_order_expectation},
-                                                     {graph_item(), graph_expectation},
-                                                     {resources_item(), resources_expectation}};
+  static const std::vector<ExpectationType> types = [] {
+    std::vector<ExpectationType> all = {{exit_item(), exit_expectation},
+                                        {output_item(), output_expectation},
+                                        {in_order_item(), in_order_expectation},
+                                        {graph_item(), graph_expectation},
+                                        {resources_item(), resources_expectation}};
+    for (ExpectationType& type : trace_expectation_types()) {
+      all.push_back(std::move(type));
+    }
+    return all;
+  }();
   return types;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The items of <test> that say what must happen: <exit>, <output>, <in_order>, <graph>, <resources>.
+// The items of <test> that say what must happen.
 #pragma once
 
 #include <functional>
@@ -21,5 +21,7 @@ struct ExpectationType {
 };
 
 const std::vector<ExpectationType>& expectation_types();
+// Those of them that speak of the trace of the run (trace_expectations.cpp).
+std::vector<ExpectationType> trace_expectation_types();
 
 }  // namespace launch

@@ -86,7 +86,7 @@ class Check {
   std::optional<Failure> failure_;
 };
 
-// The check of an expectation.
+// The check of an expectation; null for one that is judged by the trace (trace_check.hpp).
 std::unique_ptr<Check> make_check(const Expectation& expectation);
 std::unique_ptr<Check> make_exit_check(const Expectation& expectation);
 std::unique_ptr<Check> make_output_check(const Expectation& expectation);

@@ -6,10 +6,15 @@
 #include <algorithm>
 #include <chrono>
 
+#include "launcher/visit/process_table.hpp"
+
 namespace launch {
 
-RunJudge::RunJudge(EventLoop& loop, std::function<void(const std::string&)> end)
-    : loop_(loop), end_launch_(std::move(end)), implied_(tail_, [this](Failure failure) {
+RunJudge::RunJudge(EventLoop& loop, std::string trace_directory, std::function<void(const std::string&)> end)
+    : loop_(loop),
+      trace_directory_(std::move(trace_directory)),
+      end_launch_(std::move(end)),
+      implied_(tail_, [this](Failure failure) {
         if (end_ == RunEnd::kNothingLeft || end_ == RunEnd::kMet) {
           failures_.push_back(as_text(failure));
           end_run(RunEnd::kFailure, "a process has failed");
@@ -31,7 +36,11 @@ void RunJudge::begin(TestRequest test) {
     if (std::holds_alternative<ExpectedExit>(expectation.what)) {
       implied_.leave_out(expectation.process);
     }
-    checks_.push_back(make_check(expectation));
+    if (std::unique_ptr<Check> check = make_check(expectation)) {
+      checks_.push_back(std::move(check));
+    } else {
+      of_trace_.push_back(expectation);
+    }
   }
   for (const std::unique_ptr<Check>& check : checks_) {
     check->begin(loop_, tail_, [this] { decide(); });
@@ -39,6 +48,11 @@ void RunJudge::begin(TestRequest test) {
 }
 
 void RunJudge::on_process(const ProcessEvent& event) {
+  if (const auto* const started = std::get_if<ProcessStarted>(&event.what)) {
+    std::vector<std::string> names = names_of(event.spec);
+    names.push_back(event.label);
+    processes_.push_back({std::move(names), started->pid});
+  }
   for (const std::unique_ptr<Check>& check : checks_) {
     check->on_process(event);
   }
@@ -131,19 +145,32 @@ void RunJudge::finish() {
     }
   }
   failures_.insert(failures_.begin(), found.begin(), found.end());
+  judge_trace();
   if (!has_begun_ && failures_.empty()) {
     failures_.push_back({.message = "the test has not begun", .text = "error: the test has not begun\n"});
   }
 }
 
+void RunJudge::judge_trace() {
+  if (of_trace_.empty() || !has_begun_ || end_ == RunEnd::kFailure) {
+    return;
+  }
+  const std::vector<Failure> found = launch::judge_trace(of_trace_, trace_directory_, processes_, test_.where);
+  for (const Failure& failure : found) {
+    failures_.push_back(as_text(failure));
+  }
+  trace_met_ = of_trace_.size() - std::min(of_trace_.size(), found.size());
+  of_trace_.clear();
+}
+
 std::size_t RunJudge::met() const {
-  return static_cast<std::size_t>(
-      std::count_if(checks_.begin(), checks_.end(), [](const auto& check) { return check->is_met(); }));
+  return trace_met_ + static_cast<std::size_t>(std::count_if(checks_.begin(), checks_.end(),
+                                                             [](const auto& check) { return check->is_met(); }));
 }
 
 std::size_t RunJudge::not_judged() const {
-  return static_cast<std::size_t>(
-      std::count_if(checks_.begin(), checks_.end(), [](const auto& check) { return check->is_open(); }));
+  return of_trace_.size() + static_cast<std::size_t>(std::count_if(checks_.begin(), checks_.end(),
+                                                                   [](const auto& check) { return check->is_open(); }));
 }
 
 }  // namespace launch

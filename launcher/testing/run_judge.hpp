@@ -15,14 +15,16 @@
 #include "launcher/testing/check.hpp"
 #include "launcher/testing/implied_check.hpp"
 #include "launcher/testing/output_tail.hpp"
+#include "launcher/testing/trace_check.hpp"
 #include "launcher/visit/test_request.hpp"
 
 namespace launch {
 
 class RunJudge {
  public:
-  // `end` begins the shutdown of the launch. The loop must outlive the judge.
-  RunJudge(EventLoop& loop, std::function<void(const std::string& reason)> end);
+  // `end` begins the shutdown of the launch. The trace of the run will be in the directory. The loop must outlive the
+  // judge.
+  RunJudge(EventLoop& loop, std::string trace_directory, std::function<void(const std::string& reason)> end);
 
   // To be called once, before the processes start.
   void begin(TestRequest test);
@@ -42,15 +44,20 @@ class RunJudge {
 
  private:
   void decide();
+  void judge_trace();
   void end_run(RunEnd end, const std::string& reason);
   void on_timeout();
 
   EventLoop& loop_;
+  std::string trace_directory_;
   std::function<void(const std::string&)> end_launch_;
   TestRequest test_;
   OutputTail tail_;
   ImpliedCheck implied_;
   std::vector<std::unique_ptr<Check>> checks_;
+  std::vector<Expectation> of_trace_;  // to be judged when the trace is whole
+  std::size_t trace_met_ = 0;
+  std::vector<RecordedProcess> processes_;
   EventLoop::SourcePtr timeout_;
   EventLoop::SourcePtr duration_;
   bool has_begun_ = false;

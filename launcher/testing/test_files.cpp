@@ -12,6 +12,7 @@
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
+#include "launcher/testing/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "launcher/visit/process_table.hpp"
 
@@ -95,6 +96,20 @@ void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Di
   }
 }
 
+// Events that the session of a test must be asked for, because they are not of ROS 2.
+std::vector<std::string> other_events(const TestRequest& test) {
+  std::vector<std::string> names;
+  for (const Expectation& expectation : test.expectations) {
+    const auto* const trace = std::get_if<TraceExpectation>(&expectation.what);
+    const auto* const event = trace == nullptr ? nullptr : std::get_if<ExpectedEvent>(trace);
+    if (event != nullptr && !event->name.starts_with("ros2:") && !event->name.starts_with("ros2_ext:") &&
+        !event->name.starts_with("launch:")) {
+      names.push_back(event->name);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> find_test_files(const std::vector<std::string>& words, const Scope& scope) {
@@ -129,9 +144,17 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
       errors.push_back({Severity::kError, fmt::format("two tests are named '{}'", test.name), test.name_where,
                         "in a loop, put $(index …) or $(for-var …) into the name", Finding::kNone});
     }
+    for (const Expectation& expectation : test.expectations) {
+      try {
+        check_trace_expectation(expectation);
+      } catch (const LaunchError& error) {
+        errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
+      }
+    }
     check_names(test, plan(*description, registry, environment, arguments, tests.size()), errors);
     const unsigned line = test.where ? test.where.file->position(test.where.begin).line : 0;
-    tests.push_back({file, description, tests.size(), test.name, line, test.timeout});
+    tests.push_back(
+        {file, description, tests.size(), test.name, line, test.timeout, test.is_traced(), other_events(test)});
   }
   if (!errors.empty()) {
     throw LaunchError(std::move(errors));

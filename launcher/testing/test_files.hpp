@@ -24,6 +24,8 @@ struct TestCase {
   std::string name;
   unsigned line = 0;
   Duration timeout{0};
+  bool traced = false;              // its run is recorded
+  std::vector<std::string> events;  // that it names, beside those of ROS 2
 };
 
 // The launch files that the words mean: files, directories, which are searched for launch files with a test, or a

@@ -23,6 +23,7 @@
 #include "launcher/run/launch_service.hpp"
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
+#include "launcher/testing/trace_session.hpp"
 #include "tracing/testing/own_domain.hpp"
 
 namespace launch {
@@ -34,7 +35,7 @@ Environment own_surroundings(const TestRun& run, int domain) {
   environment["ROS_DOMAIN_ID"] = std::to_string(domain);
   environment["ROS_HOME"] = run.directory + "/ros";
   environment["ROS_LOG_DIR"] = run.directory + "/log";
-  environment["ROS_TRACE_DIR"] = run.directory + "/traces";
+  environment["ROS_TRACE_DIR"] = run.directory + "/own_traces";
   return environment;
 }
 
@@ -64,7 +65,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   context.take_tests(run.test.number);
 
   LaunchService* service = nullptr;
-  RunJudge judge(*loop, [&](const std::string& reason) { service->end(reason); });
+  RunJudge judge(*loop, trace_directory(run.directory), [&](const std::string& reason) { service->end(reason); });
   ProcessSupervisor supervisor(*loop, *runner, output);
   supervisor.use_guardian(guardian);
   supervisor.observe(process_messages(output));
@@ -89,7 +90,8 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
       },
       [&] { judge.on_shutdown(); });
   guardian.wait_until_ready();
-  launch.run(*run.test.description);
+  launch.run(run.test.traced ? *recorded(*run.test.description, run.registry, run.directory, run.test.events)
+                             : *run.test.description);
   judge.finish();
   result.failures = judge.failures();
   result.met = judge.met();

@@ -2,6 +2,7 @@
 // What a <test> of a launch file asks for. It is plain data: nothing has been checked yet.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "launcher/language/output_pattern.hpp"
 #include "launcher/language/readiness_condition.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/visit/trace_expectation.hpp"
 
 namespace launch {
 
@@ -55,7 +57,7 @@ struct ExpectedResources {
 };
 
 struct Expectation {
-  std::variant<ExpectedExit, ExpectedOutput, ExpectedSequence, ExpectedGraph, ExpectedResources> what;
+  std::variant<ExpectedExit, ExpectedOutput, ExpectedSequence, ExpectedGraph, ExpectedResources, TraceExpectation> what;
   std::string process;             // a name (process_table.hpp); empty: every process
   SourceRange process_where;       // the place of that name
   std::optional<Duration> within;  // from the begin of the test
@@ -69,6 +71,13 @@ struct TestRequest {
   std::vector<Expectation> expectations;
   SourceRange where;
   SourceRange name_where;
+
+  // Whether it expects something of the trace, so that its run is recorded.
+  bool is_traced() const {
+    return std::any_of(expectations.begin(), expectations.end(), [](const Expectation& expectation) {
+      return std::holds_alternative<TraceExpectation>(expectation.what);
+    });
+  }
 };
 
 }  // namespace launch

@@ -288,6 +288,57 @@ TEST_F(TestCommand, TestsEndWhenTheRunnerIsKilled) {
   Sandbox::wait_until_daemons_are_left();
 }
 
+TEST_F(TestCommand, AMistakeInAnExpectationOfTheTraceIsToldAtItsPlace) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="server" cmd="cat"/>
+  <test name="a"><event name="ros2:callback_start" where="callback = 1"/></test>)xml");
+  CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(plain(result.err), HasSubstr("a.launch.xml:4:68: error: "));
+  write("a.launch.xml", R"xml(<test name="a"><event name="ros2:callback_strat"/></test>)xml");
+  result = run({file});
+  EXPECT_EQ(plain(result.err),
+            R"(a.launch.xml:2:29: error: ROS 2 has no event 'ros2:callback_strat'; did you mean 'ros2:callback_start'?
+    2 | <test name="a"><event name="ros2:callback_strat"/></test>
+      |                             ^~~~~~~~~~~~~~~~~~~
+)");
+  write("a.launch.xml",
+        R"xml(<test name="a"><latency topic="/a" nodes="/a /b" max_ms="1"/><callback node="a"/></test>)xml");
+  result = run({file});
+  EXPECT_THAT(plain(result.err), HasSubstr("a.launch.xml:2:17: error: either a topic or nodes\n"));
+  EXPECT_THAT(plain(result.err), HasSubstr("a.launch.xml:2:63: error: there is no bound\n"));
+}
+
+TEST_F(TestCommand, ARunWithoutEventsFailsWhatIsExpectedOfItsTrace) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="step" cmd="true"/>
+  <test name="a"><exit process="step"/><event name="ros2:rcl_init"/></test>
+  <test name="b"><exit process="step"/><event name="ros2:rcl_init" max="0"/></test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr(": b  "));
+  EXPECT_THAT(result.out, HasSubstr("error: the trace is empty\n"));
+  EXPECT_THAT(result.out, HasSubstr("error: the trace does not hold the events 'ros2:rcl_init' as expected\n"));
+}
+
+TEST_F(TestCommand, TracesOfTestsBesideEachOtherAreKeptApart) {
+  // All have one topic and nodes of one name. Each must see its own publisher alone.
+  const std::string file = write("a.launch.xml", R"xml(
+  <node pkg="demo_nodes" exec="pong"/>
+  <node pkg="demo_nodes" exec="ping" on_exit="shutdown">
+    <param name="count" value="3"/><param name="period_ms" value="20"/>
+  </node>
+  <for len="6" name="i"><test name="turn $(index i)">
+    <exit process="ping"/>
+    <event name="ros2:rcl_publisher_init" where="topic_name == '/ping'" min="1" max="1"/>
+    <event name="ros2:rcl_publisher_init" where="topic_name == '/pong'" process="pong" min="1" max="1"/>
+    <event name="ros2:rcl_publisher_init" where="topic_name == '/pong'" process="ping" max="0"/>
+    <delivery topic="/ping" min="3" max_lost="100"/>
+  </test></for>)xml");
+  const CommandResult result = run({file, "-j", "6"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
 class ExampleTests : public testing::TestWithParam<const char*> {};
 
 TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
@@ -305,6 +356,16 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
   EXPECT_THAT(bad.out, HasSubstr("error: 'crash' has exited with code 2\n"));
   EXPECT_THAT(bad.out, HasSubstr("      = expected: an exit with code 3\n"));
   EXPECT_THAT(bad.out, HasSubstr("error: unexpected-2 has exited with code 7\n"));
+  const CommandResult traced = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "42_trace_test.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(traced.exit_code, 0) << traced.out << traced.err;
+  const CommandResult late = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "43_latency_budget.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(late.exit_code, 1);
+  EXPECT_THAT(late.out, HasSubstr("error: messages of '/ping' do not take the time that is expected\n"));
+  EXPECT_THAT(late.out, HasSubstr(" outside; least "));
+  EXPECT_THAT(late.out, HasSubstr("error: the chain /ping /pong does not take the time that is expected\n"));
+  EXPECT_THAT(late.out, HasSubstr("nearest events:"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/trace_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "launch_trace_testing/event_query.hpp"
+#include "launch_trace_testing/expectations.hpp"
+#include "launcher/testing/chain_times.hpp"
+#include "launcher/testing/timer_check.hpp"
+#include "tracing/reader/trace_read_error.hpp"
+
+namespace launch {
+
+namespace testing = launch_trace_testing;
+
+namespace {
+
+testing::Count count_of(std::uint64_t least, const std::optional<std::uint64_t>& most = {}) {
+  return {least, most.value_or(std::numeric_limits<std::size_t>::max())};
+}
+
+testing::Bounds bounds_of(const TimeBounds& time) {
+  return {time.least, time.most.value_or(std::chrono::nanoseconds::max()), time.percentile / 100};
+}
+
+std::size_t samples_of(const testing::Trace& trace, const ExpectedCallback& expected) {
+  return static_cast<std::size_t>(
+      std::count_if(trace.callbacks().begin(), trace.callbacks().end(), [&](const testing::CallbackRun& run) {
+        return run.finished && (expected.node.empty() || run.node == expected.node) &&
+               (expected.topic.empty() || run.topic == expected.topic) &&
+               (expected.service.empty() || run.service == expected.service) &&
+               run.symbol.find(expected.function) != std::string::npos;
+      }));
+}
+
+// Verdicts have "expected: …" in their first line, "     saw: …" in the second, and a table below.
+Failure failure_of(const std::string& message, const SourceRange& where, const std::string& verdict) {
+  Failure failure{message, where};
+  std::istringstream lines(verdict);
+  constexpr std::string_view kExpected = "expected: ";
+  constexpr std::string_view kSeen = "     saw:";
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(kExpected) && failure.expected.empty()) {
+      failure.expected = line.substr(kExpected.size());
+    } else if (line.starts_with(kSeen) && failure.seen.empty()) {
+      failure.seen = line.substr(std::min(kSeen.size() + 1, line.size()));
+    } else {
+      failure.evidence.push_back(line);
+    }
+  }
+  failure.evidence_title = "the trace";
+  return failure;
+}
+
+class Judge {
+ public:
+  Judge(const std::string& directory, const std::vector<RecordedProcess>& processes)
+      : directory_(directory), processes_(processes), pids_(pids_of("")) {
+    trace_ = testing::Trace(std::filesystem::path(directory),
+                            {.accepts = [this](const testing::Event& event) { return pids_.contains(event.vpid()); }});
+  }
+
+  const testing::Trace& trace() const { return trace_; }
+
+  std::optional<Failure> judge(const Expectation& expectation) {
+    where_ = expectation.where;
+    process_ = expectation.process;
+    return std::visit([this](const auto& expected) { return check(expected); },
+                      std::get<TraceExpectation>(expectation.what));
+  }
+
+ private:
+  std::set<std::int64_t> pids_of(const std::string& name) const {
+    std::set<std::int64_t> pids;
+    for (const RecordedProcess& process : processes_) {
+      const auto& names = process.names;
+      if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) {
+        pids.insert(process.pid);
+      }
+    }
+    return pids;
+  }
+
+  std::optional<Failure> unless(const testing::Verdict& verdict, const std::string& message) const {
+    return verdict.holds ? std::nullopt : std::optional(failure_of(message, where_, verdict.text));
+  }
+
+  std::optional<Failure> check(const ExpectedEvent& expected) const {
+    testing::EventQuery query(expected.name);
+    if (!expected.condition.empty()) {
+      query.where(expected.condition);
+    }
+    if (!process_.empty()) {
+      query.that(fmt::format("in process '{}'", process_),
+                 [pids = pids_of(process_)](const testing::Event& event) { return pids.contains(event.vpid()); });
+    }
+    return unless(testing::expect_count(trace_, query, count_of(expected.least, expected.most)),
+                  fmt::format("the trace does not hold the events '{}' as expected", expected.name));
+  }
+
+  std::optional<Failure> check(const ExpectedDelivery& expected) const {
+    const testing::Route route{expected.topic, expected.from, expected.to};
+    if (std::optional<Failure> failure = unless(testing::expect_delivered(trace_, route, count_of(expected.least)),
+                                                fmt::format("too few messages of '{}' have arrived", expected.topic))) {
+      return failure;
+    }
+    return unless(testing::expect_all_delivered(trace_, route, expected.most_lost),
+                  fmt::format("messages of '{}' were lost", expected.topic));
+  }
+
+  std::optional<Failure> check(const ExpectedLatency& expected) const {
+    if (!expected.nodes.empty()) {
+      return check_chain(expected);
+    }
+    return unless(testing::expect_delivered(trace_, {expected.topic, expected.from, expected.to},
+                                            count_of(expected.least), bounds_of(expected.time)),
+                  fmt::format("messages of '{}' do not take the time that is expected", expected.topic));
+  }
+
+  std::optional<Failure> check_chain(const ExpectedLatency& expected) const {
+    const std::string chain = fmt::format("the chain {}", fmt::join(expected.nodes, " "));
+    const tracing::TraceResults results = analyse_chains(directory_, pids_, {{"chain", expected.nodes, {}}});
+    tracing::DurationSummary times;
+    for (const tracing::ChainResult& result : results.ros2.chains) {
+      if (result.name == "chain" && result.response.count > times.count) {
+        times = result.response;
+      }
+    }
+    if (times.count < expected.least) {
+      return Failure{fmt::format("{} was not gone through", chain), where_,
+                     fmt::format("at least {} times", expected.least), fmt::format("{} times", times.count)};
+    }
+    const auto milliseconds = [](std::int64_t ns) { return static_cast<double>(ns) / 1e6; };
+    const std::int64_t reached = percentile_of(times, expected.time.percentile);
+    const bool is_late = expected.time.most && reached > expected.time.most->count();
+    if (!is_late && times.min_ns >= expected.time.least.count()) {
+      return std::nullopt;
+    }
+    return Failure{fmt::format("{} does not take the time that is expected", chain), where_,
+                   is_late ? fmt::format("{:g} % of its runs take at most {:g} ms", expected.time.percentile,
+                                         milliseconds(expected.time.most->count()))
+                           : fmt::format("each run takes at least {:g} ms", milliseconds(expected.time.least.count())),
+                   fmt::format("{} runs: least {:.3f} ms, median {:.3f} ms, {:g} % below {:.3f} ms, most {:.3f} ms",
+                               times.count, milliseconds(times.min_ns), milliseconds(times.p50_ns),
+                               expected.time.percentile, milliseconds(reached), milliseconds(times.max_ns))};
+  }
+
+  std::optional<Failure> check(const ExpectedCallback& expected) const {
+    const testing::CallbackChoice choice{expected.node, expected.topic, expected.service, expected.function, false};
+    const testing::Verdict verdict = testing::expect_callback_duration(trace_, choice, bounds_of(expected.time));
+    if (!verdict.holds) {
+      return failure_of("callbacks do not take the time that is expected", where_, verdict.text);
+    }
+    const std::size_t runs = samples_of(trace_, expected);
+    if (runs < expected.least) {
+      return Failure{"there are too few runs of callbacks", where_, fmt::format("at least {}", expected.least),
+                     fmt::format("{}", runs)};
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Failure> check(const ExpectedTimer& expected) const { return judge_timer(expected, trace_, where_); }
+
+  std::string directory_;
+  const std::vector<RecordedProcess>& processes_;
+  std::set<std::int64_t> pids_;
+  testing::Trace trace_;
+  SourceRange where_;
+  std::string process_;
+};
+
+}  // namespace
+
+void check_trace_expectation(const Expectation& expectation) {
+  const auto* const trace = std::get_if<TraceExpectation>(&expectation.what);
+  const auto* const event = trace == nullptr ? nullptr : std::get_if<ExpectedEvent>(trace);
+  if (event == nullptr || event->condition.empty()) {
+    return;
+  }
+  try {
+    testing::EventQuery(event->name).where(event->condition);
+  } catch (const testing::QueryError& error) {
+    SourceRange place = event->condition_where;
+    place.begin = std::min(place.begin + static_cast<std::uint32_t>(error.column()), place.end);
+    throw LaunchError(error.reason(), place);
+  }
+}
+
+std::vector<Failure> judge_trace(const std::vector<Expectation>& expectations, const std::string& directory,
+                                 const std::vector<RecordedProcess>& processes, const SourceRange& where) {
+  try {
+    Judge judge(directory, processes);
+    std::vector<Failure> failures;
+    if (const testing::Verdict loss = testing::expect_no_loss(judge.trace()); !loss.holds) {
+      failures.push_back(
+          failure_of(judge.trace().empty() ? "the trace is empty" : "the trace is not whole", where, loss.text));
+    }
+    for (const Expectation& expectation : expectations) {
+      if (std::optional<Failure> failure = judge.judge(expectation)) {
+        failures.push_back(std::move(*failure));
+      }
+    }
+    return failures;
+  } catch (const testing::TraceError& error) {
+    return {{fmt::format("the trace can't be read: {}", error.what()), where}};
+  } catch (const tracing::TraceReadError& error) {
+    return {{fmt::format("the trace can't be read: {}", error.what()), where}};
+  }
+}
+
+}  // namespace launch
