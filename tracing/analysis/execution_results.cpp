@@ -202,10 +202,14 @@ std::vector<UnmatchedResult> Ros2Analysis::unmatched_results() const {
   std::uint64_t untaken = 0;
   std::uint64_t without_subscription = 0;
   std::uint64_t unpublished = 0;
+  std::uint64_t untimed = 0;
+  std::uint64_t untimed_taken = 0;
   for (ObjectId topic = 0; topic < messages_.records().size(); ++topic) {
     const TopicRecord& record = messages_.records()[topic];
     (model_.topics()[topic].subscriptions == 0 ? without_subscription : untaken) += record.published_only;
     unpublished += record.received_only;
+    untimed += record.untimed;
+    untimed_taken += record.untimed_taken;
   }
   std::uint64_t not_executed = 0;
   for (const DeliveryRecord& record : deliveries_.subscriptions()) not_executed += record.not_executed;
@@ -221,8 +225,10 @@ std::vector<UnmatchedResult> Ros2Analysis::unmatched_results() const {
   add("callback_end", "no begin: it ran when the trace began, or the begin was lost", ends_without_begin_);
   add("rmw_publish", "the topic has no subscription in the trace", without_subscription);
   add("rmw_publish", "no subscription took the message: not connected, or it got lost", untaken);
+  add("rmw_publish", "it has no timestamp, as in ros2_tracing before 8.0: its messages can't be followed", untimed);
   add("rmw_publish", "the creation of the publisher is not in the trace", unknown_publications_);
   add("rmw_take", "the publication is not in the trace", unpublished);
+  add("rmw_take", "the publications have no timestamps", untimed_taken);
   add("rmw_take", "the creation of the subscription is not in the trace", unknown_messages_ - unknown_publications_);
   add("rmw_take", "no callback got the message", not_executed);
   add("rclcpp_ring_buffer_enqueue", "a newer message took the place of this one", buffers.overwritten);

@@ -9,7 +9,7 @@ void MessageMatcher::publish(const Publication& publication, std::int64_t source
   TopicRecord& topic_record = record(publication.topic);
   ++topic_record.published;
   if (source_timestamp == 0) {
-    ++topic_record.published_only;
+    ++topic_record.untimed;
     return;
   }
   Flight& flight = flights_[publication.topic];
@@ -53,8 +53,8 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
   auto& publications = flight.by_source_timestamp;
   const auto found = publications.find(source_timestamp);
   if (found == publications.end()) {
-    ++topic_record.received_only;
-    if (source_timestamp != 0) flight.unknown.emplace_back(source_timestamp, time_ns);
+    ++(topic_record.untimed > 0 ? topic_record.untimed_taken : topic_record.received_only);
+    if (topic_record.untimed == 0 && source_timestamp != 0) flight.unknown.emplace_back(source_timestamp, time_ns);
     if (flight.unknown.size() > kUnknown) flight.unknown.pop_front();
   } else {
     found->second.received = true;

@@ -28,6 +28,8 @@ struct TopicRecord {
   std::uint64_t received = 0;
   std::uint64_t published_only = 0;
   std::uint64_t received_only = 0;
+  std::uint64_t untimed = 0;        // part of published: without a timestamp, so it is unknown who took the message
+  std::uint64_t untimed_taken = 0;  // part of received: of a topic with such messages
   std::uint64_t early = 0;       // part of received: taken before the publication, which clocks that differ make of it
   std::int64_t earliest_ns = 0;  // how long before, at most
   DurationStatistics latency;

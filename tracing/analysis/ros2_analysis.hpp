@@ -38,6 +38,8 @@ class Ros2Analysis {
   Ros2Analysis(const Ros2Analysis&) = delete;  // its parts refer to one another
   Ros2Analysis& operator=(const Ros2Analysis&) = delete;
 
+  // Before the events of new processes.
+  void learn(const ProcessTable& processes) { model_.learn(processes); }
   void on_event(const Origin& origin, const ros2::AnyEvent& event);
   void on_end(const Origin& origin, const ros2::ObjectEnd& end);
   // In a state dump: the state of a lifecycle node that is older than the session.

@@ -30,16 +30,21 @@ std::size_t ObjectModel::HashKey::operator()(const Key& key) const {
   return mixed ^ (mixed >> 32);
 }
 
-ObjectId ObjectModel::find(const Index& index, ProcessId process, ros2::Handle handle) {
-  const auto found = index.find({process, handle});
-  return found == index.end() ? kNoObject : found->second;
+ObjectId ObjectModel::find(const Index& index, ProcessId process, ros2::Handle handle) const {
+  for (; process != kNoProcess; process = earlier(process)) {
+    if (const auto found = index.find({process, handle}); found != index.end()) return found->second;
+  }
+  return kNoObject;
 }
 
-RmwLookup ObjectModel::find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) {
-  const auto found = index.find({process, handle});
-  if (found == index.end()) return {RmwHandle::kUnknown, kNoObject};
-  if (found->second.endpoint == kNoObject) return {RmwHandle::kInternal, kNoObject};
-  return {RmwHandle::kKnown, found->second.endpoint};
+RmwLookup ObjectModel::find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) const {
+  for (; process != kNoProcess; process = earlier(process)) {
+    const auto found = index.find({process, handle});
+    if (found == index.end()) continue;
+    if (found->second.endpoint == kNoObject) return {RmwHandle::kInternal, kNoObject};
+    return {RmwHandle::kKnown, found->second.endpoint};
+  }
+  return {RmwHandle::kUnknown, kNoObject};
 }
 
 void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid) {
@@ -48,7 +53,7 @@ void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handl
 }
 
 bool ObjectModel::is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
-                              ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) {
+                              ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) const {
   const ObjectId id = find(index, process, handle);
   return id != kNoObject && rmw.id == id && endpoints[id] == endpoint;
 }

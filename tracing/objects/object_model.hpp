@@ -98,6 +98,14 @@ struct RmwLookup {
 
 class ObjectModel {
  public:
+  // To be called before the events of new processes; takes a comparison. An object that a process does not have is
+  // looked for in the process that had its id before (ProcessObject::earlier).
+  void learn(const ProcessTable& processes) {
+    while (earlier_.size() < processes.processes().size()) {
+      earlier_.push_back(processes.processes()[earlier_.size()].earlier);
+    }
+  }
+
   // Takes the initialisation events; other events are ignored.
   void on(const Origin&, const ros2::RclNodeInit&);
   void on(const Origin&, const ros2::RmwPublisherInit&);
@@ -166,12 +174,13 @@ class ObjectModel {
   };
   using RmwIndex = std::unordered_map<Key, RmwEndpoint, HashKey>;
 
-  static ObjectId find(const Index& index, ProcessId process, ros2::Handle handle);
-  static RmwLookup find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle);
+  ObjectId find(const Index& index, ProcessId process, ros2::Handle handle) const;
+  RmwLookup find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) const;
+  ProcessId earlier(ProcessId process) const { return process < earlier_.size() ? earlier_[process] : kNoProcess; }
   static void add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid);
   // Whether the handle, and the rmw handle that `rmw` was looked up with, already belong to this very endpoint.
-  static bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
-                          ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint);
+  bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
+                   ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) const;
   ObjectId topic(std::string_view name);
   bool is_callback_of(ProcessId process, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id) const;
   // The callback at `address`. It stays as it is if it has this owner, gets this owner if it had none, or is a new one.
@@ -190,6 +199,8 @@ class ObjectModel {
   std::vector<ServiceObject> services_;
   std::vector<ClientObject> clients_;
   std::vector<CallbackObject> callbacks_;
+
+  std::vector<ProcessId> earlier_;  // by process
 
   Index node_index_;
   Index publisher_index_;

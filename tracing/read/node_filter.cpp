@@ -133,6 +133,7 @@ bool NodeFilter::has_wanted_object(const Origin& origin, const ros2::AnyEvent& e
 
 bool NodeFilter::accepts(const Event& event) {
   const Origin origin{event.timestamp_ns, processes_.of(event), event.vtid.value_or(0)};
+  model_.learn(processes_);
   const Thread thread{origin.process, origin.vtid};
   const auto running = [&] {
     const auto callbacks = running_.find(thread);

@@ -91,6 +91,7 @@ void TraceWriter::write_raw(unsigned cpu, std::int64_t time_ns, const Thread& th
     stream.events.append(name);
     stream.events.append(kProcnameSize - name.size(), '\0');
     if (options_.vppid) append(stream.events, *options_.vppid);
+    if (options_.pid_ns) append(stream.events, thread.pid_ns);
   }
   stream.events.append(payload);
   if (stream.events.size() > options_.packet_size) end_packet(cpu);
@@ -140,8 +141,9 @@ std::string TraceWriter::metadata() const {
                 "\tevent.context := struct {{\n"
                 "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vpid;\n"
                 "\t\tinteger {{ size = 32; align = 8; signed = 1; }} _vtid;\n"
-                "\t\tinteger {{ size = 8; align = 8; signed = 0; encoding = UTF8; }} _procname[{}];\n{}\t}};\n",
-                kProcnameSize, options_.vppid ? "\t\tinteger { size = 32; align = 8; signed = 1; } _vppid;\n" : "")
+                "\t\tinteger {{ size = 8; align = 8; signed = 0; encoding = UTF8; }} _procname[{}];\n{}{}\t}};\n",
+                kProcnameSize, options_.vppid ? "\t\tinteger { size = 32; align = 8; signed = 1; } _vppid;\n" : "",
+                options_.pid_ns ? "\t\tinteger { size = 32; align = 8; signed = 0; } _pid_ns;\n" : "")
           : "";
   const std::string process =
       options_.per_process_vpid ? fmt::format("\tvpid = {};\n\tprocname = \"p\";\n", *options_.per_process_vpid) : "";

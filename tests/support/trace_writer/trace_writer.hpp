@@ -19,6 +19,7 @@ struct Thread {
   std::int64_t vpid = 0;
   std::int64_t vtid = 0;
   std::string_view procname;
+  std::uint32_t pid_ns = 0;  // with Options::pid_ns
 };
 
 class TraceWriter {
@@ -29,6 +30,7 @@ class TraceWriter {
     std::uint8_t identity = 1;                       // traces with the same identity are parts of one trace
     std::size_t packet_size = 1 << 16;               // bytes; a packet with more than this ends
     std::optional<std::int32_t> vppid{};             // another context of every event
+    bool pid_ns = false;                             // Thread::pid_ns of every event
   };
 
   // Creates the directory.

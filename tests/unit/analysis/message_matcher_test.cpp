@@ -52,8 +52,11 @@ TEST(MessageMatcher, CountsButDoesNotFollowAPublicationWithoutTimestamp) {
   matcher.publish(published(kTopic, 1000), 0);
   EXPECT_FALSE(matcher.take(kSubscription, kTopic, 0, 1050).publication_is_known());
   matcher.finish();
-  EXPECT_EQ(matcher.records()[kTopic].published, 1u);
-  EXPECT_EQ(matcher.records()[kTopic].published_only, 1u);
+  const TopicRecord& record = matcher.records()[kTopic];
+  EXPECT_EQ(record.published, 1u);
+  EXPECT_EQ(record.untimed, 1u);
+  EXPECT_EQ(record.untimed_taken, 1u);
+  EXPECT_EQ(record.published_only + record.received_only, 0u) << "it is unknown who took the message";
 }
 
 TEST(MessageMatcher, ForgetsAPublicationAfterManyNewerOnes) {
