@@ -106,11 +106,19 @@ std::vector<Stream> streams_of(const LossAccount& losses, const std::string& dir
   return read_streams(directory, in_files, give_up);
 }
 
-// Whether the relay daemon has gone that gets the trace of the session.
+// Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
+// consumer waits for its answers, and the session daemon for the consumer, for ever.
 std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
   if (session.snapshot || session.path.empty() || session.path.starts_with('/')) return std::nullopt;
   RelayConnection connection(relay_ports(session.path), consumers_of(session_daemon_pid()));
-  if (connection.look() != RelayConnection::State::kEnded) return std::nullopt;
+  const RelayConnection::State state = connection.look();
+  if (state == RelayConnection::State::kSilent) {
+    throw TraceError(fmt::format("the relay daemon that gets the trace of session '{}' is stopped", session.name),
+                     fmt::format("continue it with `kill -CONT` and its process id, then end the session with `launch "
+                                 "trace stop {}`",
+                                 session.name));
+  }
+  if (state != RelayConnection::State::kEnded) return std::nullopt;
   return Absence{.text = "the relay daemon was gone before the session ended: what was recorded since then is lost",
                  .is_loss = true};
 }
@@ -215,6 +223,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
 std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
   check_daemon_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
+  if (session) look_for_relay_daemon(*session);
   const auto stopped = static_cast<std::uint64_t>(launch::monotonic_time());
   // Waits for the data, because a user who pauses wants to look at the trace.
   note_pause(CounterDirectory::of_session(name), name);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "launcher/base/process_stat.hpp"
@@ -60,6 +61,11 @@ struct NetworkSession : testing::Test {
       if (gone || network != std::filesystem::read_symlink("/proc/self/ns/net")) continue;
       kill(pid, number);
       ++signalled;
+      const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+      while (number == SIGSTOP && launch::read_process_stat(pid).state != 'T') {
+        if (std::chrono::steady_clock::now() > until) FAIL() << "it does not stop";
+        std::this_thread::yield();
+      }
     }
     EXPECT_EQ(signalled, 1);
   }
@@ -129,6 +135,27 @@ TEST_F(NetworkSession, TheRelayDaemonIsWatched) {
               testing::HasSubstr("the relay daemon was gone before the session ended: what was recorded since then is "
                                  "lost"));
   EXPECT_EQ(trace_test::listed_sessions(), "");
+}
+
+// Calls of LTTng's would never return.
+TEST_F(NetworkSession, AStoppedRelayDaemonIsAnErrorAndTheSessionIsLeft) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  start_relay_daemon();
+  tracer->start(config());
+  TracedApp(25, 10).end();
+  signal_relay_daemon(SIGSTOP);
+  try {
+    tracer->finish(config(), [] { return false; });
+    FAIL() << "no error";
+  } catch (const TraceError& error) {
+    EXPECT_STREQ(error.what(), "the relay daemon that gets the trace of session 'run' is stopped");
+    EXPECT_EQ(error.remedy(),
+              "continue it with `kill -CONT` and its process id, then end the session with `launch trace stop run`");
+  }
+  EXPECT_THROW(tracer->pause("run"), TraceError);
+  signal_relay_daemon(SIGCONT);
+  EXPECT_TRUE(tracer->finish(config(), [] { return false; }).complete());
+  EXPECT_EQ(read_trace(relayed()).events.at("ros2:rclcpp_callback_register"), 25);
 }
 
 TEST_F(NetworkSession, SnapshotsAreRelayed) {
