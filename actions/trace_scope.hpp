@@ -14,6 +14,7 @@
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/overhead_guard.hpp"
 #include "tracing/chains/chain_definition.hpp"
+#include "tracing/plan/plan_channels.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/session/event_watch.hpp"
 #include "tracing/session/flight_recorder.hpp"
@@ -56,7 +57,7 @@ class TraceScope : public RunScope {
   void hurry() override { hurry_ = true; }
   std::vector<std::string> clean_up_command() override;
   void prepare(ProcessSpec& spec) const override;
-  bool wants_records() const override { return config_.launch_events; }
+  bool wants_records() const override { return tracing::records_launch_events(config_); }
   void record(const LaunchRecord& record) override;
   std::string kind() const override { return "trace"; }
   std::vector<ScopeSetting> describe() const override;

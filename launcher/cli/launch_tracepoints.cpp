@@ -3,11 +3,20 @@
 
 #include <dlfcn.h>
 
+#include <chrono>
 #include <utility>
 
 namespace launch {
 
 namespace {
+
+using std::chrono::steady_clock;
+
+// LTTng-UST tells nobody when a session enables an event.
+constexpr std::chrono::milliseconds kBetweenLooks{10};
+constexpr std::chrono::seconds kLongestRegistration{60};
+// The processes of the launch have ended, and the user waits.
+constexpr std::chrono::seconds kLongestWaitAtEnd{5};
 
 launch_trace_kind kind_of(LaunchRecord::Kind kind) {
   switch (kind) {
@@ -64,17 +73,29 @@ void LaunchTracepoints::open() {
   // The library is never closed again: LTTng-UST's threads run in it.
   void* const library = ::dlopen((prefix_ + "/lib/launch/liblaunch_trace.so").c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const function = library != nullptr ? ::dlsym(library, "launch_trace_fire") : nullptr;
-  const std::lock_guard lock(mutex_);
-  const std::vector<LaunchRecord> kept = std::exchange(kept_, {});
-  if (function == nullptr) {
+  void* const enabled = library != nullptr ? ::dlsym(library, "launch_trace_enabled") : nullptr;
+  std::unique_lock lock(mutex_);
+  if (function == nullptr || enabled == nullptr) {
+    kept_.clear();
     state_ = State::kDropping;
     return;
   }
+  wait_until_enabled(lock, reinterpret_cast<launch_trace_enabled_function>(enabled));
+  const std::vector<LaunchRecord> kept = std::exchange(kept_, {});
   fire_ = reinterpret_cast<launch_trace_fire_function>(function);
   for (const LaunchRecord& record : kept) {
     fire(fire_, record);
   }
   state_ = State::kOpen;
+}
+
+void LaunchTracepoints::wait_until_enabled(std::unique_lock<std::mutex>& lock, launch_trace_enabled_function enabled) {
+  steady_clock::time_point until = steady_clock::now() + kLongestRegistration;
+  bool ends = false;
+  while (enabled() == 0 && steady_clock::now() < until) {
+    ending_.wait_for(lock, kBetweenLooks);
+    if (!std::exchange(ends, end_) && ends) until = steady_clock::now() + kLongestWaitAtEnd;
+  }
 }
 
 void LaunchTracepoints::drop() {
@@ -95,6 +116,11 @@ void LaunchTracepoints::record(LaunchRecord record) {
 }
 
 void LaunchTracepoints::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  ending_.notify_one();
   if (opener_.joinable()) {
     opener_.join();
   }

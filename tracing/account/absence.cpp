@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNanoseconds = 1e9;
-constexpr std::size_t kMostToldOf = 5;  // processes
+constexpr std::size_t kMostToldOf = 5;             // processes
+constexpr const char* kLaunchEvents = "launch:*";  // the launcher's own
 
 std::string some_events(std::uint64_t count) {
   return fmt::format("{} event{}", count, count == 1 ? "" : "s");
@@ -37,6 +38,17 @@ std::vector<std::string> ros_event_names() {
   std::vector<std::string> names;
   for (const RosEvent& event : all_ros_events()) names.push_back(event.name);
   return names;
+}
+
+std::vector<Absence> absent_launcher(const RecordedEvents& events, const std::set<std::string>& declared) {
+  const bool wanted = std::any_of(events.rules.begin(), events.rules.end(),
+                                  [](const RecordedEvents::Rule& rule) { return rule.pattern == kLaunchEvents; });
+  const bool there = std::any_of(declared.begin(), declared.end(),
+                                 [](const std::string& name) { return name.starts_with("launch:"); });
+  if (!wanted || there) return {};
+  return {{.text = "the launcher's own events are missing: the session daemon had not registered the launcher when the "
+                   "launch ended",
+           .is_loss = true}};
 }
 
 std::string did_you_mean(const std::string& pattern, const std::vector<std::string>& names) {
@@ -102,11 +114,12 @@ std::optional<std::set<std::string>> declared_events(const fs::path& recording) 
 }
 
 std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<std::string>& declared) {
+  std::vector<Absence> absences = absent_launcher(events, declared);
   std::vector<const RecordedEvents::Rule*> rules;
   for (const RecordedEvents::Rule& rule : events.rules) {
     if (!is_our_own(rule.pattern)) rules.push_back(&rule);
   }
-  if (rules.empty()) return {};
+  if (rules.empty()) return absences;
   std::vector<std::string> names = ros_event_names();
   names.insert(names.end(), declared.begin(), declared.end());
   const auto takes_one_of = [](const RecordedEvents::Rule& rule, const auto& candidates) {
@@ -115,7 +128,6 @@ std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<
   };
   const bool nothing = std::none_of(rules.begin(), rules.end(),
                                     [&](const RecordedEvents::Rule* rule) { return takes_one_of(*rule, declared); });
-  std::vector<Absence> absences;
   std::set<std::string> told;
   bool has_known_rule = false;
   for (const RecordedEvents::Rule* rule : rules) {

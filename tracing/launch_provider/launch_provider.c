@@ -37,6 +37,11 @@ __attribute__((visibility("default"))) void launch_trace_fire(const struct launc
   }
 }
 
+// One rule, launch:*, enables all.
+__attribute__((visibility("default"))) int launch_trace_enabled(void) {
+  return lttng_ust_tracepoint_enabled(launch, exec) ? 1 : 0;
+}
+
 __attribute__((visibility("default"))) void launch_trace_cut(const struct launch_trace_cut_event* cut) {
   lttng_ust_tracepoint(launch, cut, cut->time, cut->event_class, cut->events, cut->rate, cut->share);
 }

@@ -38,6 +38,12 @@ void launch_trace_fire(const struct launch_trace_event* event);
 
 typedef void (*launch_trace_fire_function)(const struct launch_trace_event*);
 
+/* Whether a session records the launcher's events. Not before the session daemon has registered this process, which may
+   take seconds on a busy machine. Callable from any thread, does not block. */
+int launch_trace_enabled(void);
+
+typedef int (*launch_trace_enabled_function)(void);
+
 struct launch_trace_cut_event {
   int64_t time;            /* CLOCK_MONOTONIC, ns */
   const char* event_class; /* that was dropped */

@@ -99,7 +99,7 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   if (!plan.events.empty()) {
     for (EventRule& rule : rules(config.further_events_ust)) plan.events.push_back(std::move(rule));
   }
-  if (config.launch_events && !plan.events.empty()) {
+  if (records_launch_events(config)) {
     plan.events.push_back({.pattern = kLaunchEvents});
   } else if (config.max_overhead > 0 && !plan.events.empty()) {
     plan.events.push_back({.pattern = kCutEvent});
@@ -229,6 +229,10 @@ void make_usable(ChannelPlan& plan, const TraceConfig& config, std::vector<std::
 }
 
 }  // namespace
+
+bool records_launch_events(const TraceConfig& config) {
+  return config.launch_events && !main_events(config).empty();
+}
 
 std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings) {
   std::vector<ChannelPlan> plans;

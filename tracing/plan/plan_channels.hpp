@@ -17,4 +17,7 @@ namespace tracing {
 // exclude each other.
 std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
 
+// Whether a channel records the launcher's own events: `launch_events`, beside events of programs.
+bool records_launch_events(const TraceConfig& config);
+
 }  // namespace tracing

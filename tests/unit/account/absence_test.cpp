@@ -82,7 +82,15 @@ TEST(Absence, OfEverythingIsToldOnce) {
 }
 
 TEST(Absence, IsNotLookedForWithoutRulesOfTheUser) {
-  EXPECT_THAT(absent_events(rules({"launch:*", "ros2_session:no_state_dump"}), {}), IsEmpty());
+  EXPECT_THAT(absent_events(rules({"launch:cut", "ros2_session:no_state_dump"}), {}), IsEmpty());
+}
+
+TEST(Absence, OfTheLauncherItselfIsToldOf) {
+  EXPECT_THAT(absent_events(rules({"ros2:rcl_init", "launch:*"}), {"ros2:rcl_init", "launch:exec"}), IsEmpty());
+  const std::vector<tracing::Absence> absences = absent_events(rules({"ros2:rcl_init", "launch:*"}), {"ros2:rcl_init"});
+  EXPECT_THAT(texts(absences), ElementsAre("the launcher's own events are missing: the session daemon had not "
+                                           "registered the launcher when the launch ended"));
+  EXPECT_TRUE(absences[0].is_loss);
 }
 
 TEST(Absence, MakesATraceIncomplete) {

@@ -128,7 +128,7 @@ TEST_F(Registration, ForksThatFireNothingLeaveNothing) {
   start_session();
   RunningCommand process(program());
   tell(process, "take 1");
-  tell(process, "fork 50");
+  tell(process, "fork 300");
   process.close_input();
   EXPECT_EQ(process.wait().exit_code, 0);
   EXPECT_EQ(counts().size(), 1u);
