@@ -4,6 +4,7 @@ The page of `launch report --html` in a browser: every view draws something, cli
 console has no error. The trace is the example system of tests/support/trace_writer/example_system.hpp.
 """
 
+import json
 import os
 import subprocess
 import tempfile
@@ -12,7 +13,7 @@ from pathlib import Path
 
 from browser import Browser, chromium
 
-VIEWS = ('overview', 'graph', 'time', 'callbacks', 'topics', 'chains', 'lifecycle', 'processes')
+VIEWS = ('overview', 'graph', 'time', 'callbacks', 'topics', 'services', 'chains', 'lifecycle', 'processes')
 
 # The number of pixels of a canvas that differ from its upper left one.
 DRAWN = '''(selector => {
@@ -25,9 +26,11 @@ DRAWN = '''(selector => {
 })'''
 
 
-def write_page(folder, cycles, options, events):
+def write_page(folder, cycles, options, events, verdict):
     trace = Path(folder) / 'example'
-    subprocess.run([os.environ['WRITE_EXAMPLE_TRACE'], trace, str(cycles), *events], check=True)
+    subprocess.run([os.environ['WRITE_EXAMPLE_TRACE'], trace / 'ust', str(cycles), *events], check=True)
+    if verdict:
+        (trace / 'verdict.json').write_text(json.dumps(verdict))
     page = Path(folder) / f'page-{cycles}.html'
     subprocess.run([os.environ['LAUNCH_REPORT'], trace, '--html', page, *options], check=True, stdout=subprocess.DEVNULL)
     return page
@@ -38,13 +41,14 @@ class PageTest(unittest.TestCase):
     DARK = False
     OPTIONS = ()
     EVENTS = ()
+    VERDICT = None
 
     @classmethod
     def setUpClass(cls):
         if not chromium():
             raise unittest.SkipTest('there is no browser: the package chromium is not installed')
         cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
-        page = write_page(cls.folder, cls.CYCLES, cls.OPTIONS, cls.EVENTS)
+        page = write_page(cls.folder, cls.CYCLES, cls.OPTIONS, cls.EVENTS, cls.VERDICT)
         cls.browser = cls.enterClassContext(Browser(dark=cls.DARK))
         cls.page = page
 
@@ -330,7 +334,58 @@ class TimeChart(PageTest):
                          ['/sensor', 'timer 10.0 ms', '/filter', '/scan', '/display', '/points'])
 
 
+class WithVerdict(PageTest):
+    VERDICT = {
+        'absent': ['camera [12] was never registered with the session daemon: 4 events that it fired are missing'],
+        'discarded_events': 3,
+        'channels': [{'before_first_packet': {'why': 'overwritten, as asked', 'packets': 2, 'events': 900}}],
+        'event_cost': {'ns': 500},
+        'processes': [{'name': 'sensor', 'pid': 101, 'events': 1500,
+                       'tracing': {'seconds': 0.00075, 'processor_share': 0.00073, 'ns_per_callback': 7500}}]}
+
+    def test_the_overview_says_what_is_missing(self):
+        self.assertIn('3\nlost', self.texts('.tile'))
+        self.assertEqual(self.texts('.absences li'), [*self.VERDICT['absent'], '900 events overwritten, as asked'])
+
+    def test_the_overview_has_the_cost_of_tracing(self):
+        self.assertEqual(self.texts('h2')[-1], 'Cost of tracing')
+        self.assertRegex(self.texts('section p')[-2], r'^1\.\d\d ms, 0\.\d\d % of a processor: 500 ns for each event\.$')
+        self.assertEqual(self.texts('tbody tr')[-1].split('\t'), ['sensor', '101', '1,500', '750 µs', '0.07 %', '7.50 µs'])
+
+
 # Functions of the page's scripts, with data that the example does not have.
+class FurtherResults(PageTest):
+    TIMES = '{count: 4, mean: 1e6, p50: 1e6, p99: 2e6, max: 3e6}'
+
+    def draw(self, view, facts):
+        self.browser.evaluate(f'Object.assign(page.data, {facts}); drawView("{view}")')
+
+    def test_services_and_actions_have_their_times(self):
+        self.draw('services', f"""{{
+          calls: [{{service: "/add", client: "/sensor", server: "", requests: 5, responses: 4, round_trip: {self.TIMES}, request: null, in_service: {self.TIMES}, response: null}}],
+          actions: [{{name: "/fibonacci", client: "/filter", server: "/display", goals: 2, answers: 2, results: 1, cancels: 1, feedback: 9, acceptance: {self.TIMES}, execution: {self.TIMES}}}]}}""")
+        self.assertEqual([row.split('\t') for row in self.texts('tbody tr')], [
+            ['/add', '/sensor', '?', '5', '1', '1.00 ms', '2.00 ms', '3.00 ms', '–', '1.00 ms', '–'],
+            ['/fibonacci', '/filter', '/display', '2', '1', '1', '9', '1.00 ms', '1.00 ms', '2.00 ms', '3.00 ms']])
+        self.browser.evaluate('select({node: page.data.nodes.findIndex(node => node.name === "/display")})')
+        self.assertEqual(self.texts('tbody td:first-child'), ['/fibonacci'])
+
+    def test_memory_is_told_of_callbacks_and_states(self):
+        self.draw('callbacks', '{callback_memory: [[0, 100, 250, 4000]]}')
+        self.assertIn('250\t2.50\t4.0 kB', '\n'.join(self.texts('tbody tr')))
+        self.draw('lifecycle', '{state_memory: [{node: "/display", state: "active", begin: 0, duration: 1e9, allocations: 7, bytes: 999, process_allocations: 8, process_bytes: 2e6}]}')
+        self.assertEqual(self.texts('section:last-child tbody tr'), ['/display\tactive\t0.000000 s\t1.00 s\t7\t999 bytes\t8\t2.0 MB'])
+
+    def test_the_start_has_phases_and_a_critical_path(self):
+        self.draw('processes', """{
+          startup: {duration: 50e6, path: [{process: "", what: "load a.launch.xml", begin: 0, end: 10e6}, {process: "sensor-1", what: "until rcl_init", begin: 10e6, end: 50e6}]},
+          starts: [{...page.data.starts[0], spawn: page.data.starts[0].exec - 1e6, init_after: 2e6, node_after: 3e6, ready_after: 8e6, callback_after: 5e6, publication_after: null}]}""")
+        self.assertIn('Critical path of the start, 50.0 ms', self.texts('h2'))
+        self.assertEqual(self.texts('.path > div'), ['launcher: load a.launch.xml 10.0 ms', '', 'sensor-1: until rcl_init 40.0 ms', ''])
+        self.assertEqual(self.browser.evaluate('[...document.querySelectorAll(".bars:not(.path) .track div")].map(part => part.title)'),
+                         ['until exec\n1.00 ms', 'until rcl_init\n2.00 ms', 'until its node\n1.00 ms', 'until its first callback\n2.00 ms', 'until ready\n3.00 ms'])
+
+
 class StatesOfThreads(PageTest):
     EVENTS = ('scheduler',)
     CHART = 'document.querySelector("#view .panel").chart'

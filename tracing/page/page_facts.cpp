@@ -6,20 +6,18 @@
 
 #include "tracing/analysis/callback_owner_name.hpp"
 #include "tracing/findings/finding.hpp"
+#include "tracing/page/page_json.hpp"
+#include "tracing/page/result_facts.hpp"
 
 namespace tracing {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = PageJson;
 using timeline::Timeline;
 
 Json json_reference(timeline::Index index) {
   return index == timeline::kNone ? Json(nullptr) : Json(index);
-}
-
-Json optional(const std::optional<std::int64_t>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 Json endpoints(const std::vector<timeline::Endpoint>& ends) {
@@ -66,7 +64,8 @@ Json objects(const Timeline& timeline) {
           {"lifecycle", lifecycle}};
 }
 
-Json overview(const TraceOverview& overview, std::int64_t begin_ns) {
+Json overview(const TracedSystem& system, std::int64_t begin_ns) {
+  const TraceOverview& overview = system.results.overview;
   Json events = Json::array();
   for (const EventCount& event : overview.event_counts) {
     events.push_back({{"name", event.name}, {"total", event.total}});
@@ -84,8 +83,8 @@ Json overview(const TraceOverview& overview, std::int64_t begin_ns) {
                       {"end", relative(loss.end_ns)}});
   }
   return {{"events", overview.events},
-          {"lost_events", overview.lost_events()},
-          {"lost_packets", overview.lost_packets()},
+          {"lost_events", std::max(overview.lost_events(), system.verdict.discarded_events)},
+          {"lost_packets", std::max(overview.lost_packets(), system.verdict.lost_packets)},
           {"lost_uncounted", overview.lost_uncounted()},
           {"event_counts", events},
           {"losses", losses}};
@@ -113,30 +112,6 @@ Json whole_trace(const TracedSystem& system) {
   return {{"begin", begin_ns - timeline.begin_ns}, {"end", end_ns - timeline.begin_ns}};
 }
 
-// The process at a place in the overview.
-Json process_at(const Timeline& timeline, const std::optional<ProcessIndex>& place) {
-  if (!place) return nullptr;
-  for (std::size_t id = 0; id < timeline.processes.size(); ++id) {
-    if (timeline.processes[id].place == place) return id;
-  }
-  return nullptr;
-}
-
-Json starts(const TracedSystem& system) {
-  const std::int64_t begin_ns = system.timeline.begin_ns;
-  Json list = Json::array();
-  for (const StartResult& start : system.results.starts) {
-    list.push_back({{"process", process_at(system.timeline, start.place)},
-                    {"name", start.process},
-                    {"file", start.file},
-                    {"line", start.line},
-                    {"exec", start.exec_ns - begin_ns},
-                    {"node_after", optional(start.node_after_ns)},
-                    {"ready_after", optional(start.ready_after_ns)}});
-  }
-  return list;
-}
-
 Json topic_at(const Timeline& timeline, const std::string& name) {
   const auto found = std::find(timeline.topics.begin(), timeline.topics.end(), name);
   return name.empty() || found == timeline.topics.end() ? Json(nullptr) : Json(found - timeline.topics.begin());
@@ -156,15 +131,6 @@ Json findings(const TracedSystem& system) {
   return list;
 }
 
-Json durations(const DurationSummary& summary) {
-  if (summary.count == 0) return nullptr;
-  return {{"count", summary.count},
-          {"mean", summary.mean_ns},
-          {"p50", summary.p50_ns},
-          {"p99", summary.p99_ns},
-          {"max", summary.max_ns}};
-}
-
 Json chains(const TracedSystem& system) {
   Json list = Json::array();
   for (const ChainResult& chain : system.results.ros2.chains) {
@@ -173,21 +139,21 @@ Json chains(const TracedSystem& system) {
       Json json{{"callback", step.callback_id}};
       if (!step.topic.empty()) {
         json["topic"] = topic_at(system.timeline, step.topic);
-        json["until_publish"] = durations(step.until_publish);
-        json["transfer"] = durations(step.transfer);
-        json["executor"] = durations(step.executor);
-        json["take"] = durations(step.take);
+        json["until_publish"] = durations_json(step.until_publish);
+        json["transfer"] = durations_json(step.transfer);
+        json["executor"] = durations_json(step.executor);
+        json["take"] = durations_json(step.take);
       }
       steps.push_back(std::move(json));
     }
     list.push_back({{"name", chain.name},
-                    {"budget", optional(chain.budget_ns)},
+                    {"budget", optional_json(chain.budget_ns)},
                     {"over_budget", chain.over_budget},
                     {"steps", std::move(steps)},
-                    {"last_callback", durations(chain.last_callback)},
-                    {"response", durations(chain.response)},
-                    {"reaction", durations(chain.reaction)},
-                    {"age", durations(chain.age)},
+                    {"last_callback", durations_json(chain.last_callback)},
+                    {"response", durations_json(chain.response)},
+                    {"reaction", durations_json(chain.reaction)},
+                    {"age", durations_json(chain.age)},
                     {"longest_end", chain.longest_end_ns - system.timeline.begin_ns},
                     {"is_loop", chain.is_loop},
                     {"doubtful", chain.doubtful}});
@@ -211,14 +177,14 @@ std::string page_facts(const TracedSystem& system) {
              {"messages", timeline.messages.size()},
              {"states", timeline.states.size()},
              {"processes", processes(timeline, system.results.overview)},
-             {"overview", overview(system.results.overview, timeline.begin_ns)},
-             {"starts", starts(system)},
+             {"overview", overview(system, timeline.begin_ns)},
              {"findings", findings(system)},
              {"chains", chains(system)},
              {"unseen_chains", system.results.ros2.unseen_chains},
              {"has_all_chains", system.results.ros2.has_all_chains},
              {"warnings", system.results.warnings}};
   facts.update(objects(timeline));
+  facts.update(result_facts(system));
   std::string text = facts.dump(-1, ' ', false, Json::error_handler_t::replace);
   // No text in it may end the script element, or begin a comment.
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))

@@ -105,11 +105,12 @@ void say_what_is_open(const std::vector<std::filesystem::path>& open) {
 }
 
 int print_summary(const Arguments& arguments) {
+  const std::vector<std::filesystem::path> paths = directories(arguments);
   tracing::OverviewCounter counter;
-  tracing::TraceReader reader(directories(arguments));
+  tracing::TraceReader reader(paths);
   say_what_is_open(reader.open_directories());
   reader.read(counter);
-  print_out(summary_line(counter.overview()) + "\n");
+  print_out(summary_line(counter.overview(), tracing::read_verdicts(paths)) + "\n");
   return kSuccess;
 }
 

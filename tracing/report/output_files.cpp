@@ -11,6 +11,7 @@
 #include "tracing/export/output_file.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/page/page.hpp"
+#include "tracing/report/recorded_verdict.hpp"
 #include "tracing/timeline/time_window.hpp"
 #include "tracing/timeline/timeline_recorder.hpp"
 
@@ -62,6 +63,7 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
   TraceAnalysis analysis(&recorder, chains);
   TraceReader reader(directories);
   system.open = reader.open_directories();
+  system.verdict = read_verdicts(directories);
   const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);
   Readers readers(analysis, model.get(), files.needs_timeline());
   try {

@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/report/recorded_verdict.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 #include <utility>
+
+#include "tracing/findings/quantity_text.hpp"
 
 namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> verdicts_in(const fs::path& directory) {
-  std::vector<fs::path> files;
+std::set<fs::path> verdicts_in(const fs::path& directory) {
+  std::set<fs::path> files;
   std::error_code error;
   fs::recursive_directory_iterator entry(directory, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (entry->path().filename() == "verdict.json") files.push_back(entry->path());
+    if (entry->path().filename() == "verdict.json") files.insert(entry->path());
   }
-  std::sort(files.begin(), files.end());
   return files;
+}
+
+std::string text(const nlohmann::json& json, const char* key) {
+  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
 double number(const nlohmann::json& json, const char* key) {
@@ -33,7 +41,7 @@ void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
     if (!process.is_object() || !process.contains("tracing") || !process["tracing"].is_object()) continue;
     const nlohmann::json& cost = process["tracing"];
     RecordedVerdict::ProcessCost added;
-    if (process.contains("name") && process["name"].is_string()) added.name = process["name"].get<std::string>();
+    added.name = text(process, "name");
     added.vpid = static_cast<std::int64_t>(number(process, "pid"));
     added.events = static_cast<std::uint64_t>(number(process, "events"));
     added.seconds = number(cost, "seconds");
@@ -43,26 +51,61 @@ void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
   }
 }
 
+// What the files of limited size have overwritten, or somebody has removed.
+void add_overwritten(const nlohmann::json& verdict, RecordedVerdict& result) {
+  if (!verdict.contains("channels") || !verdict["channels"].is_array()) return;
+  for (const nlohmann::json& channel : verdict["channels"]) {
+    if (!channel.is_object() || !channel.contains("before_first_packet")) continue;
+    const nlohmann::json& before = channel["before_first_packet"];
+    if (!before.is_object()) continue;
+    const auto packets = static_cast<std::uint64_t>(number(before, "packets"));
+    const std::string why = text(before, "why");
+    if (packets == 0) continue;
+    if (why == "lost") {
+      result.lost_packets += packets;
+    } else if (why == "removed") {
+      result.overwritten.push_back(format_count(packets, "packet") + " cleared or moved away");
+    } else if (before.contains("events") && before["events"].is_number()) {
+      const bool at_least = before.contains("at_least") && before["at_least"] == true;
+      const auto events = static_cast<std::uint64_t>(number(before, "events"));
+      result.overwritten.push_back((at_least ? "at least " : "") + format_count(events, "event") +
+                                   " overwritten, as asked");
+    } else {
+      result.overwritten.push_back(format_count(packets, "packet") + " overwritten, as asked");
+    }
+  }
+}
+
 }  // namespace
 
 RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
   RecordedVerdict result;
-  for (const fs::path& directory : directories) {
-    for (const fs::path& file : verdicts_in(directory)) {
-      std::ifstream stream(file);
-      const nlohmann::json verdict = nlohmann::json::parse(stream, nullptr, false);
-      if (!verdict.is_object()) continue;
-      if (verdict.contains("absent") && verdict["absent"].is_array()) {
-        for (const nlohmann::json& text : verdict["absent"]) {
-          if (text.is_string()) result.absences.push_back(text.get<std::string>());
-        }
+  std::set<fs::path> files;
+  for (const fs::path& directory : directories) files.merge(verdicts_in(directory));
+  for (const fs::path& file : files) {
+    std::ifstream stream(file);
+    const nlohmann::json verdict = nlohmann::json::parse(stream, nullptr, false);
+    if (!verdict.is_object()) continue;
+    if (verdict.contains("absent") && verdict["absent"].is_array()) {
+      for (const nlohmann::json& absence : verdict["absent"]) {
+        if (absence.is_string()) result.absences.push_back(absence.get<std::string>());
       }
-      if (verdict.contains("event_cost") && verdict["event_cost"].is_object()) {
-        const double ns = number(verdict["event_cost"], "ns");
-        if (ns > 0) result.ns_per_event = std::max(ns, result.ns_per_event.value_or(0));
-      }
-      add_processes(verdict, result);
     }
+    if (const std::string damage = text(verdict, "damage"); !damage.empty()) result.absences.push_back(damage);
+    if (verdict.contains("cut_short") && verdict["cut_short"] == true) {
+      result.absences.emplace_back("the last events were not waited for");
+    }
+    // A snapshot loses the older events by design.
+    if (!verdict.contains("reasons")) {
+      result.discarded_events += static_cast<std::uint64_t>(number(verdict, "discarded_events"));
+      result.lost_packets += static_cast<std::uint64_t>(number(verdict, "lost_packets"));
+      add_overwritten(verdict, result);
+    }
+    if (verdict.contains("event_cost") && verdict["event_cost"].is_object()) {
+      const double ns = number(verdict["event_cost"], "ns");
+      if (ns > 0) result.ns_per_event = std::max(ns, result.ns_per_event.value_or(0));
+    }
+    add_processes(verdict, result);
   }
   std::stable_sort(result.processes.begin(), result.processes.end(),
                    [](const auto& a, const auto& b) { return a.seconds > b.seconds; });

@@ -55,10 +55,12 @@ std::string json_report(const Report& report);
 //   "412 events, 2 processes, 37 events lost"
 //   "412 events, 2 processes, 3 packets lost"
 //   "412 events, 2 processes, 37 events and 3 packets lost", and "at least" before what could not be counted fully
+//   "412 events, 2 processes, none lost, 900 events overwritten, as asked"
 //   "no events"
-std::string summary_line(const TraceOverview& overview);
+// Of several counts of a loss, that of the trace and that of its verdict, the greater one counts.
+std::string summary_line(const TraceOverview& overview, const RecordedVerdict& verdict = {});
 
 // The part of the summary about losses: "none lost", "at least 37 events lost", "some events lost".
-std::string loss_phrase(const TraceOverview& overview);
+std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& verdict = {});
 
 }  // namespace tracing

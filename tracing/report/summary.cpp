@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tracing/findings/quantity_text.hpp"
@@ -9,15 +10,20 @@
 
 namespace tracing {
 
-std::string loss_phrase(const TraceOverview& overview) {
-  if (overview.losses.empty()) return "none lost";
-  const std::uint64_t events = overview.lost_events();
-  const std::uint64_t packets = overview.lost_packets();
-  if (events == 0 && packets == 0) return "some events lost";
-  std::string counted;
-  if (events > 0) counted = format_count(events, "event");
-  if (packets > 0) counted += (events > 0 ? " and " : "") + format_count(packets, "packet");
-  return fmt::format("{}{} lost", overview.lost_uncounted() ? "at least " : "", counted);
+std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& verdict) {
+  const std::uint64_t events = std::max(overview.lost_events(), verdict.discarded_events);
+  const std::uint64_t packets = std::max(overview.lost_packets(), verdict.lost_packets);
+  std::string text;
+  if (events != 0 || packets != 0) {
+    std::string counted;
+    if (events > 0) counted = format_count(events, "event");
+    if (packets > 0) counted += (events > 0 ? " and " : "") + format_count(packets, "packet");
+    text = fmt::format("{}{} lost", overview.lost_uncounted() ? "at least " : "", counted);
+  } else {
+    text = overview.losses.empty() ? "none lost" : "some events lost";
+  }
+  for (const std::string& overwritten : verdict.overwritten) text += ", " + overwritten;
+  return text;
 }
 
 namespace {
@@ -40,10 +46,10 @@ std::string doubtful_phrase(const TraceOverview& overview) {
 
 }  // namespace
 
-std::string summary_line(const TraceOverview& overview) {
+std::string summary_line(const TraceOverview& overview, const RecordedVerdict& verdict) {
   if (overview.events == 0 && overview.losses.empty()) return "no events";
   return fmt::format("{}, {}, {}{}", format_count(overview.events, "event"),
-                     format_count(overview.processes.size(), "process"), loss_phrase(overview),
+                     format_count(overview.processes.size(), "process"), loss_phrase(overview, verdict),
                      doubtful_phrase(overview));
 }
 

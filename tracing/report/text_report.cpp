@@ -39,9 +39,14 @@ std::string head(const Report& report, bool color) {
                         format_duration(*report.verdict.ns_per_event));
     text += span > 0 ? fmt::format(", {:.2g} % of a processor\n", 100 * cost / span) : "\n";
   }
-  if (overview.losses.empty()) return text + "Losses     " + styled("no events lost", Style::kGood, color) + "\n";
+  const bool doubtful = !overview.losses.empty();
+  const RecordedVerdict& verdict = report.verdict;
+  const bool none = !doubtful && verdict.discarded_events == 0 && verdict.lost_packets == 0;
+  const std::string losses = none && verdict.overwritten.empty() ? "no events lost" : loss_phrase(overview, verdict);
   return text + "Losses     " +
-         styled(loss_phrase(overview) + "; results marked with * may be wrong", Style::kBad, color) + "\n";
+         styled(losses + (doubtful ? "; results marked with * may be wrong" : ""), none ? Style::kGood : Style::kBad,
+                color) +
+         "\n";
 }
 
 std::string absence_section(const std::vector<std::string>& absences, bool color) {

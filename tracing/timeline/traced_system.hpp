@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracing/analysis/results.hpp"
+#include "tracing/timeline/recorded_verdict.hpp"
 #include "tracing/timeline/timeline.hpp"
 
 namespace tracing {
@@ -17,6 +18,7 @@ struct TracedSystem {
   TraceResults results;
   std::string error;                        // why reading stopped early; empty when all was read
   std::vector<std::filesystem::path> open;  // traces that were still being written
+  RecordedVerdict verdict = {};
 };
 
 }  // namespace tracing

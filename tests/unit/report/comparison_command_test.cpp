@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -199,7 +200,10 @@ TEST_F(ComparisonCommand, ChecksItsOptions) {
   const auto usage_error = [&](const std::string& arguments) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    return outcome.err.substr(0, outcome.err.find('\n'));
+    const std::string line = outcome.err.substr(0, outcome.err.find('\n'));
+    const std::string prefix = "launch report: error: ";
+    EXPECT_EQ(line.substr(0, prefix.size()), prefix);
+    return line.substr(std::min(line.size(), prefix.size()));
   };
   EXPECT_EQ(usage_error(usual + " --fail-on slower"), "--fail-on: goes with --diff or --baseline");
   EXPECT_EQ(usage_error(usual + " --append"), "--append: goes with --save-baseline");

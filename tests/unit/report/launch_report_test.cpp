@@ -121,6 +121,24 @@ TEST_F(LaunchReport, WhatTheVerdictMissesIsRepeated) {
   EXPECT_EQ(cost["processes"][0]["vpid"], 71);
 }
 
+TEST_F(LaunchReport, WhatWasOverwrittenOrOnlyTheDaemonCountedIsSaid) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+  std::ofstream(directory_.path() / "verdict.json")
+      << R"json({"absent": [], "damage": "", "cut_short": true, "discarded_events": 3, "lost_packets": 0, "channels": [
+                 {"channel": "a", "before_first_packet": {"why": "overwritten, as asked", "packets": 2, "events": 1}},
+                 {"channel": "b", "before_first_packet": {"why": "overwritten, as asked", "packets": 2, "events": null}},
+                 {"channel": "c", "before_first_packet": {"why": "removed", "packets": 1, "events": null}},
+                 {"channel": "d"}]})json";
+  const std::string losses =
+      "3 events lost, 1 event overwritten, as asked, 2 packets overwritten, as asked, 1 packet cleared or moved away\n";
+  EXPECT_THAT(launch_report("--summary " + path_ + " " + path_).out, ::testing::EndsWith(", " + losses));
+  const Outcome outcome = launch_report(path_);
+  EXPECT_THAT(outcome.out, HasSubstr("\nLosses     " + losses));
+  EXPECT_THAT(outcome.out, HasSubstr("\nNot there\n  the last events were not waited for\n"));
+}
+
 TEST_F(LaunchReport, KnowsTheChainsOfTheLaunchFile) {
   TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
   write_ping_pong(writer);

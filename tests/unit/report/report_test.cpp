@@ -51,6 +51,17 @@ TEST(SummaryLine, SaysWhetherEventsWereLost) {
   EXPECT_EQ(summary_line(overview), "412 events, 2 processes, some events lost; doubtful: ping [71]");
 }
 
+TEST(SummaryLine, SaysWhatTheVerdictKnowsBeyondTheTrace) {
+  TraceOverview overview = overview_of(412, {{71, "ping", 200, false}});
+  RecordedVerdict verdict{.overwritten = {"900 events overwritten, as asked"}};
+  EXPECT_EQ(summary_line(overview, verdict), "412 events, 1 process, none lost, 900 events overwritten, as asked");
+  verdict.discarded_events = 12;
+  EXPECT_EQ(summary_line(overview, verdict), "412 events, 1 process, 12 events lost, 900 events overwritten, as asked");
+  overview.losses = {loss_of(37, 0, false)};
+  EXPECT_EQ(summary_line(overview, verdict),
+            "412 events, 1 process, 37 events lost, 900 events overwritten, as asked; doubtful: ping [71]");
+}
+
 TEST(SummaryLine, KnowsOneAndNone) {
   EXPECT_EQ(summary_line(overview_of(1, {{71, "ping", 1, false}})), "1 event, 1 process, none lost");
   EXPECT_EQ(summary_line(TraceOverview()), "no events");

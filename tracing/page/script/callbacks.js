@@ -14,6 +14,7 @@ function callbacksView(data) {
     duration('Mean', row => row.durations.mean), duration('p50', row => row.durations.p50), duration('p99', row => row.durations.p99),
     duration('Max', row => row.durations.max), duration('Total', row => row.durations.sum),
     duration('Interval p50', row => row.gaps.p50), duration('Interval max', row => row.gaps.max), duration('Jitter', row => row.gaps.count ? row.gaps.stddev : NaN),
+    ...memoryColumns(data),
   ], {name: 'callback', sort: 8, descending: true, isActive: row => row.id === selection.callback,
     choose: row => select({callback: row.id === selection.callback ? null : row.id})});
 
@@ -32,6 +33,16 @@ function callbacksView(data) {
     }
   };
   return [view, plots];
+}
+
+// Of the whole trace, if it has the events of LTTng's libc wrapper.
+function memoryColumns(data) {
+  if (data.callback_memory.length === 0) return [];
+  const of = new Map(data.callback_memory.map(([id, runs, calls, bytes]) => [id, {runs, calls, bytes}]));
+  const value = (row, get) => of.has(row.id) && of.get(row.id).runs ? get(of.get(row.id)) : NaN;
+  const column = (title, get, format) => ({title, value: row => value(row, get), show: row => Number.isNaN(value(row, get)) ? '–' : format(value(row, get))});
+  return [column('Mallocs', memory => memory.calls, formatCount), column('for each run', memory => memory.calls / memory.runs, threeDigits),
+    column('Memory', memory => memory.bytes, formatSize)];
 }
 
 function callbackPlots(data, row) {

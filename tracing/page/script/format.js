@@ -32,6 +32,13 @@ function formatCount(count) {
   return count.toLocaleString('en-US');
 }
 
+// "999 bytes", "1.2 kB", "34.5 MB", as in the report on the terminal.
+function formatSize(bytes) {
+  if (bytes < 1000) return `${bytes} byte${bytes === 1 ? '' : 's'}`;
+  const [unit, factor] = bytes < 999950 ? ['kB', 1e3] : bytes < 999.95e6 ? ['MB', 1e6] : ['GB', 1e9];
+  return `${(bytes / factor).toFixed(1)} ${unit}`;
+}
+
 function plural(count, noun) {
   return `${formatCount(count)} ${noun}${count === 1 ? '' : noun.endsWith('s') ? 'es' : 's'}`;
 }

@@ -24,7 +24,23 @@ function lifecycleView(data) {
       {title: 'From', value: row => row.begin, show: row => formatTime(row.begin)},
       {title: 'For', value: row => row.end - row.begin, show: row => formatDuration(row.end - row.begin)},
     ], {name: 'state', sort: 2})),
+    stateMemory(data),
   ];
+}
+
+// How much memory was asked for in each state, if the trace has the events of LTTng's libc wrapper.
+function stateMemory(data) {
+  const rows = data.state_memory.filter(row => selection.node === null || row.node === nodeName(data, selection.node));
+  if (rows.length === 0) return null;
+  const count = (title, value) => ({title, value, show: row => formatCount(value(row))});
+  return panel('Memory by state', dataTable(rows, [
+    {title: 'Node', value: row => row.node}, {title: 'State', value: row => row.state},
+    {title: 'From', value: row => row.begin, show: row => formatTime(row.begin)},
+    {title: 'For', value: row => row.duration, show: row => formatDuration(row.duration)},
+    count('Mallocs in callbacks', row => row.allocations), {title: 'Of them', value: row => row.bytes, show: row => formatSize(row.bytes)},
+    count('Mallocs in the process', row => row.process_allocations), {title: 'Of it', value: row => row.process_bytes, show: row => formatSize(row.process_bytes)},
+  ], {name: 'state', sort: 4, descending: true}), element('p', {class: 'note'},
+    'Calls of malloc, calloc, realloc and the like. Other nodes may be part of the process. A node that is active should ask for none.'));
 }
 
 function stateColor(state) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view that comes first: is the trace complete, how large is it, what is worth looking at.
 
+// What the packets of the trace lack, or its verdict.
 function lossText({lost_events: events, lost_packets: packets, lost_uncounted: uncounted}) {
   if (events === 0 && packets === 0) return uncounted ? 'some events lost' : 'none';
   const parts = [events ? formatCount(events) : '', packets ? plural(packets, 'packet') : ''].filter(Boolean);
@@ -20,7 +21,7 @@ function openFinding({kind, callback, topic}) {
     select({topic});
     showView('topics');
   } else {
-    showView({slowest_chain: 'chains', over_budget: 'chains', slowest_start: 'processes', memory_in_active: 'lifecycle', unanswered: 'graph'}[kind] ?? 'time');
+    showView({slowest_chain: 'chains', over_budget: 'chains', slowest_start: 'processes', memory_in_active: 'lifecycle', unanswered: 'services'}[kind] ?? 'time');
   }
 }
 
@@ -40,6 +41,9 @@ function overviewView(data) {
       tile(lost, lost === 'none' ? 'events lost' : 'lost', lost === 'none' ? 'good' : 'bad'),
       tile(formatCount(data.processes.filter(process => process.events > 0).length), 'processes'), tile(formatCount(nodes), 'nodes'), tile(formatCount(topics), 'topics'),
       tile(formatCount(data.instances.count), 'callbacks run'), tile(formatCount(data.messages.count), 'messages')),
+    data.absences.length + data.unseen_chains.length + data.overwritten.length === 0 ? null : panel('Not there', element('ul', {class: 'absences'},
+      ...[...data.absences, ...data.overwritten, ...data.unseen_chains.map(name => `chain '${name}': no callbacks were seen that cause one another in this order`)]
+        .map(text => element('li', {}, text)))),
     panel('Worth looking at', found.length === 0 ? element('p', {class: 'faint'}, 'Nothing stands out.') :
       element('ul', {class: 'findings'}, ...found.map(finding => element('li', {}, element('button', {onclick: () => openFinding(finding)},
         element('span', {class: 'what'}, finding.title), element('span', {class: 'subject'}, finding.subject), element('span', {}, finding.figures)))))),
@@ -56,5 +60,21 @@ function overviewView(data) {
       {title: 'From', value: loss => loss.begin ?? NaN, show: loss => loss.begin === null ? '–' : formatTime(loss.begin)},
       {title: 'To', value: loss => loss.end ?? NaN, show: loss => loss.end === null ? '–' : formatTime(loss.end)},
     ], {name: 'stream', sort: 1, descending: true})),
+    data.cost ? costPanel(data) : null,
   ];
+}
+
+// What tracing took of the processors, as the verdict of the recording estimates it.
+function costPanel({cost: {ns_per_event: each, processes}, overview, duration, whole}) {
+  const span = whole ? whole.end - whole.begin : duration;
+  const all = each * overview.events;
+  const rate = span > 0 ? `, ${formatPercent(all / span)} of a processor` : '';
+  return panel('Cost of tracing', element('p', {}, `${formatDuration(all)}${rate}: ${formatDuration(each)} for each event.`),
+    processes.length === 0 ? null : dataTable(processes, [
+      {title: 'Process', value: row => row.name, wide: true}, {title: 'Id', value: row => row.vpid},
+      {title: 'Events', value: row => row.events, show: row => formatCount(row.events)},
+      {title: 'Time', value: row => row.seconds, show: row => formatDuration(row.seconds * 1e9)},
+      {title: 'Of a processor', value: row => row.share, show: row => formatPercent(row.share)},
+      {title: 'For each callback', value: row => row.ns_per_callback ?? NaN, show: row => formatDuration(row.ns_per_callback ?? NaN)},
+    ], {name: 'process', sort: 3, descending: true}), element('p', {class: 'note'}, 'An estimate: the number of events times the cost of one on the machine of the recording.'));
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: one view at a time, chosen by its tab, its key (1 to 8), or the address (#time).
+// The page: one view at a time, chosen by its tab, its key (1 to 9), or the address (#time).
 
 const kViews = [
   ['overview', 'Overview', overviewView], ['graph', 'Graph', graphView], ['time', 'Time chart', timeChartView],
-  ['callbacks', 'Callbacks', callbacksView], ['topics', 'Topics', topicsView], ['chains', 'Chains', chainsView],
-  ['lifecycle', 'Lifecycle', lifecycleView], ['processes', 'Processes', processesView],
+  ['callbacks', 'Callbacks', callbacksView], ['topics', 'Topics', topicsView], ['services', 'Services', servicesView],
+  ['chains', 'Chains', chainsView], ['lifecycle', 'Lifecycle', lifecycleView], ['processes', 'Processes', processesView],
 ];
 
 const page = {data: null, shown: null};

@@ -24,21 +24,45 @@ function processesView(data) {
     isActive: row => row.nodes.some(({node_id}) => node_id === selection.node)});
   return [panel('Processes', table, element('p', {class: 'note'},
     'Ready: everything exists that the program makes before it waits for work for the first time. Times count from when its program began to run.')),
-  data.starts.length === 0 ? null : startBars(data)];
+  data.starts.length === 0 ? null : startBars(data), data.startup ? criticalPath(data.startup) : null];
 }
 
-// From the first exec on: a bar for each process, until its first node and until it is ready.
-function startBars(data) {
-  const first = Math.min(...data.starts.map(start => start.exec));
-  const whole = Math.max(1, ...data.starts.map(start => start.exec - first + Math.max(start.node_after ?? 0, start.ready_after ?? 0)));
-  const part = (begin, end, hue, name) => end > begin ? element('div', {
+// The phases of a start, in their order: until what, and a hue.
+const kStartPhases = [['init_after', 'until rcl_init', 265], ['node_after', 'until its node', 212], ['ready_after', 'until ready', 145],
+  ['callback_after', 'until its first callback', 95], ['publication_after', 'until its first message', 45]];
+
+function barPart(begin, end, whole, hue, name) {
+  return end > begin ? element('div', {
     style: `left: ${100 * begin / whole}%; width: ${100 * (end - begin) / whole}%; background: hsl(${hue} 50% ${color('bar-lightness')})`,
     title: `${name}\n${formatDuration(end - begin)}`}, name) : null;
+}
+
+// From the first spawn on: a bar for each process, with the phases of its start.
+function startBars(data) {
+  const firstOf = start => start.spawn ?? start.exec;
+  const lastOf = start => start.exec + Math.max(...kStartPhases.map(([phase]) => start[phase] ?? 0));
+  const first = Math.min(...data.starts.map(firstOf));
+  const whole = Math.max(1, ...data.starts.map(start => lastOf(start) - first));
   const bars = data.starts.slice().sort((a, b) => a.exec - b.exec).flatMap(start => {
-    const begin = start.exec - first;
-    const node = begin + (start.node_after ?? 0);
-    return [element('div', {title: `${start.file}:${start.line}`}, start.name),
-      element('div', {class: 'track'}, part(begin, node, 212, 'until its node'), start.ready_after === null ? null : part(node, begin + start.ready_after, 145, 'until ready'))];
+    const parts = [barPart(firstOf(start) - first, start.exec - first, whole, 0, 'until exec')];
+    let from = 0;
+    // A callback or a message may come before the executor looks for work.
+    const phases = kStartPhases.filter(([phase]) => start[phase] !== null).sort(([a], [b]) => start[a] - start[b]);
+    for (const [phase, name, hue] of phases) {
+      parts.push(barPart(start.exec - first + from, start.exec - first + start[phase], whole, hue, name));
+      from = start[phase];
+    }
+    return [element('div', {title: `${start.file}:${start.line}`}, start.name), element('div', {class: 'track'}, ...parts)];
   });
   return panel('Start', element('div', {class: 'bars'}, ...bars), element('p', {class: 'note'}, `The whole width is ${formatDuration(whole)}.`));
+}
+
+// What the process that was ready last had to wait for. The steps have no gaps.
+function criticalPath({duration, path}) {
+  const whole = Math.max(1, duration);
+  const bars = path.flatMap((step, i) => [
+    element('div', {}, `${step.process || 'launcher'}: ${step.what} `, element('span', {class: 'faint'}, formatDuration(step.end - step.begin))),
+    element('div', {class: 'track'}, barPart(step.begin, step.end, whole, step.process ? 145 + 40 * (i % 3) : 212, ''))]);
+  return panel(`Critical path of the start, ${formatDuration(duration)}`, element('div', {class: 'bars path'}, ...bars), element('p', {class: 'note'},
+    'Had one of these steps been shorter, the system would have been ready earlier, up to the next process.'));
 }

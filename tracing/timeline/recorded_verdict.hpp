@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the verdict of a recording says about what is missing, beside the losses that the packets of the trace tell, and
+// about the cost of tracing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+struct RecordedVerdict {
+  // The cost for one process, as the verdict has estimated it.
+  struct ProcessCost {
+    std::string name;
+    std::int64_t vpid = 0;
+    std::uint64_t events = 0;
+    double seconds = 0;                          // that tracing took of its threads
+    double processor_share = 0;                  // of one processor, while it ran
+    std::optional<double> ns_per_callback = {};  // that tracing adds to a callback and what leads to it
+  };
+  std::vector<std::string> absences = {};     // sentences: programs and events that were not there, damage
+  std::vector<std::string> overwritten = {};  // "12 events overwritten, as asked"; what else the first packets lack
+  std::uint64_t discarded_events = 0;         // those that no packet counts are among them
+  std::uint64_t lost_packets = 0;
+  std::optional<double> ns_per_event = {};  // measured on the machine of the recording; the largest of several
+  std::vector<ProcessCost> processes = {};  // from the one with the greatest cost
+};
+
+}  // namespace tracing
