@@ -14,6 +14,7 @@
 #include "launcher/cli/check/explain_command.hpp"
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
+#include "launcher/cli/control/control_command.hpp"
 #include "launcher/cli/graph/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/result_output.hpp"
@@ -73,6 +74,9 @@ int main(int argc, char** argv) {
   if (command == "reference") {
     fmt::print("{}", launch::reference_page(launch::builtin_actions()));
     return 0;
+  }
+  if (launch::is_control_command(command)) {
+    return launch::control_command(argv[1], {argv + 2, argv + argc}, launch::own_environment());
   }
   const auto parsed = launch::parse_command_line(argc, argv);
   if (const auto* const exit_now = std::get_if<launch::ExitNow>(&parsed)) {

@@ -9,6 +9,7 @@
 
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check/finding_table.hpp"
+#include "launcher/cli/control/control_command.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/further_commands.hpp"
 #include "launcher/language/introspection.hpp"
@@ -63,6 +64,9 @@ class Completer {
         ids.push_back(finding_id(info.finding));
       }
       return ids;
+    }
+    if (is_control_command(command)) {
+      return control_completions(command, words.size() - 1, scope_.environment);
     }
     if (command == "report" || command == "reference") {
       return {};

@@ -10,11 +10,19 @@ namespace launch {
 const std::vector<CommandInfo>& further_commands() {
   static const std::vector<CommandInfo> commands = {
       {"check", "FILE", "finds errors without running anything"},
+      {"events", "", "prints what happens in a running launch"},
       {"explain", "ID", "explains a finding of launch check"},
       {"graph", "FILE", "draws nodes, namespaces, includes and remapped topics"},
+      {"logs", "NAME", "prints what the processes of a running launch print"},
+      {"ps", "", "lists the processes of the launches that run"},
       {"reference", "", "prints the reference of the launch language"},
       {"report", "DIR", "describes a recorded trace"},
+      {"restart", "NAME", "ends processes of a running launch and starts them again"},
       {"schema", "", "prints a schema for editors, or that of the output for programs"},
+      {"shutdown", "", "ends a running launch"},
+      {"signal", "NAME SIG", "sends a signal to processes of a running launch"},
+      {"start", "NAME", "starts processes of a running launch that have ended"},
+      {"stop", "NAME", "ends processes of a running launch"},
       {"test", "FILE", "runs the tests of launch files"},
       {"trace", "…", "records a trace by hand, or prints its events"},
   };

@@ -6,10 +6,13 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "actions/builtin_actions.hpp"
 #include "launcher/base/monotonic_clock.hpp"
@@ -23,6 +26,8 @@
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/shell_script.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
+#include "launcher/control/control_socket.hpp"
+#include "launcher/control/launch_control.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
@@ -70,10 +75,25 @@ void print_timing(const std::vector<TimedStep>& steps) {
   }
 }
 
+LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::string>& files, const Guardian& guardian,
+                         const std::string& log_directory) {
+  std::error_code unknown;
+  std::vector<std::string> paths;
+  for (const std::string& file : files) {
+    paths.push_back(file == "-" ? file : std::filesystem::absolute(file, unknown).string());
+  }
+  return {.pid = guardian.pid(),
+          .command = command.words,
+          .files = std::move(paths),
+          .directory = std::filesystem::current_path(unknown).string(),
+          .log_directory = log_directory,
+          .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()};
+}
+
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
-        const std::shared_ptr<const LaunchDescription>& description, Guardian& guardian, TimedStep load,
-        LaunchRecord load_record) {
+        const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
+        Guardian& guardian, TimedStep load, LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   // nohup(1) ignores SIGHUP, which stays so.
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
@@ -115,6 +135,16 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   service.use_guardian(guardian);
   service.record_to(tracepoints);
   service.record(load_record);
+  std::optional<ControlSocket> socket;
+  std::optional<LaunchControl> control;
+  try {
+    socket.emplace(RuntimeDirectory::make(environment), guardian);
+    control.emplace(*loop, socket->fd().get(), supervisor, service.steering(),
+                    launch_facts(command, files, guardian, log_directory.path));
+  } catch (const std::system_error& error) {
+    output.message(LogLevel::kWarning, "launch",
+                   fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));
+  }
   guardian.wait_until_ready();
   const int exit_code = service.run(*description);
   if (command.timing) {
@@ -177,7 +207,8 @@ int run_command(const CommandLine& command, Environment environment) {
     set_arguments(command, context.scope());
 
     const std::int64_t begin = monotonic_time();
-    auto description = load_launch_files(find_launch_files(command.target, context.scope()), registry, context.scope());
+    const std::vector<std::string> files = find_launch_files(command.target, context.scope());
+    auto description = load_launch_files(files, registry, context.scope());
     if (!command.arguments.empty()) {
       report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
     }
@@ -199,7 +230,7 @@ int run_command(const CommandLine& command, Environment environment) {
         result->print(dry_run(command, context, *description, environment));
         return result->finish() ? 0 : 1;
       case CommandMode::kRun:
-        return run(command, registry, environment, description, *guardian, load,
+        return run(command, registry, environment, description, files, *guardian, load,
                    {.kind = LaunchRecord::Kind::kLoad,
                     .name = description->file == nullptr ? "several files" : description->file->path(),
                     .where = {description->file, 0, 0},

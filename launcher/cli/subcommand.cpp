@@ -37,6 +37,11 @@ void Subcommand::take_texts(const std::string& name, std::vector<std::string>& v
   app_->add_option(name, values, help)->take_all()->expected(1)->allow_extra_args(false);
 }
 
+void Subcommand::take_words(const std::string& name, std::vector<std::string>& words, bool required,
+                            const std::string& help) {
+  app_->add_option(name, words, help)->required(required)->type_name("");
+}
+
 void Subcommand::take_flag(const std::string& name, bool& value, const std::string& help) {
   app_->add_flag(name, value, help);
 }

@@ -40,6 +40,8 @@ class Subcommand {
   void take_text(const std::string& name, std::string& value, const std::string& help);
   // Takes an option that may be given several times.
   void take_texts(const std::string& name, std::vector<std::string>& values, const std::string& help);
+  // Takes the words that are no options.
+  void take_words(const std::string& name, std::vector<std::string>& words, bool required, const std::string& help);
   void take_flag(const std::string& name, bool& value, const std::string& help);
 
   // Parses the words after the name of the command. Returns the exit code when there is nothing more to do: after

@@ -145,6 +145,7 @@ void Supervision::kill_remains(Supervised& process) {
 
 void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
   exit.ran_for = process.ran_for = loop.now() - process.started;
+  process.last_exit = exit;
   const bool expected = process.signalled || shutting_down;
   notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});
 }

@@ -4,10 +4,13 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/output_router.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/process_spec.hpp"
 
@@ -48,5 +51,8 @@ struct ProcessEvent {
   const ProcessSpec& spec;
   std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, ProcessDone> what;
 };
+
+using ProcessOutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,
+                                                 OutputStream stream, std::string_view line)>;
 
 }  // namespace launch

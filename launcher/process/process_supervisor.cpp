@@ -90,9 +90,25 @@ void Supervision::spawn(Supervised& process) {
   process.state = ProcessState::kRunning;
   process.unreaped = true;
   process.started = loop.now();
+  ++process.runs;
   process.output.follow(process.process, [this, &process] { handle(process, Event::kOutputClosed); });
   process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
   notify(process, ProcessStarted{process.process.pid});
+}
+
+void Supervision::observe_lines() {
+  if (!on_line && !on_line_outside) {
+    output.observe_lines(nullptr);
+    return;
+  }
+  output.observe_lines([this](ProcessId id, OutputStream stream, std::string_view line) {
+    const Supervised& process = *processes.at(id - 1);
+    for (const auto* const observer : {&on_line, &on_line_outside}) {
+      if (*observer) {
+        (*observer)(process.spec, id, process.label, stream, line);
+      }
+    }
+  });
 }
 
 void Supervision::finish(Supervised& process) {
@@ -232,15 +248,13 @@ ProcessId ProcessSupervisor::next_id() const {
 }
 
 void ProcessSupervisor::observe_output(OutputObserver observer) {
-  if (!observer) {
-    impl_->output.observe_lines(nullptr);
-    return;
-  }
-  impl_->output.observe_lines(
-      [this, observer = std::move(observer)](ProcessId id, OutputStream stream, std::string_view line) {
-        const Supervised& process = *impl_->processes.at(id - 1);
-        observer(process.spec, id, process.label, stream, line);
-      });
+  impl_->on_line = std::move(observer);
+  impl_->observe_lines();
+}
+
+void ProcessSupervisor::observe_output_from_outside(OutputObserver observer) {
+  impl_->on_line_outside = std::move(observer);
+  impl_->observe_lines();
 }
 
 void ProcessSupervisor::shutdown() {
@@ -316,6 +330,18 @@ std::size_t ProcessSupervisor::active() const {
 
 ProcessState ProcessSupervisor::state(ProcessId id) const {
   return impl_->processes.at(id - 1)->state;
+}
+
+ProcessView ProcessSupervisor::view(ProcessId id) const {
+  const Supervised& process = *impl_->processes.at(id - 1);
+  const bool runs = process.unreaped && !process.exited;
+  return {.label = process.label,
+          .spec = process.spec,
+          .state = process.state,
+          .pid = runs ? process.process.pid : -1,
+          .running_for = runs ? impl_->loop.now() - process.started : Duration{0},
+          .runs = process.runs,
+          .last_exit = process.last_exit};
 }
 
 }  // namespace launch

@@ -14,8 +14,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,6 +31,17 @@ namespace launch {
 
 class Guardian;
 struct Supervision;
+
+// What is known of a process now. The references stay valid as long as the supervisor.
+struct ProcessView {
+  const std::string& label;
+  const ProcessSpec& spec;
+  ProcessState state;
+  pid_t pid;  // -1: it does not run
+  Duration running_for;
+  std::int64_t runs;  // how often it has been started
+  std::optional<ProcessExit> last_exit;
+};
 
 class ProcessSupervisor {
  public:
@@ -61,10 +74,11 @@ class ProcessSupervisor {
   ProcessId next_id() const;
 
   // Called for every line of every process, before the router writes it and before the exit of its process is reported.
-  // One observer, null for none; it must not call the supervisor.
-  using OutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,
-                                            OutputStream stream, std::string_view line)>;
+  // One observer for the launch and one for those who look at it from outside, null for none; it must not call the
+  // supervisor.
+  using OutputObserver = ProcessOutputObserver;
   void observe_output(OutputObserver observer);
+  void observe_output_from_outside(OutputObserver observer);
 
   // Ends everything: SIGINT now, SIGTERM and SIGKILL after the timeouts of each spec; pending respawns are dropped.
   // A process that is being started is interrupted after its start. Later calls have no effect.
@@ -97,6 +111,7 @@ class ProcessSupervisor {
   // Processes that are not yet kDone.
   std::size_t active() const;
   ProcessState state(ProcessId id) const;
+  ProcessView view(ProcessId id) const;
 
  private:
   std::unique_ptr<Supervision> impl_;  // supervised_process.hpp

@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +62,8 @@ struct Supervised {
   bool refused = false;  // the last signal: every process of the group belongs to another user
   Duration started{0};
   Duration ran_for{0};
+  std::int64_t runs = 0;  // started so far
+  std::optional<ProcessExit> last_exit;
   ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;
@@ -119,6 +122,8 @@ struct Supervision {
   void send(Supervised& process, int signal, int escalated_from, Duration waited);
   void start_timer(Supervised& process, Duration delay);
   void reap_after_kill(Supervised& process);
+  // To be called after a change of the two observers of lines.
+  void observe_lines();
 
   static const std::array<std::array<Handler, kEvents>, kStates> kTable;
 
@@ -126,6 +131,8 @@ struct Supervision {
   ProcessRunner& runner;
   OutputRouter& output;
   std::vector<std::function<void(const ProcessEvent&)>> observers;
+  ProcessOutputObserver on_line;
+  ProcessOutputObserver on_line_outside;
   std::vector<std::unique_ptr<Supervised>> processes;  // of id N at N - 1
   std::size_t active = 0;
   bool shutting_down = false;

@@ -89,6 +89,15 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                             .where = dependency.where,
                             .time = monotonic_time()});
                   }}),
+      steering_(supervisor, processes_,
+                {[this] { return phase_ != Phase::kRunning; }, [this] { post_check(); },
+                 [this](const std::string& reason) {
+                   if (phase_ == Phase::kRunning) {
+                     context_.message(LogLevel::kInfo, "launch", fmt::format("ending the launch, by {}", reason));
+                     shutdown(reason);
+                   }
+                 },
+                 [this](const std::string& text) { context_.message(LogLevel::kInfo, "launch", text); }}),
       handlers_(
           loop, [this](const Invocation& invocation) { visit(invocation); }, [this] { check_finished(); },
           [this](const LaunchError& error) { fail(error); }),
@@ -194,6 +203,7 @@ void LaunchService::suspend() {
 void LaunchService::on_process_event(const ProcessEvent& event) {
   recording_.record(event);
   processes_.on_event(event);
+  steering_.on_event(event);
   handlers_.on_event(event);
   on_end_of_required(event);
   ros_tasks_.on_process_event(event);
@@ -351,6 +361,7 @@ void LaunchService::shutdown(const std::string& reason) {
     if (test_ending_) {
       test_ending_();
     }
+    steering_.tell_end(reason);
     rounds_.close();
     timers_.shutdown();
     processes_.shutdown();
@@ -395,8 +406,8 @@ void LaunchService::stop_processes() {
 }
 
 bool LaunchService::is_idle() const {
-  return rounds_.empty() && timers_.empty() && handlers_.idle() && !processes_.waiting() && supervisor_.active() == 0 &&
-         coroutines_.idle() && ros_tasks_.idle();
+  return !(phase_ == Phase::kRunning && steering_.holds()) && rounds_.empty() && timers_.empty() && handlers_.idle() &&
+         !processes_.waiting() && supervisor_.active() == 0 && coroutines_.idle() && ros_tasks_.idle();
 }
 
 void LaunchService::check_finished() {
@@ -421,6 +432,9 @@ void LaunchService::post_check() {
 }
 
 void LaunchService::end_scopes() {
+  if (phase_ == Phase::kRunning) {
+    steering_.tell_end("idle");
+  }
   phase_ = Phase::kEndingScopes;
   ros_tasks_.shutdown();
   recording_.end();

@@ -26,6 +26,7 @@
 #include "launcher/run/processes.hpp"
 #include "launcher/run/recording.hpp"
 #include "launcher/run/rounds.hpp"
+#include "launcher/run/steering.hpp"
 #include "launcher/run/timers.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -75,6 +76,9 @@ class LaunchService {
   // SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM to what is
   // left, a third one SIGKILL. A signal less than a second after another one does not count.
   int run(const LaunchDescription& description);
+
+  // For those who ask the launch from outside.
+  Steering& steering() { return steering_; }
 
   // The durations of the steps up to the last start, and of the steps after the last exit, in order.
   const std::vector<TimedStep>& timing() const { return timing_; }
@@ -140,6 +144,7 @@ class LaunchService {
   Rounds rounds_;
   Recording recording_;
   Processes processes_;
+  Steering steering_;
   Handlers handlers_;
   Timers timers_;
   Coroutines coroutines_;

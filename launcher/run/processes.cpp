@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <unordered_map>
 #include <utility>
 
 #include "launcher/visit/dependency_resolution.hpp"
@@ -66,6 +67,15 @@ void Processes::execute(const ProcessCommand& command) {
   callbacks_.tell(LogLevel::kWarning, "launch",
                   fmt::format("{}: process '{}' does not run ({})", name_of(command.kind), command.process,
                               to_string(command.where)));
+}
+
+void Processes::for_each(
+    const std::function<void(const TrackedProcess& process, const ProcessSpec* waiting)>& tell) const {
+  const std::unordered_map<const TrackedProcess*, const ProcessSpec*> waiting = order_.waiting();
+  for (const TrackedProcess& process : table_.all()) {
+    const auto found = waiting.find(&process);
+    tell(process, found == waiting.end() ? nullptr : found->second);
+  }
 }
 
 void Processes::wait(Round& round) {

@@ -41,6 +41,10 @@ class Processes {
   void check(const std::vector<ProcessCommand>& commands) const { check_commands(commands, table_); }
   // Carries out a command. Reports a command that no process could get.
   void execute(const ProcessCommand& command);
+  // The process must never start. Returns whether it waited.
+  bool drop(const TrackedProcess& process) { return order_.drop(process); }
+  // In the order in which they were asked for. `waiting` is null for a process that does not wait for something.
+  void for_each(const std::function<void(const TrackedProcess& process, const ProcessSpec* waiting)>& tell) const;
 
   // The processes of a round that wait for something begin to wait. They watch the others from their start on, so this
   // must be called before start().

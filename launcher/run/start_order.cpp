@@ -60,6 +60,14 @@ void StartOrder::add(ProcessSpec spec, TrackedProcess& process, std::vector<Depe
   }
 }
 
+std::unordered_map<const TrackedProcess*, const ProcessSpec*> StartOrder::waiting() const {
+  std::unordered_map<const TrackedProcess*, const ProcessSpec*> processes;
+  for (const WaitingPtr& waiting : waiting_) {
+    processes.emplace(waiting->process, &waiting->spec);
+  }
+  return processes;
+}
+
 void StartOrder::begin(Watch& watch) {
   if (const std::optional<Duration> timeout = watch.dependency.timeout) {
     watch.timer = loop_.after(*timeout, [this, &watch, timeout] {

@@ -48,6 +48,8 @@ class StartOrder {
   void clear();
 
   bool empty() const { return waiting_.empty(); }
+  // The processes that wait, and what shall start.
+  std::unordered_map<const TrackedProcess*, const ProcessSpec*> waiting() const;
   // Whether some process waits for a line.
   bool watch_output() const { return lines_watched_ > 0; }
 

@@ -36,6 +36,8 @@ class ProcessTable {
   TrackedProcess* find(ProcessId id);
   // The processes of this name, in the order in which they were asked for.
   std::vector<TrackedProcess*> find(const std::string& name) const;
+  // In the order in which they were asked for.
+  const std::deque<TrackedProcess>& all() const { return processes_; }
   // All names but labels, for suggestions.
   std::vector<std::string> names() const;
 

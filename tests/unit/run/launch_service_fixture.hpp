@@ -62,10 +62,14 @@ class LaunchServiceTest : public testing::Test {
     if (client != nullptr) {
       service.use_ros_client(*client);
     }
+    if (on_service) {
+      on_service(service);
+    }
     return service.run(*parse_launch_description(file, registry_));
   }
 
-  RosClient* client = nullptr;  // of the launch
+  RosClient* client = nullptr;                     // of the launch
+  std::function<void(LaunchService&)> on_service;  // called before the launch runs
   Journal journal_;
   std::vector<std::string> messages_;
   std::vector<std::string> errors_;

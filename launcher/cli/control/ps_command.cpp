@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// `launch ps`: the processes of the launches that run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include "launcher/cli/control/commands.hpp"
+#include "launcher/cli/control/process_text.hpp"
+#include "launcher/cli/subcommand.hpp"
+#include "launcher/control/control_client.hpp"
+#include "launcher/control/control_protocol.hpp"
+#include "launcher/control/process_usage.hpp"
+
+namespace launch {
+namespace {
+
+using Json = ControlClient::Json;
+using ProcessRow = std::array<std::string, 8>;
+
+void add_usage(Json& process) {
+  if (const auto pid = process.find("pid"); pid != process.end()) {
+    if (const std::optional<ProcessUsage> usage = read_process_usage(pid->get<pid_t>())) {
+      process["cpu"] = usage->cpu;
+      process["memory"] = usage->memory;
+    }
+  }
+}
+
+// As ps(1): the share of a processor since the start.
+std::string cpu_text(const Json& process) {
+  const double running_for = process.value("running_for", 0.0);
+  return process.contains("cpu") && running_for > 0
+             ? fmt::format("{:.1f} %", 100 * process["cpu"].get<double>() / running_for)
+             : "-";
+}
+
+ProcessRow row_of(const Json& process) {
+  return {process["name"].get<std::string>(),
+          state_text(process),
+          process.contains("pid") ? process["pid"].dump() : "-",
+          process.contains("restarts") ? process["restarts"].dump() : "-",
+          cpu_text(process),
+          process.contains("memory") ? memory_text(process["memory"].get<std::uint64_t>()) : "-",
+          process.contains("running_for") ? duration_text(process["running_for"].get<double>()) : "-",
+          place_text(process["place"])};
+}
+
+std::string table(const Json& processes) {
+  std::vector<ProcessRow> rows{{"NAME", "STATE", "PID", "RESTARTS", "CPU", "MEMORY", "TIME", "PLACE"}};
+  for (const Json& process : processes) {
+    rows.push_back(row_of(process));
+  }
+  std::array<std::size_t, std::tuple_size_v<ProcessRow>> widths{};
+  for (const ProcessRow& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], columns_of(row[i]));
+    }
+  }
+  std::string text;
+  for (const ProcessRow& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - columns_of(row[i]), ' ');
+      const bool to_the_right = i >= 2 && i <= 6;
+      line += (i == 0 ? "" : "  ") + (to_the_right ? padding + row[i] : row[i] + padding);
+    }
+    text += line.erase(line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string heading(const Json& answer) {
+  const Json& launch = answer["launch"];
+  const double age = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -
+                     launch["started"].get<double>();
+  const std::size_t count = answer["processes"].size();
+  return fmt::format("launch {}: {}, {} for {}, {} process{}\n", launch["pid"].get<pid_t>(), files_of(answer),
+                     launch["state"].get<std::string>(), duration_text(age), count, count == 1 ? "" : "es");
+}
+
+// The launch that `wanted` names, or all.
+std::vector<ControlClient> launches(const Environment& environment, const std::string& wanted) {
+  std::vector<ControlClient> all;
+  if (!wanted.empty()) {
+    all.push_back(choose_launch(environment, wanted));
+    return all;
+  }
+  for (FoundLaunch& found : find_launches(environment)) {
+    all.emplace_back(std::move(found));
+  }
+  return all;
+}
+
+}  // namespace
+
+int ps_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+  std::vector<std::string> names;
+  std::string wanted;
+  bool as_json = false;
+  Subcommand command("launch " + name, "Lists the processes of the launches that run.");
+  command.take_words("NAME", names, false, "processes, also as patterns such as 'camera*'; all if there is none");
+  command.take_text("--launch", wanted, "number or file of the launch; all if it is missing");
+  command.take_flag("--json", as_json, "print JSON, see docs/control.md");
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
+  }
+  std::vector<ControlClient> asked = launches(environment, wanted);
+  Json answers = Json::array();
+  int exit_code = asked.empty() ? 1 : 0;
+  for (ControlClient& launch : asked) {
+    try {
+      Json answer = launch.ask({{"do", "ps"}, {"processes", names}});
+      for (Json& process : answer["processes"]) {
+        add_usage(process);
+      }
+      answer.erase("ok");
+      answer.erase("version");
+      answers.push_back(std::move(answer));
+    } catch (const ControlError& error) {
+      // Another launch may have a process of this name.
+      if (asked.size() == 1) {
+        throw;
+      }
+      if (names.empty()) {
+        fmt::print(stderr, "launch ps: error: {}\n", error.what());
+        exit_code = 1;
+      }
+    }
+  }
+  if (as_json) {
+    fmt::print("{}\n", Json{{"version", kControlVersion}, {"launches", answers}}.dump(2));
+  } else {
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      fmt::print("{}{}{}", i == 0 ? "" : "\n", heading(answers[i]), table(answers[i]["processes"]));
+    }
+  }
+  if (asked.empty()) {
+    throw ControlError("no launch runs");
+  }
+  if (answers.empty() && !names.empty()) {
+    throw ControlError(fmt::format("no launch has a process of this name: {}", fmt::join(names, ", ")));
+  }
+  return exit_code;
+}
+
+}  // namespace launch

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/control/control_client.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <utility>
+
+#include "launcher/control/control_protocol.hpp"
+
+namespace launch {
+namespace {
+
+using Json = ControlClient::Json;
+using std::chrono::milliseconds;
+
+// A launcher answers within microseconds. One that has been stopped does not answer at all.
+constexpr milliseconds kPatience{5000};
+constexpr int kForEver = -1;
+
+}  // namespace
+
+Json ControlClient::ask(Json request) {
+  Json whole{{"version", kControlVersion}};
+  whole.update(request);
+  send(whole.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  std::optional<Json> answer;
+  while (!(answer = take(true))) {
+    if (ended_) {
+      throw ControlError(fmt::format("launch {} has ended", pid()));
+    }
+    const auto left = std::chrono::duration_cast<milliseconds>(until - std::chrono::steady_clock::now()).count();
+    if (left <= 0) {
+      throw ControlError(fmt::format("launch {} does not answer", pid()), "it may be stopped: see its terminal");
+    }
+    receive(static_cast<int>(left));
+  }
+  if (!answer->value("ok", false)) {
+    throw ControlError(answer->value("error", "the launch has given no reason"), answer->value("help", ""));
+  }
+  return *std::move(answer);
+}
+
+std::optional<Json> ControlClient::next() {
+  std::optional<Json> event;
+  while (!(event = take(false)) && !ended_) {
+    receive(kForEver);
+  }
+  return event;
+}
+
+std::optional<Json> ControlClient::next(milliseconds patience) {
+  std::optional<Json> event = take(false);
+  if (!event && !ended_ && receive(static_cast<int>(patience.count()))) {
+    event = take(false);
+  }
+  return event;
+}
+
+// Events may come before the answer to a request.
+std::optional<Json> ControlClient::take(bool answer) {
+  if (!answer && !events_.empty()) {
+    std::optional<Json> event = std::move(events_.front());
+    events_.pop_front();
+    return event;
+  }
+  std::size_t begin = 0;
+  std::optional<Json> found;
+  for (std::size_t end; !found && (end = buffer_.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    Json line = Json::parse(buffer_.begin() + static_cast<std::ptrdiff_t>(begin),
+                            buffer_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+    if (!line.is_object()) {
+      throw ControlError(fmt::format("launch {} speaks another language", pid()));
+    }
+    if (line.contains("ok") == answer) {
+      found = std::move(line);
+    } else {
+      events_.push_back(std::move(line));
+    }
+  }
+  buffer_.erase(0, begin);
+  return found;
+}
+
+bool ControlClient::receive(int patience) {
+  pollfd readable{fd(), POLLIN, 0};
+  if (::poll(&readable, 1, patience) <= 0) {
+    return false;
+  }
+  std::array<char, 64 * 1024> bytes;  // not initialised: it is read into
+  const ssize_t count = ::recv(fd(), bytes.data(), bytes.size(), 0);
+  if (count > 0) {
+    buffer_.append(bytes.data(), static_cast<std::size_t>(count));
+  } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
+    ended_ = true;
+  }
+  return true;
+}
+
+void ControlClient::send(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::send(fd(), text.data(), text.size(), MSG_NOSIGNAL);
+    if (count > 0) {
+      text.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      pollfd writable{fd(), POLLOUT, 0};
+      if (::poll(&writable, 1, static_cast<int>(kPatience.count())) == 0) {
+        throw ControlError(fmt::format("launch {} does not answer", pid()));
+      }
+    } else if (errno != EINTR) {
+      throw ControlError(fmt::format("launch {} has ended", pid()));
+    }
+  }
+}
+
+std::string files_of(const Json& answer) {
+  std::string names;
+  for (const Json& file : answer.at("launch").at("files")) {
+    names += (names.empty() ? "" : ", ") + std::filesystem::path(file.get<std::string>()).filename().string();
+  }
+  return names;
+}
+
+ControlClient choose_launch(const Environment& environment, const std::string& wanted) {
+  std::vector<ControlClient> all;
+  for (FoundLaunch& found : find_launches(environment)) {
+    all.emplace_back(std::move(found));
+  }
+  if (all.empty()) {
+    throw ControlError("no launch runs");
+  }
+  std::string list;
+  std::vector<ControlClient> chosen;
+  const bool only = all.size() == 1 && wanted.empty();
+  for (ControlClient& client : all) {
+    if (only) {
+      return std::move(client);
+    }
+    std::string files;
+    try {
+      files = files_of(client.ask("info"));
+    } catch (const ControlError& error) {
+      files = error.what();
+    }
+    list += fmt::format("\n  {:<8} {}", client.pid(), files);
+    const bool named = (", " + files + ", ").find(", " + wanted + ", ") != std::string::npos;
+    if (wanted.empty() || wanted == std::to_string(client.pid()) || named) {
+      chosen.push_back(std::move(client));
+    }
+  }
+  if (chosen.empty()) {
+    throw ControlError(fmt::format("launch '{}' does not run; there are:{}", wanted, list));
+  }
+  if (chosen.size() > 1) {
+    throw ControlError(wanted.empty() ? fmt::format("several launches run; choose one with --launch NUMBER:{}", list)
+                                      : fmt::format("several launches have the file '{}':{}", wanted, list));
+  }
+  return std::move(chosen.front());
+}
+
+}  // namespace launch

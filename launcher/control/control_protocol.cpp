@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/control/control_protocol.hpp"
+
+#include <fmt/format.h>
+#include <string.h>
+#include <sys/time.h>
+#include <time.h>
+
+#include <array>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/language/exit_code_filter.hpp"
+
+namespace launch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = ControlRequest::Kind;
+
+struct KindName {
+  Kind kind;
+  const char* name;
+};
+constexpr std::array<KindName, 9> kKinds{{{Kind::kInfo, "info"},
+                                          {Kind::kPs, "ps"},
+                                          {Kind::kStop, "stop"},
+                                          {Kind::kStart, "start"},
+                                          {Kind::kRestart, "restart"},
+                                          {Kind::kSignal, "signal"},
+                                          {Kind::kShutdown, "shutdown"},
+                                          {Kind::kEvents, "events"},
+                                          {Kind::kOutput, "output"}}};
+
+// Names and lines of programs may hold any bytes.
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+double seconds(const timeval& time) {
+  constexpr std::int64_t kMicroseconds = 1'000'000;
+  return static_cast<double>(time.tv_sec * kMicroseconds + time.tv_usec) / static_cast<double>(kMicroseconds);
+}
+
+// Seconds since 1970, to the microsecond.
+double now() {
+  constexpr double kNanoseconds = 1e9;
+  timespec time{};
+  ::clock_gettime(CLOCK_REALTIME, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec / 1000 * 1000) / kNanoseconds;
+}
+
+std::string signal_name(int signal) {
+  const char* const name = ::sigabbrev_np(signal);
+  return name == nullptr ? std::to_string(signal) : fmt::format("SIG{}", name);
+}
+
+void put_end(Json& json, const ProcessExit& exit) {
+  if (exit.code < 0) {
+    json["signal"] = signal_name(-exit.code);
+  } else {
+    json["exit_code"] = exit.code;
+  }
+  json["ran_for"] = seconds(exit.ran_for);
+}
+
+Json place(const SourceRange& range) {
+  if (!range) {
+    return nullptr;
+  }
+  const SourceFile::Position position = range.file->position(range.begin);
+  return {{"file", range.file->path()}, {"line", position.line}, {"column", position.column}};
+}
+
+const char* state_name(ProcessState state) {
+  switch (state) {
+    case ProcessState::kStarting:
+      return "starting";
+    case ProcessState::kRunning:
+      return "running";
+    case ProcessState::kInterrupting:
+    case ProcessState::kTerminating:
+    case ProcessState::kKilling:
+      return "stopping";
+    case ProcessState::kRespawnDelay:
+      return "respawning";
+    case ProcessState::kDone:
+      return "ended";
+  }
+  return "";
+}
+
+Json describe(const SteeredProcess& process, const ProcessSupervisor& supervisor) {
+  Json json{{"name", process.name}, {"names", process.names}};
+  if (process.id == 0) {
+    json["state"] = process.waits ? "waiting" : "skipped";
+  } else {
+    const ProcessView view = supervisor.view(process.id);
+    json["state"] = state_name(view.state);
+    if (view.pid >= 0) {
+      json["pid"] = view.pid;
+      json["running_for"] = seconds(view.running_for);
+    }
+    json["restarts"] = view.runs > 0 ? view.runs - 1 : 0;
+    if (view.last_exit) {
+      put_end(json["last_end"] = Json::object(), *view.last_exit);
+    }
+  }
+  json["place"] = place(process.origin);
+  return json;
+}
+
+Json describe(const LaunchFacts& facts, bool ending) {
+  return {{"pid", facts.pid},
+          {"state", ending ? "ending" : "running"},
+          {"files", facts.files},
+          {"command", facts.command},
+          {"directory", facts.directory},
+          {"started", facts.started},
+          {"log_directory", facts.log_directory}};
+}
+
+struct EventWriter {
+  Json& json;
+
+  void operator()(const ProcessStarted& started) const {
+    json["event"] = "started";
+    json["pid"] = started.pid;
+  }
+  void operator()(const ProcessStartFailed& failed) const {
+    json["event"] = "start_failed";
+    json["error"] = failed.reason;
+    json["will_respawn"] = failed.will_respawn;
+  }
+  void operator()(const ProcessExited& exited) const {
+    json["event"] = "exited";
+    json["pid"] = exited.pid;
+    put_end(json, exited.exit);
+    json["expected"] = exited.expected;
+    json["will_respawn"] = exited.will_respawn;
+    timeval cpu{};
+    timeradd(&exited.exit.usage.ru_utime, &exited.exit.usage.ru_stime, &cpu);
+    json["cpu"] = seconds(cpu);
+  }
+  void operator()(const SignalSent& sent) const {
+    json["event"] = "signalled";
+    json["signal"] = signal_name(sent.signal);
+  }
+  void operator()(const ProcessLeft& left) const {
+    json["event"] = "left_running";
+    json["pid"] = left.pid;
+  }
+  void operator()(const ProcessDone&) const { json["event"] = "done"; }
+};
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw std::runtime_error(why);
+}
+
+Kind kind_of(const Json& name) {
+  if (!name.is_string()) {
+    refuse("\"do\" is missing, it names what to do");
+  }
+  const std::string text = name.get<std::string>();
+  std::vector<std::string> known;
+  for (const KindName& entry : kKinds) {
+    if (text == entry.name) {
+      return entry.kind;
+    }
+    known.emplace_back(entry.name);
+  }
+  refuse(fmt::format("\"do\": \"{}\" is unknown; there are {}", text, fmt::join(known, ", ")));
+}
+
+int signal_of(const Json& signal) {
+  const int number = signal.is_string() ? signal_number(signal.get<std::string>()) : 0;
+  if (number == 0) {
+    refuse("\"signal\" must be the name of a signal, such as \"SIGUSR1\"");
+  }
+  return number;
+}
+
+}  // namespace
+
+ControlRequest parse_control_request(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) {
+    refuse("a request is a JSON object on one line, such as {\"version\": 1, \"do\": \"ps\"}");
+  }
+  const Json version = json.value("version", Json());
+  if (version != kControlVersion) {
+    refuse(fmt::format("\"version\" must be {}", kControlVersion));
+  }
+  ControlRequest request{.kind = kind_of(json.value("do", Json()))};
+  const Json processes = json.value("processes", Json::array());
+  if (!processes.is_array()) {
+    refuse("\"processes\" must be a list of names");
+  }
+  for (const Json& name : processes) {
+    if (!name.is_string()) {
+      refuse("\"processes\" must be a list of names");
+    }
+    request.processes.push_back(name.get<std::string>());
+  }
+  const bool names_processes = request.kind == Kind::kStop || request.kind == Kind::kStart ||
+                               request.kind == Kind::kRestart || request.kind == Kind::kSignal;
+  if (names_processes && request.processes.empty()) {
+    refuse("\"processes\" is missing, it names the processes");
+  }
+  if (request.kind == Kind::kSignal) {
+    request.signal = signal_of(json.value("signal", Json()));
+  }
+  return request;
+}
+
+std::string error_line(std::string_view error, std::string_view help) {
+  Json json{{"version", kControlVersion}, {"ok", false}, {"error", error}};
+  if (!help.empty()) {
+    json["help"] = help;
+  }
+  return dump(json);
+}
+
+std::string info_line(const LaunchFacts& facts, bool ending) {
+  return dump({{"version", kControlVersion}, {"ok", true}, {"launch", describe(facts, ending)}});
+}
+
+std::string ps_line(const LaunchFacts& facts, bool ending, const std::vector<SteeredProcess>& processes,
+                    const ProcessSupervisor& supervisor) {
+  Json list = Json::array();
+  for (const SteeredProcess& process : processes) {
+    list.push_back(describe(process, supervisor));
+  }
+  return dump({{"version", kControlVersion},
+               {"ok", true},
+               {"launch", describe(facts, ending)},
+               {"processes", std::move(list)}});
+}
+
+std::string outcome_line(const SteeringOutcome& outcome) {
+  if (!outcome.error.empty()) {
+    return error_line(outcome.error, outcome.help);
+  }
+  return dump({{"version", kControlVersion},
+               {"ok", true},
+               {"done", outcome.done},
+               {"dropped", outcome.dropped},
+               {"refused", outcome.refused}});
+}
+
+std::string done_line() {
+  return dump({{"version", kControlVersion}, {"ok", true}});
+}
+
+std::string follow_line(std::size_t log_size) {
+  return dump({{"version", kControlVersion}, {"ok", true}, {"log_size", log_size}});
+}
+
+std::string event_line(const ProcessEvent& event) {
+  Json json{{"time", now()}, {"event", ""}, {"process", event.label}};
+  std::visit(EventWriter{json}, event.what);
+  return dump(json);
+}
+
+std::string ending_line(const std::string& reason) {
+  return dump({{"time", now()}, {"event", "ending"}, {"reason", reason}});
+}
+
+std::string output_line(const std::string& process, OutputStream stream, std::string_view text) {
+  return dump({{"time", now()},
+               {"event", "output"},
+               {"process", process},
+               {"stream", stream == OutputStream::kOut ? "stdout" : "stderr"},
+               {"line", text}});
+}
+
+std::string dropped_line(std::size_t lines) {
+  return dump({{"time", now()}, {"event", "dropped"}, {"lines", lines}});
+}
+
+}  // namespace launch

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of a control socket (docs/control.md): one JSON object a line, both ways.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/process/output_router.hpp"
+#include "launcher/process/process_event.hpp"
+#include "launcher/run/steering.hpp"
+
+namespace launch {
+
+// Raised when a client of an older version could misunderstand something. New keys don't raise it.
+constexpr int kControlVersion = 1;
+
+// What is known about the launch from its start on.
+struct LaunchFacts {
+  pid_t pid = 0;                     // of the process that the user has started
+  std::vector<std::string> command;  // the words of its command line
+  std::vector<std::string> files;    // launch files
+  std::string directory;             // in which it was started
+  std::string log_directory;
+  double started = 0;  // seconds since 1970
+};
+
+struct ControlRequest {
+  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput };
+
+  Kind kind = Kind::kInfo;
+  Steering::Patterns processes;
+  int signal = 0;
+};
+
+// Throws std::runtime_error, with a sentence for the client, for any other text.
+ControlRequest parse_control_request(std::string_view line);
+
+// Each returns a line without its end.
+std::string error_line(std::string_view error, std::string_view help = {});
+std::string info_line(const LaunchFacts& facts, bool ending);
+std::string ps_line(const LaunchFacts& facts, bool ending, const std::vector<SteeredProcess>& processes,
+                    const ProcessSupervisor& supervisor);
+std::string outcome_line(const SteeringOutcome& outcome);
+std::string done_line();
+// `log_size` is the size of launch.log: what stands behind it comes as lines.
+std::string follow_line(std::size_t log_size);
+
+std::string event_line(const ProcessEvent& event);
+std::string ending_line(const std::string& reason);
+std::string output_line(const std::string& process, OutputStream stream, std::string_view text);
+// The client has read too slowly.
+std::string dropped_line(std::size_t lines);
+
+}  // namespace launch

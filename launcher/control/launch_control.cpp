@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/control/launch_control.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace launch {
+
+LaunchControl::LaunchControl(EventLoop& loop, int listener, ProcessSupervisor& supervisor, Steering& steering,
+                             LaunchFacts facts)
+    : supervisor_(supervisor),
+      steering_(steering),
+      facts_(std::move(facts)),
+      server_(loop, listener,
+              {[this](ClientId client, std::string_view line) { server_.send(client, answer(client, line)); },
+               [this](ClientId client) { tell_dropped(client); }, [this](ClientId client) { forget(client); },
+               [](std::string_view why) { return error_line(why); }}) {
+  supervisor_.observe([this](const ProcessEvent& event) { on_event(event); });
+  steering_.observe_end([this](const std::string& reason) {
+    for (auto& [client, follower] : followers_) {
+      if (follower.events) {
+        offer(client, follower, ending_line(reason));
+      }
+    }
+  });
+}
+
+LaunchControl::~LaunchControl() {
+  supervisor_.observe_output_from_outside(nullptr);
+  steering_.observe_end(nullptr);
+}
+
+std::string LaunchControl::answer(ClientId client, std::string_view line) {
+  using Kind = ControlRequest::Kind;
+  ControlRequest request;
+  try {
+    request = parse_control_request(line);
+  } catch (const std::runtime_error& error) {
+    return error_line(error.what());
+  }
+  switch (request.kind) {
+    case Kind::kInfo:
+      return info_line(facts_, steering_.is_ending());
+    case Kind::kPs: {
+      SteeringOutcome outcome;
+      const std::vector<SteeredProcess> found = steering_.find(request.processes, outcome);
+      return outcome.error.empty() ? ps_line(facts_, steering_.is_ending(), found, supervisor_) : outcome_line(outcome);
+    }
+    case Kind::kStop:
+      return outcome_line(steering_.ask(Steering::Request::kStop, request.processes));
+    case Kind::kStart:
+      return outcome_line(steering_.ask(Steering::Request::kStart, request.processes));
+    case Kind::kRestart:
+      return outcome_line(steering_.ask(Steering::Request::kRestart, request.processes));
+    case Kind::kSignal:
+      return outcome_line(steering_.ask(Steering::Request::kSignal, request.processes, request.signal));
+    case Kind::kShutdown:
+      steering_.shutdown();
+      return done_line();
+    case Kind::kEvents:
+    case Kind::kOutput:
+      return follow(client, std::move(request));
+  }
+  return done_line();
+}
+
+std::string LaunchControl::follow(ClientId client, ControlRequest request) {
+  if (request.kind == ControlRequest::Kind::kEvents) {
+    followers_[client].events = true;
+    return done_line();
+  }
+  SteeringOutcome outcome;
+  if (!request.processes.empty()) {
+    steering_.find(request.processes, outcome);
+    if (!outcome.error.empty()) {
+      return outcome_line(outcome);
+    }
+  }
+  Follower& follower = followers_[client];
+  follower.output = true;
+  follower.processes = std::move(request.processes);
+  watch_output();
+  return follow_line(log_size());
+}
+
+void LaunchControl::forget(ClientId client) {
+  followers_.erase(client);
+  watch_output();
+}
+
+void LaunchControl::tell_dropped(ClientId client) {
+  if (const auto found = followers_.find(client); found != followers_.end() && found->second.dropped > 0) {
+    server_.send(client, dropped_line(std::exchange(found->second.dropped, 0)));
+  }
+}
+
+void LaunchControl::offer(ClientId client, Follower& follower, std::string_view line) {
+  if (!server_.offer(client, line)) {
+    ++follower.dropped;
+  }
+}
+
+void LaunchControl::on_event(const ProcessEvent& event) {
+  std::string line;
+  for (auto& [client, follower] : followers_) {
+    if (follower.events) {
+      if (line.empty()) {
+        line = event_line(event);
+      }
+      offer(client, follower, line);
+    }
+  }
+}
+
+void LaunchControl::on_line(const ProcessSpec& spec, ProcessId id, const std::string& label, OutputStream stream,
+                            std::string_view text) {
+  const auto wants = [&](const Follower& follower) {
+    const SteeredProcess process{.id = id, .name = label, .names = names_of(spec)};
+    return follower.output && (follower.processes.empty() ||
+                               std::any_of(follower.processes.begin(), follower.processes.end(),
+                                           [&](const std::string& pattern) { return matches(pattern, process); }));
+  };
+  std::string line;
+  for (auto& [client, follower] : followers_) {
+    if (wants(follower)) {
+      if (line.empty()) {
+        line = output_line(label, stream, text);
+      }
+      offer(client, follower, line);
+    }
+  }
+}
+
+// Lines are looked at only while a client wants them.
+void LaunchControl::watch_output() {
+  const bool wanted =
+      std::any_of(followers_.begin(), followers_.end(), [](const auto& entry) { return entry.second.output; });
+  if (wanted == watches_output_) {
+    return;
+  }
+  watches_output_ = wanted;
+  supervisor_.observe_output_from_outside(
+      !wanted ? ProcessSupervisor::OutputObserver()
+              : [this](const ProcessSpec& spec, ProcessId id, const std::string& label, OutputStream stream,
+                       std::string_view line) { on_line(spec, id, label, stream, line); });
+}
+
+std::size_t LaunchControl::log_size() const {
+  std::error_code unreadable;
+  const std::uintmax_t size = std::filesystem::file_size(facts_.log_directory + "/launch.log", unreadable);
+  return unreadable ? 0 : static_cast<std::size_t>(size);
+}
+
+}  // namespace launch

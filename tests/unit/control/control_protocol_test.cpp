@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/control/control_protocol.hpp"
+
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace launch {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Kind = ControlRequest::Kind;
+
+std::string refusal(std::string_view line) {
+  try {
+    parse_control_request(line);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ControlProtocol, ReadsRequests) {
+  EXPECT_EQ(parse_control_request(R"({"version": 1, "do": "info"})").kind, Kind::kInfo);
+  const ControlRequest ps = parse_control_request(R"({"version": 1, "do": "ps", "a new key": [1]})");
+  EXPECT_EQ(ps.kind, Kind::kPs);
+  EXPECT_THAT(ps.processes, IsEmpty());
+  const ControlRequest request =
+      parse_control_request(R"({"version": 1, "do": "signal", "processes": ["a", "b*"], "signal": "USR1"})");
+  EXPECT_EQ(request.kind, Kind::kSignal);
+  EXPECT_THAT(request.processes, ElementsAre("a", "b*"));
+  EXPECT_EQ(request.signal, SIGUSR1);
+}
+
+TEST(ControlProtocol, SaysWhatIsWrongWithARequest) {
+  const std::string no_object = "a request is a JSON object on one line, such as {\"version\": 1, \"do\": \"ps\"}";
+  EXPECT_EQ(refusal(""), no_object);
+  EXPECT_EQ(refusal("[1]"), no_object);
+  EXPECT_EQ(refusal("{\"version\": 1"), no_object);
+  EXPECT_EQ(refusal("\xff\xfe\x00"), no_object);
+  EXPECT_EQ(refusal(R"({"do": "ps"})"), "\"version\" must be 1");
+  EXPECT_EQ(refusal(R"({"version": 2, "do": "ps"})"), "\"version\" must be 1");
+  EXPECT_EQ(refusal(R"({"version": 1})"), "\"do\" is missing, it names what to do");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "fly"})"),
+            "\"do\": \"fly\" is unknown; there are info, ps, stop, start, restart, signal, shutdown, events, output");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "stop"})"), "\"processes\" is missing, it names the processes");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "ps", "processes": "a"})"), "\"processes\" must be a list of names");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "ps", "processes": [1]})"), "\"processes\" must be a list of names");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "signal", "processes": ["a"], "signal": "FLY"})"),
+            "\"signal\" must be the name of a signal, such as \"SIGUSR1\"");
+}
+
+TEST(ControlProtocol, ManyBracketsAreNoRequest) {
+  EXPECT_NE(refusal(std::string(60'000, '[')), "");
+  EXPECT_NE(refusal(std::string(30'000, '[') + std::string(30'000, ']')), "");
+}
+
+TEST(ControlProtocol, AnAnswerIsOneLineWhateverNamesHold) {
+  const std::string line = output_line("a\nb", OutputStream::kErr, "\xff \"quoted\"\n");
+  EXPECT_THAT(line, Not(HasSubstr("\n")));
+  const nlohmann::json json = nlohmann::json::parse(line);
+  EXPECT_EQ(json["process"], "a\nb");
+  EXPECT_EQ(json["stream"], "stderr");
+  EXPECT_EQ(json["line"], "\xef\xbf\xbd \"quoted\"\n");
+}
+
+TEST(ControlProtocol, TellsHowAProcessHasEnded) {
+  ProcessSpec spec;
+  const std::string label = "a-1";
+  ProcessExited exited{.pid = 7,
+                       .exit = {.code = -SIGSEGV, .ran_for = std::chrono::milliseconds(1500)},
+                       .expected = false,
+                       .will_respawn = true};
+  exited.exit.usage.ru_utime = {1, 250'000};
+  exited.exit.usage.ru_stime = {0, 250'000};
+  nlohmann::json json = nlohmann::json::parse(event_line({1, label, spec, exited}));
+  json.erase("time");
+  EXPECT_EQ(json, nlohmann::json::parse(R"({"event": "exited", "process": "a-1", "pid": 7, "signal": "SIGSEGV",
+                                            "ran_for": 1.5, "expected": false, "will_respawn": true, "cpu": 1.5})"));
+}
+
+TEST(ControlProtocol, AnErrorHasTheSuggestionBesideIt) {
+  SteeringOutcome outcome;
+  outcome.error = "no process is named 'talkr'";
+  outcome.help = "did you mean 'talker'?";
+  EXPECT_EQ(outcome_line(outcome),
+            R"({"version":1,"ok":false,"error":"no process is named 'talkr'","help":"did you mean 'talker'?"})");
+}
+
+}  // namespace
+}  // namespace launch
