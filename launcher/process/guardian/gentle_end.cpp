@@ -63,6 +63,11 @@ std::uint64_t tick_of(std::chrono::steady_clock::time_point time) {
   return static_cast<std::uint64_t>(since_boot * ticks_in_second / std::chrono::seconds(1));
 }
 
+void reap_ended() {
+  while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+  }
+}
+
 }  // namespace
 
 bool GentleEnd::run(const std::string& launcher_ended, int signals) {
@@ -92,6 +97,7 @@ bool GentleEnd::run(const std::string& launcher_ended, int signals) {
     }
   }
   output_.read(true);
+  reap_ended();  // what runs next finds no group of theirs any more
   return ended;
 }
 
@@ -242,8 +248,7 @@ void GentleEnd::read_signals(int signals) {
     }
   }
   // Reaps what has been adopted. The numbers of the spare guardian and of strangers are not waited for by others.
-  while (::waitpid(-1, nullptr, WNOHANG) > 0) {
-  }
+  reap_ended();
 }
 
 }  // namespace launch

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -22,6 +23,7 @@
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/guardian/clean_ups.hpp"
 #include "launcher/process/guardian/gentle_end.hpp"
+#include "launcher/process/guardian/unanswered_signals.hpp"
 
 namespace {
 
@@ -52,6 +54,7 @@ class GuardianProcess {
   void start_spare();
   [[noreturn]] void be_spare();
   void pass_on(const signalfd_siginfo& signal) const;
+  void end_blocked_launcher() const;
   bool reap();  // true when the launcher has ended
   void end_rest(launch::LaunchMembers members, const std::string& launcher_ended, int signals);
   std::string launcher_ended() const;
@@ -66,6 +69,7 @@ class GuardianProcess {
   UniqueFd launcher_process_ = open_process(launcher_);
   UniqueFd own_process_ = open_process(::getpid());
   UniqueFd signals_;
+  launch::UnansweredSignals unanswered_{launcher_};
   pid_t spare_ = -1;
   int status_ = 0;
   bool ended_all_ = true;
@@ -85,11 +89,14 @@ int GuardianProcess::run() {
     signalfd_siginfo signal{};
     if (::read(signals_.get(), &signal, sizeof signal) != sizeof signal) {
       pollfd readable{signals_.get(), POLLIN, 0};
-      ::poll(&readable, 1, -1);
+      if (::poll(&readable, 1, unanswered_.next_look()) == 0 && unanswered_.over()) {
+        end_blocked_launcher();
+      }
     } else if (signal.ssi_signo == SIGCHLD) {
       ended = reap();
     } else {
       pass_on(signal);
+      unanswered_.over();  // from now on it looks again and again, if the launcher has not taken the signal yet
     }
   }
   strangers_.insert(spare_);
@@ -129,7 +136,19 @@ void GuardianProcess::be_spare() {
   ::setsid();
   ::prctl(PR_SET_NAME, "guardian-spare");
   ready_.reset();
-  wait_for_end(launcher_process_);
+  // A launcher without a guardian gets SIGTERM from the kernel. It can be too busy to take it.
+  launch::UnansweredSignals unanswered(launcher_);
+  std::array<pollfd, 2> ended{{{launcher_process_.get(), POLLIN, 0}, {own_process_.get(), POLLIN, 0}}};
+  for (bool guarded = true; (ended[0].revents & POLLIN) == 0;) {
+    ::poll(ended.data(), ended.size(), unanswered.next_look());
+    if ((ended[1].revents & POLLIN) != 0) {
+      guarded = false;
+      ended[1].fd = -1;  // poll() skips it
+    }
+    if (!guarded && (ended[0].revents & POLLIN) == 0 && unanswered.over()) {
+      ::syscall(SYS_pidfd_send_signal, launcher_process_.get(), SIGKILL, nullptr, 0);
+    }
+  }
   // A guardian that somebody has stopped must go on now.
   ::syscall(SYS_pidfd_send_signal, own_process_.get(), SIGCONT, nullptr, 0);
   wait_for_end(own_process_);
@@ -143,6 +162,17 @@ void GuardianProcess::pass_on(const signalfd_siginfo& signal) const {
   if (signal.ssi_code != SI_KERNEL) {
     ::kill(launcher_, static_cast<int>(signal.ssi_signo));
   }
+}
+
+void GuardianProcess::end_blocked_launcher() const {
+  launch::GuardianLog log;
+  if (const std::string path = launch::read_records(records_).log; !path.empty()) {
+    log.open(path);
+  }
+  log.say("ERROR", "the launcher has not answered a signal for " +
+                       std::to_string(launch::UnansweredSignals::kPatience.count()) +
+                       " s, so something in it is blocked; launch-guardian ends it");
+  ::kill(launcher_, SIGKILL);
 }
 
 bool GuardianProcess::reap() {

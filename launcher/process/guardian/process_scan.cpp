@@ -21,21 +21,6 @@ namespace {
 
 constexpr unsigned kExiting = 0x4;  // PF_EXITING of the kernel, in the flags of /proc/PID/stat
 
-std::string read_proc_file(pid_t pid, const char* name) {
-  const UniqueFd fd(::open(("/proc/" + std::to_string(pid) + "/" + name).c_str(), O_RDONLY | O_CLOEXEC));
-  std::string text;
-  while (fd) {
-    const std::size_t size = text.size();
-    text.resize(size + 4096);
-    const ssize_t count = ::read(fd.get(), text.data() + size, 4096);
-    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    if (count == 0 || (count < 0 && errno != EINTR)) {
-      break;
-    }
-  }
-  return text;
-}
-
 // From /proc/PID/stat, proc(5): "pid (name) state ppid pgrp session tty tpgid flags … starttime …".
 std::optional<FoundProcess> read_process(pid_t pid) {
   constexpr int kFieldOfStart = 19;  // counted from the state, which is 0
@@ -96,6 +81,21 @@ void read_mark_value(std::string_view value, const std::string& launch_id, Proce
 }
 
 }  // namespace
+
+std::string read_proc_file(pid_t pid, const char* name) {
+  const UniqueFd fd(::open(("/proc/" + std::to_string(pid) + "/" + name).c_str(), O_RDONLY | O_CLOEXEC));
+  std::string text;
+  while (fd) {
+    const std::size_t size = text.size();
+    text.resize(size + 4096);
+    const ssize_t count = ::read(fd.get(), text.data() + size, 4096);
+    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (count == 0 || (count < 0 && errno != EINTR)) {
+      break;
+    }
+  }
+  return text;
+}
 
 std::vector<FoundProcess> all_processes() {
   std::vector<FoundProcess> all;

@@ -36,6 +36,9 @@ struct FoundProcess {
   bool is_dead() const { return state == 'Z' || state == 'X'; }
 };
 
+// The bytes of /proc/PID/NAME; empty when the process has gone.
+std::string read_proc_file(pid_t pid, const char* name);
+
 // All processes that this user can see, in the order of their numbers.
 std::vector<FoundProcess> all_processes();
 

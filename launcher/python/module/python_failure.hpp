@@ -8,6 +8,7 @@
 
 #include "launcher/python/interpreter/python_runtime.hpp"
 #include "launcher/python/module/current_host.hpp"
+#include "launcher/python/module/python_interrupt.hpp"
 
 namespace launch::python {
 
@@ -20,6 +21,7 @@ template <typename Call>
 auto run_python(Host& host, Call call) {
   const pybind11::gil_scoped_acquire lock;
   const CurrentHost current(host);
+  const PythonInterrupt interrupt;
   try {
     return call();
   } catch (pybind11::error_already_set& error) {

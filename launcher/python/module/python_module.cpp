@@ -14,6 +14,7 @@
 #include "launcher/python/module/element_writer.hpp"
 #include "launcher/python/module/entity_reader.hpp"
 #include "launcher/python/module/python_failure.hpp"
+#include "launcher/python/module/python_interrupt.hpp"
 
 namespace py = pybind11;
 
@@ -77,6 +78,7 @@ class CPython : public launch::python::Runtime {
   std::string evaluate(const std::string& expression, const std::string& modules) override {
     start();
     const py::gil_scoped_acquire lock;
+    const launch::python::PythonInterrupt interrupt;
     try {
       return ::evaluate(expression, modules);
     } catch (py::error_already_set& error) {

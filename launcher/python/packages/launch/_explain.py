@@ -89,6 +89,8 @@ def explain(error, trace):
         return f'{type(error).__name__}: {error.msg}', wrong, '', text, number
     if isinstance(error, SystemExit):
         return f'the launch file called sys.exit({error.code!r})', place, '', text, number
+    if isinstance(error, KeyboardInterrupt) and not error.args:
+        return 'interrupted by a signal', place, '', text, number
     message = str(error) or 'no message'
     if isinstance(error, KeyError) and len(error.args) == 1:
         message = repr(error.args[0])
