@@ -169,6 +169,12 @@ class Trace : public Action {
                         "leave out report, and use launch report where the trace is");
     }
     choices.chains = perform_chains(chains_, scope);
+    for (std::size_t i = 0; i < chains_.size(); ++i) {
+      const tracing::ChainDefinition& chain = choices.chains[i];
+      for (const std::string& node : chain.nodes) {
+        choices.chain_nodes.push_back({node, fmt::format("chain '{}'", chain.name), chains_[i].nodes_where()});
+      }
+    }
     if (!choices.chains.empty() && url_) {
       throw LaunchError("chains need the trace on this machine, but url sends it to a relay daemon", url_->where(),
                         "leave out the chains, and write chains.json where the trace is (docs/report.md)");

@@ -17,6 +17,7 @@ class ChainFields {
 
   explicit ChainFields(const Fields& fields);
   const SourceRange& where() const { return where_; }
+  const SourceRange& nodes_where() const { return nodes_.where(); }
   // Throws LaunchError.
   tracing::ChainDefinition perform(Scope& scope) const;
 

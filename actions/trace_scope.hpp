@@ -37,6 +37,7 @@ struct TraceChoices {
   double message_deadline = 0;
   bool report = false;                                // a page is made of the trace at its end
   std::vector<tracing::ChainDefinition> chains = {};  // for the report
+  std::vector<NamedNode> chain_nodes = {};            // those that the chains pass
 
   bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !watched_events().empty(); }
   // The events that cause a snapshot.
@@ -63,6 +64,7 @@ class TraceScope : public RunScope {
   std::vector<ScopeSetting> describe() const override;
   std::vector<TimedStep> timing() const override;
   const SourceRange& origin() const override { return origin_; }
+  std::vector<NamedNode> named_nodes() const override { return choices_.chain_nodes; }
 
  private:
   // Runs `work` on a thread of its own, because the tracer's calls block, then `finished` on the loop's thread.

@@ -62,6 +62,7 @@ enum class Finding : std::uint16_t {
   kUnknownContextField = 601,
   kUnknownEvent = 602,
   kSameSession = 603,
+  kUnknownChainNode = 604,
 };
 
 }  // namespace launch

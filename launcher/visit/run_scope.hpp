@@ -24,6 +24,13 @@ struct ScopeSetting {
   std::variant<bool, std::int64_t, std::string, std::vector<std::string>> value;
 };
 
+// A node that the scope takes for a part of the launch, for checks.
+struct NamedNode {
+  std::string name;  // fully qualified; may be a pattern of the shell
+  std::string what;  // names it: "chain 'brake'"
+  SourceRange where;
+};
+
 // How long a step of beginning or ending took, for --timing.
 struct TimedStep {
   std::string name;
@@ -65,6 +72,7 @@ class RunScope {
   // "trace", and its evaluated settings.
   virtual std::string kind() const = 0;
   virtual std::vector<ScopeSetting> describe() const = 0;
+  virtual std::vector<NamedNode> named_nodes() const { return {}; }
   virtual std::vector<TimedStep> timing() const = 0;  // of begin(); when that is done, of end()
   virtual const SourceRange& origin() const = 0;
 };

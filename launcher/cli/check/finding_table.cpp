@@ -297,6 +297,20 @@ def generate_launch_description():
   <trace session-name="run" events-ust="ros2:rcl_init"/>
 </launch>
 )x"},
+    {Finding::kUnknownChainNode, "Chain passes a node that is not there", Severity::kWarning,
+     "The report will not find the chain, because no node of the launch has this name. Names are fully qualified, and "
+     "* "
+     "matches any text. Where a program gives its node a name by itself, only names that are nearly those of other "
+     "nodes "
+     "are found.",
+     R"x(<launch>
+  <trace session-name="run">
+    <chain name="hello" nodes="/talker /listner"/>
+  </trace>
+  <node pkg="demo_nodes" exec="talker" name="talker"/>
+  <node pkg="demo_nodes" exec="talker" name="listener"/>
+</launch>
+)x"},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <map>
@@ -56,6 +57,7 @@ class PlanFindings {
     note(plan_);
     for (const Requests& requests : left_out_) {
       note_names(requests.processes, requests.nodes);
+      note_components(requests.loads);
       for (const ProcessSpec& spec : requests.processes) {
         find_faults_of_process(spec, true, report_);
       }
@@ -92,6 +94,7 @@ class PlanFindings {
   // Takes note of what there is, also in handlers.
   void note(const LaunchPlan& plan) {
     note_names(plan.processes, plan.nodes);
+    note_components(plan.loads);
     is_complete_ = is_complete_ && plan.left_to_run.empty() && plan.python_includes.empty() && plan.coroutines.empty();
     for (const PlannedHandler& planned : plan.handlers) {
       note(planned.plan);
@@ -111,11 +114,24 @@ class PlanFindings {
         named.insert(node.process);
       }
     }
+    has_unnamed_node_ |= named.size() < processes.size();
     // The name of a node that the program decides is not known. It may be a container.
     for (std::size_t i = 0; i < processes.size(); ++i) {
       has_unnamed_container_ |=
           !named.contains(i) &&
           fmt::format("{}", fmt::join(processes[i].argv, " ")).find("container") != std::string::npos;
+    }
+  }
+
+  void note_components(const std::vector<LoadRequest>& loads) {
+    for (const LoadRequest& load : loads) {
+      for (const ComposableNode& node : load.nodes) {
+        if (node.name.empty()) {
+          has_unnamed_node_ = true;
+        } else {
+          components_.add(full_name(node.name_space, node.name), node.origin);
+        }
+      }
     }
   }
 
@@ -125,6 +141,7 @@ class PlanFindings {
     }
     for (const auto& scope : plan.scopes) {
       find_same_session(*scope);
+      find_unknown_nodes(*scope);
     }
     for (const LoadRequest& load : plan.loads) {
       find_missing_container(load);
@@ -145,6 +162,25 @@ class PlanFindings {
         report_({Severity::kError, fmt::format("another trace has the session name '{}'", *name), scope.origin(),
                  first_at(*first), Finding::kSameSession});
       }
+    }
+  }
+
+  void find_unknown_nodes(const RunScope& scope) {
+    std::vector<std::string> names = nodes_.all();
+    for (const std::string& name : components_.all()) {
+      names.push_back(name);
+    }
+    for (const NamedNode& node : scope.named_nodes()) {
+      const bool is_there = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return ::fnmatch(node.name.c_str(), name.c_str(), 0) == 0;
+      });
+      std::string help = did_you_mean(node.name, names);
+      if (is_there || !is_complete_ || (has_unnamed_node_ && help.empty())) {
+        continue;
+      }
+      report_({Severity::kWarning,
+               fmt::format("no node of this launch is named '{}', as {} says", node.name, node.what), node.where,
+               std::move(help), Finding::kUnknownChainNode});
     }
   }
 
@@ -184,9 +220,11 @@ class PlanFindings {
   const std::function<void(Diagnostic)>& report_;
   Names processes_;
   Names nodes_;
+  Names components_;
   Names sessions_;
   bool is_complete_ = true;             // nothing is left to a run
   bool has_unnamed_container_ = false;  // a process may be a container of any name
+  bool has_unnamed_node_ = false;       // a process may have nodes of any names
 };
 
 }  // namespace
