@@ -30,8 +30,9 @@ const Words kOptions = {"--debug",  "--dry-run",       "--dry-run=json",        
 const Words kCheckOptions = {"--disable", "--format", "--help", "--strict-ros2", "--werror"};
 const Words kGraphOptions = {"--format", "--help", "--output"};
 
-const Words kTestOptions = {"--directory", "--help", "--jobs", "--json", "--junit",
-                            "--keep",      "--list", "--name", "--tap"};
+const Words kTestOptions = {"--directory", "--engine",  "--github", "--help", "--jobs",
+                            "--json",      "--junit",   "--keep",   "--list", "--name",
+                            "--repeat",    "--retries", "--shard",  "--tap",  "--until-failure"};
 
 const Words kLaunchFileEnds = {"launch.xml", "launch.yaml", "launch.yml", "launch.py"};
 

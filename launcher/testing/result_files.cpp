@@ -63,10 +63,15 @@ std::string as_junit(const std::vector<TestResult>& results) {
                         xml(file), tests.size(), failures, time);
     for (const TestResult* const test : tests) {
       text += fmt::format("    <testcase name=\"{}\" classname=\"{}\" file=\"{}\" line=\"{}\" time=\"{:.3f}\"",
-                          xml(test->name), xml(file), xml(file), test->line, test->seconds);
-      text += test->passed() ? "/>\n"
-                             : fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                                           xml(first_message(*test)), xml(whole_text(*test)));
+                          xml(test->full_name()), xml(file), xml(file), test->line, test->seconds);
+      if (!test->passed()) {
+        text += fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
+                            xml(first_message(*test)), xml(whole_text(*test)));
+      } else if (!test->earlier.empty()) {
+        text += fmt::format(">\n      <flakyFailure message=\"{}\"/>\n    </testcase>\n", xml(test->earlier));
+      } else {
+        text += "/>\n";
+      }
     }
     text += "  </testsuite>\n";
   }
@@ -80,6 +85,9 @@ std::string as_tap(const std::vector<TestResult>& results) {
     std::string title = result.title();
     std::replace(title.begin(), title.end(), '#', '_');  // it begins a directive
     text += fmt::format("{} {} - {}\n", result.passed() ? "ok" : "not ok", ++number, title);
+    if (result.passed() && !result.earlier.empty()) {
+      text += fmt::format("# attempt {} has passed; the first: {}\n", result.attempts, result.earlier);
+    }
     if (!result.passed()) {
       text += fmt::format("  ---\n  message: {}\n  duration_ms: {:.0f}\n  details: |\n",
                           Json(first_message(result)).dump(-1, ' ', false, Json::error_handler_t::replace),
@@ -89,6 +97,36 @@ std::string as_tap(const std::vector<TestResult>& results) {
         text += "    " + line + "\n";
       }
       text += "  ...\n";
+    }
+  }
+  return text;
+}
+
+std::string as_github(const std::vector<TestResult>& results, const std::string& directory) {
+  const auto escaped = [](const std::string& text, bool property) {
+    std::string result;
+    for (const char c : text) {
+      const bool means_something = c == '%' || c == '\n' || c == '\r' || (property && (c == ':' || c == ','));
+      result += means_something ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
+    }
+    return result;
+  };
+  std::string text;
+  for (const TestResult& result : results) {
+    for (const TestFailure& failure : result.failures) {
+      std::string file = failure.file.empty() ? result.file : failure.file;
+      if (file.starts_with(directory + "/")) {
+        file.erase(0, directory.size() + 1);
+      }
+      text += fmt::format("::error file={},line={},title={}::{}\n", escaped(file, true),
+                          failure.file.empty() ? result.line : failure.line, escaped(result.full_name(), true),
+                          escaped(failure.text, false));
+    }
+    if (result.passed() && !result.earlier.empty()) {
+      text += fmt::format(
+          "::warning file={},line={},title={}::{}\n", escaped(result.file, true), result.line,
+          escaped(result.full_name(), true),
+          escaped(fmt::format("passed in attempt {}; the first: {}", result.attempts, result.earlier), false));
     }
   }
   return text;

@@ -22,6 +22,8 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/substitution/package_index.hpp"
+#include "launcher/substitution/template_parser.hpp"
+#include "launcher/testing/engine_task.hpp"
 #include "launcher/testing/result_files.hpp"
 #include "launcher/testing/test_files.hpp"
 #include "launcher/testing/test_queue.hpp"
@@ -45,6 +47,12 @@ struct Options {
   std::string junit;
   std::string tap;
   std::string json;
+  bool github = false;
+  std::string repeat;
+  bool until_failure = false;
+  std::string retries;
+  std::string shard;
+  std::string engine;
 };
 
 // A mistake in the command line.
@@ -105,6 +113,36 @@ void keep_named(const std::vector<std::string>& patterns, std::vector<TestCase>&
   });
 }
 
+// "2/5": the second of five parts.
+void keep_shard(const std::string& text, std::vector<TestCase>& tests) {
+  if (text.empty()) {
+    return;
+  }
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::size_t part = whole_number(text.substr(0, slash), "--shard I/N");
+  const std::size_t parts = whole_number(slash < text.size() ? text.substr(slash + 1) : "", "--shard I/N");
+  if (part > parts) {
+    throw UsageError(fmt::format("--shard {}: there are only {} parts", text, parts));
+  }
+  std::size_t number = 0;
+  std::erase_if(tests, [&](const TestCase&) { return number++ % parts != part - 1; });
+}
+
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words;
+  if (command.empty()) {
+    return words;
+  }
+  Scope nothing;
+  for (const Template& word : split_command_line(parse_template(LocatedText(command)))) {
+    words.push_back(word.perform(nothing));
+  }
+  if (words.empty()) {
+    throw UsageError("--engine takes a command, got an empty one");
+  }
+  return words;
+}
+
 // "DIR/2026-05-04-12-30-59-4711" below the home of ROS.
 std::string default_directory(const Environment& environment) {
   const std::time_t now = ::time(nullptr);
@@ -147,8 +185,13 @@ int run(const Options& options) {
   queue.jobs =
       options.jobs.empty() ? std::max(1U, std::thread::hardware_concurrency()) : whole_number(options.jobs, "--jobs");
   queue.keep = options.keep;
+  queue.rounds = !options.repeat.empty() ? whole_number(options.repeat, "--repeat") : options.until_failure ? 0 : 1;
+  queue.stop_at_failure = options.until_failure;
+  queue.retries = options.retries.empty() ? 0 : whole_number(options.retries, "--retries");
+  queue.engine = words_of(options.engine);
   std::vector<TestCase> tests = list_all(options, registry, environment);
   keep_named(options.names, tests);
+  keep_shard(options.shard, tests);
   if (options.list) {
     for (const TestCase& test : tests) {
       fmt::print("{}:{}: {}\n", test.file, test.line, test.name);
@@ -163,10 +206,15 @@ int run(const Options& options) {
   bool interrupted = false;
   const std::vector<TestResult> results =
       run_tests(tests, registry, environment, options.target.arguments, queue, report, interrupted);
-  report.finish(results, tests.size(), std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                interrupted);
+  const bool is_open = queue.stop_at_failure || queue.rounds == 0;
+  report.finish(results, is_open ? results.size() : tests.size() * queue.rounds,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), interrupted);
   std::error_code not_empty;
   fs::remove(queue.directory, not_empty);
+  if (options.github) {
+    std::error_code ignored;
+    fmt::print("{}", as_github(results, fs::current_path(ignored).string()));
+  }
   const bool written = write_results(options, results);
   const bool passed = std::all_of(results.begin(), results.end(), [](const auto& result) { return result.passed(); });
   return interrupted ? kInterrupted : passed && written ? 0 : 1;
@@ -175,6 +223,9 @@ int run(const Options& options) {
 }  // namespace
 
 int test_command(std::vector<std::string> words) {
+  if (words.size() == 2 && words.front() == "--task") {
+    return run_task(words.back());
+  }
   Options options;
   Subcommand command("launch test", "Runs the tests of launch files, each in its own isolation.");
   command.take_target(options.target);
@@ -187,6 +238,14 @@ int test_command(std::vector<std::string> words) {
   command.take_text("--junit", options.junit, "write the results to this file as JUnit XML");
   command.take_text("--tap", options.tap, "write the results to this file in the Test Anything Protocol");
   command.take_text("--json", options.json, "write the results to this file as JSON");
+  command.take_flag("--github", options.github, "also print the failures as annotations for GitHub's workflows");
+  command.take_text("--repeat", options.repeat, "run all tests so often");
+  command.take_flag("--until-failure", options.until_failure,
+                    "begin no test after one has failed; without --repeat, go on until then");
+  command.take_text("--retries", options.retries,
+                    "run a test that has failed again, at most so often; the result says so");
+  command.take_text("--shard", options.shard, "I/N: only the I-th of N parts of the tests");
+  command.take_text("--engine", options.engine, "hand each test to this command, such as 'srun' or 'ssh HOST'");
   if (const std::optional<int> code = command.parse(std::move(words))) {
     return *code;
   }

@@ -13,15 +13,19 @@
 #include <cctype>
 #include <cerrno>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <list>
+#include <map>
 #include <system_error>
 
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/testing/check.hpp"
+#include "launcher/testing/engine.hpp"
 #include "launcher/testing/test_process.hpp"
 
 namespace launch {
@@ -65,7 +69,7 @@ class Queue {
         arguments_(arguments),
         options_(options),
         observer_(observer),
-        results_(tests.size()) {
+        all_(options.rounds == 0 ? std::numeric_limits<std::size_t>::max() : options.rounds * tests.size()) {
     sigemptyset(&signals_);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
       sigaddset(&signals_, signal);
@@ -81,9 +85,15 @@ class Queue {
   Queue& operator=(const Queue&) = delete;
 
   std::vector<TestResult> run(bool& interrupted) {
-    while (ended_ < tests_.size()) {
-      while (!interrupted_ && next_ < tests_.size() && running_.size() < options_.jobs) {
-        start(next_++);
+    for (;;) {
+      while (running_.size() < options_.jobs && may_start()) {
+        if (again_.empty()) {
+          start(next_++, 1);
+        } else {
+          const auto [number, attempt] = again_.front();
+          again_.pop_front();
+          start(number, attempt);
+        }
       }
       if (running_.empty()) {
         break;
@@ -92,17 +102,16 @@ class Queue {
     }
     interrupted = interrupted_;
     std::vector<TestResult> results;
-    for (std::optional<TestResult>& result : results_) {
-      if (result) {
-        results.push_back(std::move(*result));
-      }
+    for (auto& [number, result] : results_) {
+      results.push_back(std::move(result));
     }
     return results;
   }
 
  private:
   struct Running {
-    std::size_t number;
+    std::size_t number;  // among the tests of all rounds
+    std::size_t attempt;
     std::string directory;
     pid_t pid;
     UniqueFd pidfd;
@@ -111,14 +120,28 @@ class Queue {
     int told = 0;
   };
 
-  void start(std::size_t number) {
-    const TestCase& test = tests_[number];
-    const std::string directory = options_.directory + "/" + directory_name(number + 1, test.name);
+  const TestCase& test_of(std::size_t number) const { return tests_[number % tests_.size()]; }
+
+  bool may_start() const {
+    const bool is_over = interrupted_ || (options_.stop_at_failure && has_failed_);
+    return !is_over && (!again_.empty() || next_ < all_);
+  }
+
+  void start(std::size_t number, std::size_t attempt) {
+    const TestCase& test = test_of(number);
+    std::string directory = options_.directory + "/" + directory_name(number + 1, test.name);
+    if (attempt > 1) {
+      directory += fmt::format("-attempt{}", attempt);
+    }
     fs::create_directories(directory);
     const Clock::time_point now = Clock::now();
-    const pid_t pid = start_test({test, registry_, environment_, arguments_, directory});
-    running_.push_back({number, directory, pid, UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))), now,
-                        now + std::chrono::duration_cast<Clock::duration>(test.timeout) + kGrace});
+    const bool here = options_.engine.empty();
+    const pid_t pid = here ? start_test({test, registry_, environment_, arguments_, directory})
+                           : start_in_engine(options_.engine, {test.file, test.name, arguments_, directory});
+    // An engine may let a test wait for its turn.
+    running_.push_back(
+        {number, attempt, directory, pid, UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))), now,
+         here ? now + std::chrono::duration_cast<Clock::duration>(test.timeout) + kGrace : Clock::time_point::max()});
     tell_progress();
   }
 
@@ -138,7 +161,7 @@ class Queue {
     while (::read(signal_file_.get(), &info, sizeof info) == sizeof info) {
       interrupted_ = true;
       for (const Running& run : running_) {
-        ::kill(run.pid, static_cast<int>(info.ssi_signo));
+        ::kill(options_.engine.empty() ? run.pid : -run.pid, static_cast<int>(info.ssi_signo));
       }
     }
     std::size_t file = 1;
@@ -159,46 +182,61 @@ class Queue {
 
   void end(const Running& run) {
     const int status = wait_for(run.pid);
-    ++ended_;
     TestResult result = result_of(run, status);
     if (interrupted_) {
       result.failures = {{.message = "the test was interrupted", .text = "error: the test was interrupted\n"}};
+    } else if (!result.passed() && run.attempt <= options_.retries) {
+      first_failures_.try_emplace(run.number, result.failures.front().message);
+      again_.emplace_back(run.number, run.attempt + 1);
+      return;
     }
+    ++ended_;
+    result.round = options_.rounds == 1 ? 0 : run.number / tests_.size() + 1;
+    result.attempts = run.attempt;
+    if (const auto first = first_failures_.find(run.number); first != first_failures_.end()) {
+      result.earlier = first->second;
+    }
+    has_failed_ = has_failed_ || !result.passed();
     if (result.passed() && !options_.keep) {
       std::error_code ignored;
       fs::remove_all(run.directory, ignored);
       result.directory.clear();
     }
     observer_.on_result(result);
-    results_[run.number] = std::move(result);
+    results_.emplace(run.number, std::move(result));
   }
 
   TestResult result_of(const Running& run, int status) const {
-    if (std::optional<TestResult> result = from_json(read_text(result_file(run.directory)))) {
+    if (std::optional<TestResult> result = options_.engine.empty() ? from_json(read_text(result_file(run.directory)))
+                                                                   : result_of_engine(run.directory)) {
       if (run.told > 0) {
         const std::string text = "the test did not end, and was told to";
         result->failures.push_back({.message = text, .text = fmt::format("error: {}\n", text)});
       }
+      result->file = test_of(run.number).file;
       return std::move(*result);
     }
-    const TestCase& test = tests_[run.number];
+    const TestCase& test = test_of(run.number);
     TestResult result{.file = test.file, .name = test.name, .line = test.line};
     result.seconds = std::chrono::duration<double>(Clock::now() - run.begin).count();
     result.directory = run.directory;
-    const std::string text = fmt::format("the process of the test has ended with {}, without a result",
+    const std::string text = fmt::format("the {} has ended with {}, without a result",
+                                         options_.engine.empty() ? "process of the test" : "engine",
                                          exit_text(WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status)));
     result.failures.push_back(
         {.message = text,
-         .text = fmt::format("error: {}\n{}", text, last_part(read_text(run.directory + "/output.txt")))});
+         .text = fmt::format(
+             "error: {}\n{}", text,
+             last_part(read_text(run.directory + (options_.engine.empty() ? "/output.txt" : "/engine.txt"))))});
     return result;
   }
 
   void tell_progress() {
     std::vector<std::string> names;
     for (const Running& run : running_) {
-      names.push_back(tests_[run.number].name);
+      names.push_back(test_of(run.number).name);
     }
-    observer_.on_progress(ended_, tests_.size(), names);
+    observer_.on_progress(ended_, all_, names);
   }
 
   const std::vector<TestCase>& tests_;
@@ -207,7 +245,11 @@ class Queue {
   const LaunchArguments& arguments_;
   const QueueOptions& options_;
   QueueObserver& observer_;
-  std::vector<std::optional<TestResult>> results_;
+  const std::size_t all_;  // tests of all rounds
+  std::map<std::size_t, TestResult> results_;
+  std::map<std::size_t, std::string> first_failures_;
+  std::deque<std::pair<std::size_t, std::size_t>> again_;  // test, attempt
+  bool has_failed_ = false;
   std::list<Running> running_;
   std::size_t next_ = 0;
   std::size_t ended_ = 0;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace launch {
 
@@ -31,8 +32,9 @@ void TestReport::on_progress(std::size_t ended, std::size_t all, const std::vect
   if (running.empty()) {
     return;
   }
-  std::string text = fmt::format("[{}/{}]{} {}", ended, all, failed_ == 0 ? "" : fmt::format(" {} failed,", failed_),
-                                 fmt::join(running, ", "));
+  std::string text =
+      fmt::format("[{}{}]{} {}", ended, all == std::numeric_limits<std::size_t>::max() ? "" : fmt::format("/{}", all),
+                  failed_ == 0 ? "" : fmt::format(" {} failed,", failed_), fmt::join(running, ", "));
   text.resize(std::min(text.size(), width_of(stream_) - 1));
   fmt::print(stream_, "{}", text);
   std::fflush(stream_);
@@ -50,9 +52,14 @@ void TestReport::on_result(const TestResult& result) {
   clear_line();
   const char* const word = result.passed() ? "PASS" : "FAIL";
   const char* const colour = !is_terminal_ ? "" : result.passed() ? "\x1b[32m" : "\x1b[31m";
-  fmt::print(stream_, "{}{}{}  {}  {:.2f} s\n", colour, word, is_terminal_ ? "\x1b[0m" : "", result.title(),
-             result.seconds);
+  const std::string attempts = result.attempts == 1 ? "" : fmt::format("  ({} attempts)", result.attempts);
+  fmt::print(stream_, "{}{}{}  {}  {:.2f} s{}\n", colour, word, is_terminal_ ? "\x1b[0m" : "", result.title(),
+             result.seconds, attempts);
   if (result.passed()) {
+    if (!result.earlier.empty()) {
+      ++flaky_;
+      fmt::print(stream_, "      = first attempt: {}\n", result.earlier);
+    }
     std::fflush(stream_);
     return;
   }
@@ -73,7 +80,8 @@ void TestReport::on_result(const TestResult& result) {
 void TestReport::finish(const std::vector<TestResult>& results, std::size_t all, double seconds, bool interrupted) {
   clear_line();
   const std::size_t passed = results.size() - failed_;
-  fmt::print(stream_, "\n{} test{}: {} passed{}{}, in {:.1f} s\n", all, all == 1 ? "" : "s", passed,
+  fmt::print(stream_, "\n{} test{}: {} passed{}{}{}, in {:.1f} s\n", all, all == 1 ? "" : "s", passed,
+             flaky_ == 0 ? "" : fmt::format(" ({} only after a retry)", flaky_),
              failed_ == 0 ? "" : fmt::format(", {} failed", failed_),
              results.size() == all ? "" : fmt::format(", {} not run", all - results.size()), seconds);
   if (interrupted) {

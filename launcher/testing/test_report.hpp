@@ -27,6 +27,7 @@ class TestReport final : public QueueObserver {
   bool is_terminal_;
   bool has_line_ = false;
   std::size_t failed_ = 0;
+  std::size_t flaky_ = 0;
 };
 
 }  // namespace launch

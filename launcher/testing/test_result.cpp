@@ -28,7 +28,10 @@ std::string to_json(const TestResult& result) {
                {"met", result.met},
                {"not_judged", result.not_judged},
                {"failures", Json::array()},
-               {"directory", result.directory}};
+               {"directory", result.directory},
+               {"round", result.round},
+               {"attempts", result.attempts},
+               {"earlier", result.earlier}};
   for (const TestFailure& failure : result.failures) {
     json["failures"].push_back(json_of(failure));
   }
@@ -46,6 +49,9 @@ std::optional<TestResult> from_json(const std::string& text) {
     result.met = json.at("met").get<std::size_t>();
     result.not_judged = json.at("not_judged").get<std::size_t>();
     result.directory = json.at("directory").get<std::string>();
+    result.round = json.at("round").get<std::size_t>();
+    result.attempts = json.at("attempts").get<std::size_t>();
+    result.earlier = json.at("earlier").get<std::string>();
     for (const Json& failure : json.at("failures")) {
       result.failures.push_back({.message = failure.at("message").get<std::string>(),
                                  .file = failure.at("file").get<std::string>(),

@@ -20,9 +20,14 @@ struct TestResult {
   std::size_t not_judged = 0;         // because another one failed before
   std::vector<TestFailure> failures;  // none: the test has passed
   std::string directory;              // its files; empty: they were removed
+  std::size_t round = 0;              // of --repeat, from 1; 0: there is only one
+  std::size_t attempts = 1;           // with --retries: how often it has run
+  std::string earlier = {};           // the message of the first attempt, if it failed
 
   bool passed() const { return failures.empty(); }
-  std::string title() const { return file + ": " + name; }
+  // "system.launch.xml: speaks", with "#3" behind it in the third round.
+  std::string title() const { return file + ": " + full_name(); }
+  std::string full_name() const { return round == 0 ? name : name + " #" + std::to_string(round); }
 };
 
 // As one line of JSON, and back; nullopt for another text.

@@ -5,8 +5,7 @@ namespace launch {
 
 bool Requests::empty() const {
   return scopes.empty() && processes.empty() && handlers.empty() && unregistered.empty() && commands.empty() &&
-         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && tests.empty() &&
-         !shutdown;
+         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && tests.empty() && !shutdown;
 }
 
 }  // namespace launch

@@ -339,6 +339,99 @@ TEST_F(TestCommand, TracesOfTestsBesideEachOtherAreKeptApart) {
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }
 
+TEST_F(TestCommand, ATestThatFailsRunsAgainAndTheResultSaysSo) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="flip" shell="true" cmd="mkdir $(dirname)/made 2&gt;/dev/null &amp;&amp; exit 3; exit 0"/>
+  <test name="flaky"><exit process="flip"/></test>)xml");
+  const fs::path junit = sandbox_.directory() / "j.xml";
+  const CommandResult result = run({file, "--retries", "2", "--github", "--junit", junit});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr(" s  (2 attempts)\n      = first attempt: 'flip' has exited with code 3\n"));
+  EXPECT_THAT(result.out, HasSubstr("1 test: 1 passed (1 only after a retry), in "));
+  EXPECT_THAT(result.out,
+              HasSubstr(",line=4,title=flaky::passed in attempt 2; the first: 'flip' has exited with code 3\n"));
+  EXPECT_THAT(read_file(junit), HasSubstr("<flakyFailure message=\"'flip' has exited with code 3\"/>"));
+  fs::remove(sandbox_.directory() / "made");
+  EXPECT_THAT(run({file, "--github"}).out, HasSubstr(",line=4,title=flaky::"));
+}
+
+TEST_F(TestCommand, RepeatsTestsAndStopsAtTheFirstFailure) {
+  // The fourth run fails.
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="count" shell="true" cwd="$(dirname)"
+              cmd="for i in 1 2 3; do mkdir run$i 2&gt;/dev/null &amp;&amp; exit 0; done; exit 1"/>
+  <test name="t"><exit process="count"/></test>)xml");
+  CommandResult result = run({file, "--until-failure", "-j", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: t #3  T s\nFAIL  a.launch.xml: t #4  T s\n"));
+  EXPECT_THAT(plain(result.out), HasSubstr("\n4 tests: 3 passed, 1 failed, in T s\n"));
+  result = run({file, "--repeat", "2", "-j", "1"});
+  EXPECT_THAT(plain(result.out), HasSubstr("\n2 tests: 0 passed, 2 failed, in T s\n"));
+  EXPECT_EQ(run({file, "--repeat", "0"}).exit_code, 2);
+}
+
+TEST_F(TestCommand, ShardsHoldEachTestOnce) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="say" cmd="true"/>
+  <for len="5" name="i"><test name="t$(index i)"><exit process="say"/></test></for>)xml");
+  EXPECT_EQ(plain(run({file, "--list", "--shard", "1/2"}).out),
+            "a.launch.xml:4: t0\na.launch.xml:4: t2\na.launch.xml:4: t4\n");
+  EXPECT_EQ(plain(run({file, "--list", "--shard", "2/2"}).out), "a.launch.xml:4: t1\na.launch.xml:4: t3\n");
+  EXPECT_EQ(run({file, "--list", "--shard", "3/2"}).err, "launch test: error: --shard 3/2: there are only 2 parts\n");
+}
+
+TEST_F(TestCommand, AnEngineGetsEachTestAndGivesItsResult) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <arg name="code"/>
+  <executable name="say" shell="true" cmd="echo of $BY_ENGINE; exit $(var code)"/>
+  <test name="good 'one' $ &amp; all"><exit process="say" code="3"/><output text="of engine"/></test>
+  <test name="bad"><exit process="say" code="4"/></test>)xml");
+  // The command line goes through a shell, as it does with ssh.
+  const fs::path engine = sandbox_.directory() / "engine";
+  write_file(engine, "#!/bin/sh\necho something else\nexport BY_ENGINE=engine\neval \"$@\"\n");
+  fs::permissions(engine, fs::perms::owner_all);
+  CommandResult result = run({file, "code:=3", "--engine", engine});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: good 'one' $ & all  T s\n"));
+  EXPECT_THAT(plain(result.out),
+              HasSubstr("FAIL  a.launch.xml: bad  T s\na.launch.xml:6:21: error: 'say' has exited with code 3\n"));
+  result = run({file, "code:=3", "-n", "bad", "--engine", "echo no"});
+  EXPECT_THAT(result.out, HasSubstr("error: the engine has ended with code 0, without a result\nno "));
+}
+
+TEST_F(TestCommand, CTestRunsLaunchFilesOfAProject) {
+  write("project/test/good.launch.xml", R"xml(
+  <arg name="word"/>
+  <executable name="say" cmd="printenv GREETING"/>
+  <test name="says"><output process="say" text="$(var word)"/></test>)xml");
+  write("project/test/bad.launch.xml", R"xml(<executable name="say" cmd="true"/>
+  <test name="fails"><exit process="say" code="1"/></test>)xml");
+  write_file(sandbox_.directory() / "project/CMakeLists.txt", R"cmake(cmake_minimum_required(VERSION 3.16)
+project(mine LANGUAGES NONE)
+find_package(launch_test REQUIRED)
+find_package(launch_testing_ament_cmake REQUIRED)
+enable_testing()
+add_launch_test(test/good.launch.xml ARGS word:=hello ENV GREETING=hello TIMEOUT 90 LABELS system)
+add_launch_test(test/bad.launch.xml TARGET bad)
+)cmake");
+  const fs::path build = sandbox_.directory() / "build";
+  const CommandResult configured = run_command({.argv = {CMAKE, "-S", sandbox_.directory() / "project", "-B", build,
+                                                         "-DCMAKE_PREFIX_PATH=" BUILD_DIRECTORY "/prefix"}},
+                                               std::chrono::seconds(100));
+  ASSERT_EQ(configured.exit_code, 0) << configured.out << configured.err;
+  const std::string ctest = fs::path(CMAKE).parent_path() / "ctest";
+  const CommandResult good =
+      run_command({.argv = {ctest, "--test-dir", build, "-L", "^system$", "-V"}}, std::chrono::seconds(100));
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  EXPECT_THAT(good.out, HasSubstr("test_good.launch.xml"));
+  EXPECT_THAT(read_file(build / "test_results/mine/test_good.launch.xml.xunit.xml"),
+              HasSubstr("<testcase name=\"says\""));
+  const CommandResult bad =
+      run_command({.argv = {ctest, "--test-dir", build, "-R", "^bad$"}}, std::chrono::seconds(100));
+  EXPECT_EQ(bad.exit_code, 8) << bad.out << bad.err;
+  EXPECT_THAT(read_file(build / "test_results/mine/bad.xunit.xml"), HasSubstr("'say' has exited with code 0"));
+}
+
 class ExampleTests : public testing::TestWithParam<const char*> {};
 
 TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {

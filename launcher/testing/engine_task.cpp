@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/testing/engine_task.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <vector>
+
+#include "actions/builtin_actions.hpp"
+#include "launcher/base/own_environment.hpp"
+#include "launcher/testing/engine.hpp"
+#include "launcher/testing/test_queue.hpp"
+
+namespace launch {
+
+namespace {
+
+class Silent final : public QueueObserver {
+ public:
+  void on_progress(std::size_t, std::size_t, const std::vector<std::string>&) override {}
+  void on_result(const TestResult&) override {}
+};
+
+}  // namespace
+
+int run_task(const std::string& word) {
+  try {
+    const EngineTask task = task_of(word);
+    const Environment environment = own_environment();
+    const Registry registry = builtin_actions();
+    std::vector<TestCase> tests = list_tests(task.file, registry, environment, task.arguments);
+    std::erase_if(tests, [&](const TestCase& test) { return test.name != task.name; });
+    QueueOptions options;
+    options.directory = task.directory;
+    options.keep = true;
+    Silent silent;
+    bool interrupted = false;
+    const std::vector<TestResult> results =
+        run_tests(tests, registry, environment, task.arguments, options, silent, interrupted);
+    for (const TestResult& result : results) {
+      fmt::print("{}\n", to_json(result));
+    }
+    return results.size() == 1 ? 0 : 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "launch test: error: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace launch
