@@ -92,6 +92,15 @@ class Trace : public Action {
     if (events_ust_.given()) {
       find_unknown_events(config.events_ust, events_ust_.where(), context);
     }
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      const tracing::ChannelConfig& channel = config.channels[i];
+      find_unknown_events(channel.events_ust, channels_[i].events_where(), context);
+      if (channel.context_fields) {
+        find_unknown_context_fields(*channel.context_fields,
+                                    channel.events_ust.empty() ? LTTNG_DOMAIN_KERNEL : LTTNG_DOMAIN_UST,
+                                    channels_[i].context_where(), context);
+      }
+    }
     if (context_fields_.given() && !config.events_ust.empty()) {
       find_unknown_context_fields(config.context_fields_ust, LTTNG_DOMAIN_UST, context_fields_.where(), context);
     }

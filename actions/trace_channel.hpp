@@ -46,6 +46,9 @@ class ChannelFields {
   explicit ChannelFields(const Fields& fields);
   // Throws LaunchError.
   tracing::ChannelConfig perform(Scope& scope) const;
+  // Of its events, which a check looks at.
+  const SourceRange& events_where() const { return events_ust_.where(); }
+  const SourceRange& context_where() const { return context_fields_.where(); }
 
  private:
   Template name_;

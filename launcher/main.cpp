@@ -20,6 +20,7 @@
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "launcher/cli/schema_command.hpp"
+#include "launcher/cli/subcommand.hpp"
 #include "tracing/command/trace_command.hpp"
 #include "tracing/command/trace_completion.hpp"
 
@@ -72,6 +73,10 @@ int main(int argc, char** argv) {
     return launch::schema_command({argv + 2, argv + argc}, launch::builtin_actions());
   }
   if (command == "reference") {
+    launch::Subcommand reference("launch reference", "Prints the reference of the launch language as Markdown.");
+    if (const auto exit_code = reference.parse({argv + 2, argv + argc})) {
+      return *exit_code;
+    }
     fmt::print("{}", launch::reference_page(launch::builtin_actions()));
     return 0;
   }

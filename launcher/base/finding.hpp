@@ -26,6 +26,7 @@ enum class Finding : std::uint16_t {
   kWrongType = 105,
   kWrongValue = 106,
   kExtension = 107,
+  kStrayText = 108,
 
   // What it comes to.
   kUndefined = 201,

@@ -28,7 +28,7 @@ const Words kOptions = {"--debug",  "--dry-run",       "--dry-run=json",        
                         "--report", "--show-args",     "--strict-args",          "--timing",
                         "--trace",  "--version"};
 const Words kCheckOptions = {"--disable", "--format", "--help", "--strict-ros2", "--werror"};
-const Words kGraphOptions = {"--format", "--help", "--output"};
+const Words kGraphOptions = {"--format", "--from-trace", "--help", "--live", "--output", "--seconds"};
 
 const Words kTestOptions = {"--directory", "--engine",  "--github", "--help", "--jobs",
                             "--json",      "--junit",   "--keep",   "--list", "--name",
@@ -57,7 +57,7 @@ class Completer {
       return trace_words_({words.begin() + 1, words.end()});
     }
     if (command == "schema") {
-      return {"json", "xsd"};
+      return {"dry-run", "json", "xsd"};
     }
     if (command == "explain") {
       Words ids;

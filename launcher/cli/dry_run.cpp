@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "actions/parameter_value.hpp"
+#include "launcher/cli/dry_run_schema.hpp"
 #include "launcher/cli/parameter_json.hpp"
 #include "launcher/cli/shell_script.hpp"
 
@@ -270,6 +271,11 @@ void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher
   for (const ProcessSpec& spec : plan.processes) {
     processes.push_back(process_as_json(spec, launcher_environment));
   }
+  for (std::size_t i = 0; i < plan.delays.size(); ++i) {
+    if (plan.delays[i] > Duration(0)) {
+      processes[i]["after"] = std::chrono::duration<double>(plan.delays[i]).count();
+    }
+  }
   for (const NodeDescription& node : plan.nodes) {
     processes[node.process]["node"] = {{"package", or_null(node.package)},
                                        {"executable", node.executable},
@@ -331,6 +337,7 @@ void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher
 
 std::string plan_as_json(const LaunchPlan& plan, const Environment& launcher_environment) {
   Json root;
+  root["version"] = kDryRunVersion;
   root["outcome"] = "ok";
   add_content(root, plan, launcher_environment);
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -17,11 +17,12 @@ Subcommand::Subcommand(const std::string& name, const std::string& description)
 
 Subcommand::~Subcommand() = default;
 
-void Subcommand::take_target(LaunchTarget& target) {
+void Subcommand::take_target(LaunchTarget& target, bool optional) {
   target_ = &target;
+  optional_target_ = optional;
   app_->add_option("words", words_, "launch files, or a package and a file of it; then arguments, name:=value")
       ->type_name("FILE ... | PACKAGE FILE  [NAME:=VALUE ...]")
-      ->required();
+      ->required(!optional);
 }
 
 void Subcommand::take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
@@ -68,7 +69,7 @@ std::optional<int> Subcommand::parse(std::vector<std::string> words) {
       target_->arguments.emplace_back(word.substr(0, separator), word.substr(separator + 2));
     }
   }
-  if (target_->words.empty()) {
+  if (target_->words.empty() && !optional_target_) {
     fmt::print(stderr, "{}", usage_error(app_->get_name(), "no launch file given"));
     return kWrongCommandLine;
   }

@@ -31,8 +31,8 @@ class Subcommand {
   Subcommand(const std::string& name, const std::string& description);
   ~Subcommand();
 
-  // Takes the words that are no options. At least one word that is no argument is required.
-  void take_target(LaunchTarget& target);
+  // Takes the words that are no options. At least one word that is no argument is required, unless it is `optional`.
+  void take_target(LaunchTarget& target, bool optional = false);
   // Takes a value that is one of `values`: an option, or a word if `name` does not begin with "--".
   void take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
                    const std::string& help);
@@ -51,6 +51,7 @@ class Subcommand {
  private:
   std::unique_ptr<CLI::App> app_;
   LaunchTarget* target_ = nullptr;
+  bool optional_target_ = false;
   std::vector<std::string> words_;
 };
 

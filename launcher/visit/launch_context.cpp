@@ -166,6 +166,7 @@ void LaunchContext::visit_left_out(const Action& action) {
   requests_ = Requests{};
   messages_ = [](LogLevel, std::string_view, std::string_view) {};
   in_left_out_ = true;
+  scope_.only_planned = scope_.only_planned || !explorer_.judges;
   try {
     action.execute(*this);
   } catch (const LaunchError& error) {
@@ -180,7 +181,7 @@ void LaunchContext::visit_left_out(const Action& action) {
 }
 
 void LaunchContext::remark(Diagnostic diagnostic) {
-  if (explores() && !scope_.incomplete && !scope_.command_was_left_out()) {
+  if (explores() && explorer_.judges && !scope_.incomplete && !scope_.command_was_left_out()) {
     report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
   }
 }

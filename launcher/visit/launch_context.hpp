@@ -85,6 +85,9 @@ class LaunchContext {
     std::function<void(const LaunchError&, bool left_out)> report;
     // Gets the requests of an action that its condition leaves out.
     std::function<void(Requests)> left_out;
+    // False: `report` is not told of what would go wrong only in a run, and no function of a Python launch file that a
+    // condition leaves out is called.
+    bool judges = true;
   };
   void explore(Explorer explorer) { explorer_ = std::move(explorer); }
   bool explores() const { return explorer_.report != nullptr; }

@@ -131,6 +131,7 @@ class Planner {
         scope->prepare(spec);
       }
       plan.processes.push_back(std::move(spec));
+      plan.delays.push_back(now);
     }
     for (TimerRequest& timer : requests.timers) {
       timers.emplace(now + timer.period, std::move(timer));

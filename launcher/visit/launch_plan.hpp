@@ -17,6 +17,7 @@ struct LaunchPlan {
   std::vector<NodeDescription> nodes;    // the nodes among the processes
   std::vector<Dependency> dependencies;  // of the processes
   std::vector<PlannedHandler> handlers;
+  std::vector<Duration> delays;  // of each process: when the timer that starts it fires; 0 without a timer
   std::vector<ProcessCommand> commands;
   std::vector<LoadRequest> loads;
   std::vector<TransitionRequest> transitions;

@@ -11,6 +11,7 @@
 #include "launcher/base/read_source_file.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/check/plan_findings.hpp"
+#include "launcher/cli/check/stray_text.hpp"
 #include "launcher/cli/check/strict_ros2.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/language/introspection.hpp"
@@ -86,12 +87,15 @@ class Checker {
 
   void check(const LaunchDescription& description, LaunchContext& context) {
     const ArgumentList list = find_arguments(description, registry_, context.scope());
-    if (options_.strict_ros2) {
-      std::vector<const LaunchDescription*> all = {&description};
-      for (const auto& loaded : list.loaded) {
-        all.push_back(loaded.get());
+    std::vector<const LaunchDescription*> all = {&description};
+    for (const auto& loaded : list.loaded) {
+      all.push_back(loaded.get());
+    }
+    for (const LaunchDescription* one : all) {
+      for (Diagnostic& diagnostic : find_stray_text(one->file)) {
+        add(std::move(diagnostic));
       }
-      for (const LaunchDescription* one : all) {
+      if (options_.strict_ros2) {
         for (Diagnostic& diagnostic : beyond_ros2(one->file, registry_)) {
           add(std::move(diagnostic));
         }

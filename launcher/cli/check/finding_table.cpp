@@ -88,6 +88,13 @@ def generate_launch_description():
   <executable cmd="true" required="true"/>
 </launch>
 )x"},
+    {Finding::kStrayText, "Text between elements", Severity::kWarning,
+     "The elements of a launch file hold no text. ROS 2 and this launcher ignore it: what looks like a setting has no "
+     "effect. Put it into an attribute, or into a comment.",
+     R"x(<launch>
+  <set_env name="LANG" value="C"/> only for the talker
+</launch>
+)x"},
 
     {Finding::kUndefined, "Nothing has this name", Severity::kError,
      "A configuration, an environment variable, a parameter or a loop variable that a substitution reads is not set "

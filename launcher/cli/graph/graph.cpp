@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -47,8 +48,15 @@ class GraphBuilder {
  public:
   using Relation = LaunchGraph::Relation;
 
-  LaunchGraph build(const LaunchPlan& plan) {
+  LaunchGraph build(const LaunchPlan& plan, const std::vector<Requests>& left_out) {
     add_plan(plan, "");
+    left_out_ = true;
+    for (const Requests& requests : left_out) {
+      add_processes(requests.processes, requests.nodes, {});
+      for (const LoadRequest& request : requests.loads) {
+        add_load(request);
+      }
+    }
     for (const std::string& topic : topics_) {
       graph_.topics.push_back({"topic " + topic, {topic}});
     }
@@ -58,23 +66,8 @@ class GraphBuilder {
  private:
   // `starter` is the handler that visits the plan; empty for the launch itself.
   void add_plan(const LaunchPlan& plan, const std::string& starter) {
-    std::vector<std::string> ids(plan.processes.size());
-    for (const NodeDescription& node : plan.nodes) {
-      const ProcessSpec& spec = plan.processes[node.process];
-      std::vector<std::string> lines = {node.package ? fmt::format("{} {}", *node.package, node.executable)
-                                                     : node.executable};
-      if (!node.name) {
-        lines.emplace_back("named by the program");
-      }
-      ids[node.process] = add_node(node.name.value_or(spec.name), node.name_space.value_or("/"), lines, spec.origin,
-                                   remaps_of(spec.argv));
-    }
+    const std::vector<std::string> ids = add_processes(plan.processes, plan.nodes, plan.delays);
     for (std::size_t i = 0; i < plan.processes.size(); ++i) {
-      if (ids[i].empty()) {
-        ids[i] = fmt::format("process {}", graph_.processes.size());
-        graph_.processes.push_back({ids[i], {plan.processes[i].name}});
-        asked_by(plan.processes[i].origin, ids[i]);
-      }
       names_.emplace(plan.processes[i].name, ids[i]);
       for (const std::string& name : plan.processes[i].other_names) {
         names_.emplace(name, ids[i]);
@@ -97,6 +90,46 @@ class GraphBuilder {
         graph_.edges.push_back({process->second, id, Relation::kHandles, ""});
       }
       add_plan(planned.plan, id);
+    }
+  }
+
+  // Returns the ids of the processes, whether they are nodes or not.
+  std::vector<std::string> add_processes(const std::vector<ProcessSpec>& processes,
+                                         const std::vector<NodeDescription>& nodes,
+                                         const std::vector<Duration>& delays) {
+    const auto remark_delay = [&](std::size_t process, std::vector<std::string>& lines) {
+      if (process < delays.size() && delays[process] > Duration(0)) {
+        lines.push_back(fmt::format("after {} s", std::chrono::duration<double>(delays[process]).count()));
+      }
+    };
+    std::vector<std::string> ids(processes.size());
+    for (const NodeDescription& node : nodes) {
+      const ProcessSpec& spec = processes[node.process];
+      std::vector<std::string> lines = {node.package ? fmt::format("{} {}", *node.package, node.executable)
+                                                     : node.executable};
+      if (!node.name) {
+        lines.emplace_back("named by the program");
+      }
+      remark_delay(node.process, lines);
+      ids[node.process] = add_node(node.name.value_or(spec.name), node.name_space.value_or("/"), lines, spec.origin,
+                                   remaps_of(spec.argv));
+    }
+    for (std::size_t i = 0; i < processes.size(); ++i) {
+      if (ids[i].empty()) {
+        ids[i] = fmt::format("process {}", graph_.processes.size());
+        std::vector<std::string> lines = {processes[i].name};
+        remark_delay(i, lines);
+        remark_left_out(lines);
+        graph_.processes.push_back({ids[i], std::move(lines), left_out_});
+        asked_by(processes[i].origin, ids[i]);
+      }
+    }
+    return ids;
+  }
+
+  void remark_left_out(std::vector<std::string>& lines) const {
+    if (left_out_) {
+      lines.emplace_back("left out by a condition");
     }
   }
 
@@ -145,7 +178,8 @@ class GraphBuilder {
       id = fmt::format("{} ({})", full_name, again);
     }
     lines.insert(lines.begin(), full_name);
-    graph_.nodes[name_space].push_back({id, std::move(lines)});
+    remark_left_out(lines);
+    graph_.nodes[name_space].push_back({id, std::move(lines), left_out_});
     asked_by(origin, id);
     for (const auto& [from, to] : remaps) {
       const std::string topic = resolved(to, name_space, full_name);
@@ -174,6 +208,7 @@ class GraphBuilder {
     return id;
   }
 
+  bool left_out_ = false;  // what is added now is left out by a condition
   LaunchGraph graph_;
   std::map<std::string, std::string> names_;  // of processes, with their ids
   std::set<std::string> topics_;
@@ -183,8 +218,8 @@ class GraphBuilder {
 
 }  // namespace
 
-LaunchGraph graph_of(const LaunchPlan& plan) {
-  return GraphBuilder().build(plan);
+LaunchGraph graph_of(const LaunchPlan& plan, const std::vector<Requests>& left_out) {
+  return GraphBuilder().build(plan, left_out);
 }
 
 }  // namespace launch

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `launch graph` draws: the nodes and other processes of a launch, by namespace, with the files that ask for them
-// the topics that they are remapped to, what they wait for, and what event handlers start.
+// What `launch graph` draws: the nodes and other processes of a launch, by namespace, with the files that ask for them,
+// the topics that they are remapped to, what they wait for, what event handlers and timers start, and what conditions
+// leave out.
 #pragma once
 
 #include <map>
@@ -15,6 +16,7 @@ struct LaunchGraph {
   struct Box {
     std::string id;
     std::vector<std::string> lines;  // its text
+    bool left_out = false;           // by a condition
   };
   enum class Relation {
     kIncludes,  // a file to a file
@@ -40,7 +42,8 @@ struct LaunchGraph {
   std::vector<Edge> edges;                        // in the order of the plan
 };
 
-LaunchGraph graph_of(const LaunchPlan& plan);
+// `left_out` are the requests of actions that their conditions leave out.
+LaunchGraph graph_of(const LaunchPlan& plan, const std::vector<Requests>& left_out = {});
 
 // In Graphviz's language. Boxes with a folded corner are launch files, with an arrow to what each includes and asks
 // for. Ellipses are nodes inside their namespace; boxes are other processes. A remap is a line from the node to the new

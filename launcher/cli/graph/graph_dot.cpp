@@ -32,6 +32,10 @@ std::string label_of(const LaunchGraph::Box& box) {
   return as_id(label);
 }
 
+std::string_view style_of(const LaunchGraph::Box& box) {
+  return box.left_out ? "style=dashed, color=gray, fontcolor=gray, " : "";
+}
+
 std::string edge_style(const LaunchGraph::Edge& edge) {
   switch (edge.relation) {
     case LaunchGraph::Relation::kIncludes:
@@ -64,14 +68,14 @@ std::string graph_as_dot(const LaunchGraph& graph) {
   for (const auto& [name_space, nodes] : graph.nodes) {
     std::string lines;
     for (const LaunchGraph::Box& node : nodes) {
-      lines += fmt::format("  {} [label={}];\n", as_id(node.id), label_of(node));
+      lines += fmt::format("  {} [{}label={}];\n", as_id(node.id), style_of(node), label_of(node));
     }
     text += name_space == "/"
                 ? lines
                 : fmt::format("  subgraph cluster_{} {{\n  label={};\n{}  }}\n", number++, as_id(name_space), lines);
   }
   for (const LaunchGraph::Box& process : graph.processes) {
-    text += fmt::format("  {} [shape=box, label={}];\n", as_id(process.id), label_of(process));
+    text += fmt::format("  {} [shape=box, {}label={}];\n", as_id(process.id), style_of(process), label_of(process));
   }
   for (const LaunchGraph::Box& handler : graph.handlers) {
     text += fmt::format("  {} [shape=cds, color=orange, label={}];\n", as_id(handler.id), label_of(handler));

@@ -62,6 +62,7 @@ class Picture {
         ".namespace{{fill:#f4f6fa;stroke:"
         "#bcd}} .topic{{stroke:none;fill:#eef4ff}} path{{fill:none;stroke:#aaa}} .remaps{{stroke:#36c}} "
         ".loads{{stroke:#444;stroke-dasharray:2 3}} .waits{{stroke:#444;stroke-dasharray:6 3}} "
+        ".left-out{{stroke:#bbb;stroke-dasharray:4 3}} "
         ".handler{{fill:#fff6e6;stroke:#e90}} .handles{{stroke:#e90}} .note{{fill:#36c;font-size:10px}}</style>\n"
         "<defs><marker id=\"arrow\" viewBox=\"0 0 8 8\" refX=\"8\" refY=\"4\" markerWidth=\"7\" markerHeight=\"7\" "
         "orient=\"auto\"><path d=\"M0 0L8 4L0 8z\" "
@@ -80,7 +81,8 @@ class Picture {
                     static_cast<double>(box.lines.size()) * kLine + 2 * kPadding - 4};
     boxes_ +=
         fmt::format("<rect class=\"{}\" x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" rx=\"{}\"/>\n",
-                    kind, place.x, place.y, place.width, place.height, kind == "node" ? 12 : 2);
+                    box.left_out ? fmt::format("{} left-out", kind) : kind, place.x, place.y, place.width, place.height,
+                    kind == "node" ? 12 : 2);
     for (std::size_t i = 0; i < box.lines.size(); ++i) {
       boxes_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\"{}>{}</text>\n", place.x + kPadding,
                             place.y + kPadding + kLine * static_cast<double>(i) + kText - 3,

@@ -54,6 +54,21 @@ class PythonEvents(unittest.TestCase):
         self.assertNotIn('Traceback', self.output)
         return said
 
+    def test_a_handler_of_the_file_gets_the_event_of_a_timer(self):
+        said = self.launch('''
+from launch.events import TimerEvent
+timer = TimerAction(period=0.01, actions=[say('fired')])
+return LaunchDescription([
+    RegisterEventHandler(EventHandler(
+        matcher=lambda event: isinstance(event, TimerEvent) and event.timer_action is timer,
+        handle_once=True, entities=[say('told')])),
+    TimerAction(period=0.05, actions=[say('another')]),
+    timer,
+])
+''')
+        self.assertEqual(sorted(said), ['another', 'fired', 'told'])
+        self.assertEqual(self.exit_code, 0)
+
     def test_an_event_is_handled_after_the_traversal_by_the_newest_handler_first(self):
         said = self.launch('''
 def is_called(event):

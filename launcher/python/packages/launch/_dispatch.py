@@ -147,6 +147,10 @@ class _IfWanted(_Step):
     def __init__(self, event):
         self._event = event
 
+    # As for the handling itself: a plan calls no matcher.
+    def _calls(self):
+        return f'the handlers of {type(self._event).__name__}' if _handlers else None
+
     def _do(self, context):
         return [emission(self._event, None)] if would_handle(self._event) else []
 

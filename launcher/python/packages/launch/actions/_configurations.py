@@ -191,12 +191,15 @@ class TimerAction(Action):
         return [(f'{self.period} seconds pass without being canceled', self._actions)]
 
     def _tags(self):
+        from launch._dispatch import told_if_wanted
         from launch._entities import entities
+        from launch.events import TimerEvent
         return [entity(self._tag, self._place(),
                        self._with_places([('period', self._period), ('cancel_on_shutdown', self._cancel),
                                           *self._when()]),
                        [entity('group', self._place(), [('scoped', 'false'), self._unless_canceled],
-                               entities(self._actions, self._place()))])]
+                               [told_if_wanted(TimerEvent(timer_action=self), self._place()),
+                                *entities(self._actions, self._place())])])]
 
     # It is complete when it has fired.
     def _tell_of_completion(self, found):

@@ -41,7 +41,7 @@ class IncludeLaunchDescription(Event):
 
 
 class TimerEvent(Event):
-    """A timer has fired; only a handler of the launch file's own would get it, and none does."""
+    """A timer has fired. Handlers of the launch file get it after the timer's actions were visited."""
 
     name = 'launch.events.TimerEvent'
 

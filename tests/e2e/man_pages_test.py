@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every command has a help, and a man page with what its help says. MAN_PAGES is the folder of the pages."""
+
+import os
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+LAUNCH = os.environ['LAUNCH_PROGRAM']
+PAGES = Path(os.environ['MAN_PAGES'])
+
+
+def help_of(*words):
+    return subprocess.run([LAUNCH, *words, '--help'], capture_output=True, text=True, check=True).stdout
+
+
+class ManPages(unittest.TestCase):
+    def test_every_command_has_a_page_with_its_options(self):
+        commands = [[name] for name in re.findall(r'^  launch ([a-z]+) .* {2}', help_of(), re.M)]
+        for command in [[], *commands, ['trace', 'read']]:
+            with self.subTest(command=command):
+                text = help_of(*command)
+                page = (PAGES / f'{"-".join(["launch", *command])}.1').read_text().replace('\\-', '-')
+                for heading in ('NAME', 'SYNOPSIS', 'DESCRIPTION', 'OPTIONS', 'SEE ALSO'):
+                    self.assertIn(f'\n.SH {heading}\n', page)
+                options = re.findall(r'^  (?:-\w,)?(--[\w-]+)', text, re.M)
+                self.assertIn('--help', options)
+                self.assertEqual([option for option in options if option not in page], [])
+
+    def test_the_page_of_trace_describes_its_verbs(self):
+        page = (PAGES / 'launch-trace.1').read_text().replace('\\-', '-')
+        for part in ('.SH START\n', '.SH RECORD_SNAPSHOT\n', '--snapshot-mode'):
+            self.assertIn(part, page)
+
+
+if __name__ == '__main__':
+    unittest.main()
