@@ -350,6 +350,7 @@ std::string json_report(const Report& report) {
             {"cost", cost(report)},
             {"losses", losses(overview)},
             {"absent", report.verdict.absences},
+            {"overwritten", report.verdict.overwritten},
             {"open", open_directories(report)},
             {"event_counts", event_counts(overview)},
             {"findings", findings(report.results)},

@@ -137,6 +137,9 @@ TEST_F(LaunchReport, WhatWasOverwrittenOrOnlyTheDaemonCountedIsSaid) {
   const Outcome outcome = launch_report(path_);
   EXPECT_THAT(outcome.out, HasSubstr("\nLosses     " + losses));
   EXPECT_THAT(outcome.out, HasSubstr("\nNot there\n  the last events were not waited for\n"));
+  EXPECT_EQ(nlohmann::json::parse(launch_report(path_ + " --json").out)["overwritten"],
+            nlohmann::json({"1 event overwritten, as asked", "2 packets overwritten, as asked",
+                            "1 packet cleared or moved away"}));
 }
 
 TEST_F(LaunchReport, KnowsTheChainsOfTheLaunchFile) {
