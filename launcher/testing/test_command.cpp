@@ -13,6 +13,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <thread>
 
@@ -20,7 +21,9 @@
 #include "launcher/base/home_directory.hpp"
 #include "launcher/base/own_environment.hpp"
 #include "launcher/base/own_prefix.hpp"
+#include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/subcommand.hpp"
+#include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/testing/engine_task.hpp"
@@ -76,11 +79,19 @@ std::vector<TestCase> list_all(const Options& options, const Registry& registry,
   scope.packages = std::make_shared<PackageIndex>(own_prefix());
   std::vector<TestCase> tests;
   std::vector<Diagnostic> errors;
-  for (const std::string& file : find_test_files(options.target.words, scope)) {
+  const std::vector<std::string> files = find_test_files(options.target.words, scope);
+  for (const std::string& file : files) {
     try {
-      for (TestCase& test : list_tests(file, registry, environment, options.target.arguments)) {
-        tests.push_back(std::move(test));
+      std::vector<TestCase> found = list_tests(file, registry, environment, options.target.arguments);
+      // Of several files, each may declare other arguments.
+      if (files.size() == 1 && !options.target.arguments.empty()) {
+        const LaunchDescription& description = *found.front().description;
+        fmt::print(stderr, "{}",
+                   render(check_arguments(options.target.arguments, description,
+                                          find_arguments(description, registry, scope), Severity::kWarning),
+                          ::isatty(STDERR_FILENO) != 0));
       }
+      std::move(found.begin(), found.end(), std::back_inserter(tests));
     } catch (const LaunchError& error) {
       errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

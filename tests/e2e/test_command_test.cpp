@@ -237,6 +237,7 @@ TEST_F(TestCommand, EachTurnOfALoopIsATestAndNamesChooseThem) {
   const CommandResult result = run({file, "-n", "turn 1"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(plain(result.out), HasSubstr("\n1 test: 1 passed, in T s\n"));
+  EXPECT_THAT(run({file, "-n", "turn 1", "turns:=2"}).err, HasSubstr("warning: "));
   EXPECT_THAT(run({file, "-n", "turn1"}).err, HasSubstr("error: no test is named 'turn1'\n"));
   EXPECT_EQ(run({file, "-j", "none"}).exit_code, 2);
 }
