@@ -24,6 +24,7 @@ const std::vector<CommandInfo>& further_commands() {
       {"start", "NAME", "starts processes of a running launch that have ended"},
       {"stop", "NAME", "ends processes of a running launch"},
       {"test", "FILE", "runs the tests of launch files"},
+      {"top", "", "shows the processes of a running launch on the whole screen"},
       {"trace", "…", "records a trace by hand, or prints its events"},
   };
   return commands;

@@ -113,6 +113,7 @@ void ControlClient::send(std::string_view text) {
         throw ControlError(fmt::format("launch {} does not answer", pid()));
       }
     } else if (errno != EINTR) {
+      ended_ = true;
       throw ControlError(fmt::format("launch {} has ended", pid()));
     }
   }

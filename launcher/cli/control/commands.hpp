@@ -18,6 +18,7 @@ int steer_command(const std::string& name, const std::vector<std::string>& words
 int signal_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment);
 int shutdown_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment);
 int events_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment);
+int top_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment);
 int logs_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment);
 
 }  // namespace launch

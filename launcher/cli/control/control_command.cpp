@@ -22,14 +22,15 @@ struct ControlCommand {
   int (*run)(const std::string& name, const std::vector<std::string>& words, const Environment& environment);
 };
 
-constexpr std::array<ControlCommand, 8> kControlCommands{{{"ps", ps_command},
+constexpr std::array<ControlCommand, 9> kControlCommands{{{"ps", ps_command},
                                                           {"stop", steer_command},
                                                           {"start", steer_command},
                                                           {"restart", steer_command},
                                                           {"signal", signal_command},
                                                           {"shutdown", shutdown_command},
                                                           {"events", events_command},
-                                                          {"logs", logs_command}}};
+                                                          {"logs", logs_command},
+                                                          {"top", top_command}}};
 
 // Labels and other names of the processes of all launches.
 std::vector<std::string> process_names(const Environment& environment) {
@@ -77,7 +78,7 @@ std::vector<std::string> control_completions(const std::string& command, std::si
   }
   if (command == "signal" && word > 1) {
     add(signal_names());
-  } else if (command != "shutdown" && command != "events") {
+  } else if (command != "shutdown" && command != "events" && command != "top") {
     add(process_names(environment));
   }
   return words;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands that ask a running launch: `launch ps`, `stop`, `start`, `restart`, `signal`, `shutdown`, `events`,
-// `logs`.
+// `logs`, `top`.
 #pragma once
 
 #include <cstddef>

@@ -5,9 +5,21 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
+#include "launcher/control/process_usage.hpp"
+
 namespace launch {
+
+void add_usage(nlohmann::ordered_json& process) {
+  if (const auto pid = process.find("pid"); pid != process.end()) {
+    if (const std::optional<ProcessUsage> usage = read_process_usage(pid->get<pid_t>())) {
+      process["cpu"] = usage->cpu;
+      process["memory"] = usage->memory;
+    }
+  }
+}
 
 std::string end_text(const nlohmann::ordered_json& end) {
   return end.contains("signal") ? end["signal"].get<std::string>()

@@ -10,6 +10,8 @@
 
 namespace launch {
 
+// Adds `cpu` (seconds) and `memory` (bytes) to a process that runs.
+void add_usage(nlohmann::ordered_json& process);
 // "running", "ended: exit code 1", "ended: SIGSEGV".
 std::string state_text(const nlohmann::ordered_json& process);
 // "exit code 1", "SIGSEGV".

@@ -13,22 +13,12 @@
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/control/control_protocol.hpp"
-#include "launcher/control/process_usage.hpp"
 
 namespace launch {
 namespace {
 
 using Json = ControlClient::Json;
 using ProcessRow = std::array<std::string, 8>;
-
-void add_usage(Json& process) {
-  if (const auto pid = process.find("pid"); pid != process.end()) {
-    if (const std::optional<ProcessUsage> usage = read_process_usage(pid->get<pid_t>())) {
-      process["cpu"] = usage->cpu;
-      process["memory"] = usage->memory;
-    }
-  }
-}
 
 // As ps(1): the share of a processor since the start.
 std::string cpu_text(const Json& process) {
