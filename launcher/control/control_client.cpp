@@ -146,6 +146,9 @@ ControlClient choose_launch(const Environment& environment, const std::string& w
     try {
       files = files_of(client.ask("info"));
     } catch (const ControlError& error) {
+      if (client.ended()) {
+        continue;
+      }
       files = error.what();
     }
     list += fmt::format("\n  {:<8} {}", client.pid(), files);
@@ -153,6 +156,9 @@ ControlClient choose_launch(const Environment& environment, const std::string& w
     if (wanted.empty() || wanted == std::to_string(client.pid()) || named) {
       chosen.push_back(std::move(client));
     }
+  }
+  if (list.empty()) {
+    throw ControlError("no launch runs");
   }
   if (chosen.empty()) {
     throw ControlError(fmt::format("launch '{}' does not run; there are:{}", wanted, list));

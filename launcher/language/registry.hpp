@@ -63,7 +63,7 @@ struct ActionType {
   std::vector<ItemSpec> items;
   bool holds_actions = false;
   bool may_hold_none = false;  // in YAML, `children` may be left out
-  bool extension = false;  // as for an attribute
+  bool extension = false;      // as for an attribute
   // Makes the action from fields that agree with this declaration. May throw LaunchError for rules that the declaration
   // doesn't hold.
   std::function<ActionPtr(const Fields&)> make;

@@ -139,13 +139,19 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
     }
   }
   const std::map<std::string, fs::path> folders = {
-      {"HOME", "home"},       {"LTTNG_HOME", "lttng"},     {"ROS_HOME", "ros"},
-      {"ROS_LOG_DIR", "log"}, {"ROS_TRACE_DIR", "traces"}, {"TMPDIR", "tmp"},
+      {"HOME", "home"},
+      {"LTTNG_HOME", "lttng"},
+      {"ROS_HOME", "ros"},
+      {"ROS_LOG_DIR", "log"},
+      {"ROS_TRACE_DIR", "traces"},
+      {"TMPDIR", "tmp"},
+      {"XDG_RUNTIME_DIR", "runtime"},
   };
   for (const auto& [variable, folder] : folders) {
     fs::create_directories(directory_ / folder);
     set_environment(variable, (directory_ / folder).string());
   }
+  fs::permissions(directory_ / "runtime", fs::perms::owner_all);  // as the specification of XDG_RUNTIME_DIR asks
   set_environment("ROS_DOMAIN_ID", std::to_string(domain));
 }
 

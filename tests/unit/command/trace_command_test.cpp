@@ -119,7 +119,8 @@ TEST(TraceCommand, NegativeSizesAndTimesAreErrors) {
   for (const char* option : {"--subbuffer-size-ust", "--switch-timer-ust", "--read-timer-ust", "--tracefile-count"}) {
     const Outcome result = run({"start", "run", option, "-5"}, tracer);
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_EQ(result.err, std::string("error: ") + option + ": expected a number that is not negative, got '-5'\n");
+    EXPECT_EQ(result.err, std::string("launch trace start: error: ") + option +
+                              ": expected a number that is not negative, got '-5'\n");
   }
   EXPECT_THAT(tracer.calls(), IsEmpty());
 }
@@ -179,7 +180,7 @@ TEST(TraceCommand, WrongUsageIsExitCodeTwo) {
   FakeTracer tracer;
   const Outcome result = run({"start"}, tracer);
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, "error: session_name is required\n");
+  EXPECT_EQ(result.err, "launch trace start: error: session_name is required\n");
   EXPECT_THAT(tracer.calls(), IsEmpty());
 }
 

@@ -169,12 +169,13 @@ TEST_F(LaunchTraceRead, MergesSeveralDirectories) {
 TEST_F(LaunchTraceRead, RefusesWrongArguments) {
   const CommandResult expression = read({path(), "--where", "topic_name = 'x'"});
   EXPECT_EQ(expression.exit_code, 2);
-  EXPECT_THAT(expression.err, StartsWith("--where: expected '==' to compare\n"
+  EXPECT_THAT(expression.err, StartsWith("launch trace read: error: --where: expected '==' to compare\n"
                                          "    topic_name = 'x'\n"
                                          "               ^\n"));
   const CommandResult time = read({path(), "--from", "noon"});
   EXPECT_EQ(time.exit_code, 2);
-  EXPECT_THAT(time.err, StartsWith("--from: 'noon' is no time; write seconds since the epoch, 2026-01-31T12:00:00.5 or "
+  EXPECT_THAT(time.err, StartsWith("launch trace read: error: --from: 'noon' is no time; write seconds since the "
+                                   "epoch, 2026-01-31T12:00:00.5 or "
                                    "+SECONDS after the first event\n"));
   EXPECT_EQ(read({path(), "--format", "xml"}).exit_code, 2);
   EXPECT_EQ(read({}).exit_code, 2);
