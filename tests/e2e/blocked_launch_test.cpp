@@ -42,8 +42,8 @@ TEST_F(BlockedLaunch, PythonThatSleepsIsInterrupted) {
     const CommandResult result = launch.wait(kPatience);
     EXPECT_FALSE(result.timed_out) << result.out;
     EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
-    EXPECT_THAT(result.out + result.err, HasSubstr("system.launch.py:9:5: error: interrupted by a signal\n"
-                                                   "    9 |     time.sleep(1000)\n"));
+    EXPECT_THAT(result.out + result.err, HasSubstr("system.launch.py:8:5: error: interrupted by a signal\n"
+                                                   "    8 |     time.sleep(1000)\n"));
     EXPECT_TRUE(result.output_closed) << "no process is left";
   }
 }
