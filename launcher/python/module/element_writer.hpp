@@ -11,8 +11,8 @@ namespace launch::python {
 // (file, line, first byte, end byte)
 pybind11::tuple write_place(const Place& place);
 
-// (tag, place, attributes, children, number, whether it is an item); an attribute is (name, value, place of the value, place of
-// the name, untyped).
+// (tag, place, attributes, children, number, whether it is an item); an attribute is (name, value, place of the value,
+// place of the name, untyped).
 pybind11::tuple write_element(const Element& element);
 
 }  // namespace launch::python

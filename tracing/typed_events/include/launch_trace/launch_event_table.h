@@ -2,9 +2,9 @@
 #ifndef LAUNCH_TRACE__LAUNCH_EVENT_TABLE_H_
 #define LAUNCH_TRACE__LAUNCH_EVENT_TABLE_H_
 
-/// The one declaration of the events of provider `launch`: the steps of the launcher. Its tracepoints and the structs of
-/// typed_events.hpp come from it. A row is EVENT(given, name, Struct, group, field...), as in tracetools/event_table.h,
-/// with three more types of fields: int32, uint32 and real (a double).
+/// The one declaration of the events of provider `launch`: the steps of the launcher. Its tracepoints and the structs
+/// of typed_events.hpp come from it. A row is EVENT(given, name, Struct, group, field...), as in
+/// tracetools/event_table.h, with three more types of fields: int32, uint32 and real (a double).
 ///
 /// `time` is the CLOCK_MONOTONIC time in nanoseconds at which the step happened or began, `duration` is in nanoseconds.
 /// Steps before the session exists are fired as soon as it does. `file` and `line` are the place in the launch file
