@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/discovery_range.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
-#include <memory>
 #include <stdexcept>
 #include <string>
+
+#include "participant/default_transports.hpp"
 
 namespace rmw_fastrtps {
 namespace {
@@ -36,12 +35,7 @@ void restrict_to_localhost(fdds::DomainParticipantQos& qos) {
   builtin.initialPeersList.push_back(peer_locator("127.0.0.1"));
   if (qos.transport().user_transports.empty()) {
     // A peer without a port stands for the first participants of the host. By default that would be only four.
-    qos.transport().use_builtin_transports = false;
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-    udp->maxInitialPeersRange = kLocalParticipants;
-    qos.transport().user_transports.push_back(udp);
-    qos.transport().user_transports.push_back(
-        std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>());
+    use_default_transports(kLocalParticipants, qos);
   }
 }
 

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
 #include "participant/shared_memory_ports.hpp"
 #include "qos/qos.hpp"
@@ -192,8 +193,12 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   const auto domain_id =
       options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : static_cast<std::uint32_t>(options.domain_id);
   // A profile may have chosen other transports.
-  const bool has_default_transports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
+  const bool may_choose_ports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
+  const bool leaves_buffers_to_us = has_default_transports(qos);
   configure_discovery(options.discovery_options, domain_id, qos);
+  if (leaves_buffers_to_us && qos.transport().user_transports.empty()) {
+    use_default_transports(0, qos);
+  }
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
   const std::string user_data = "enclave=" + enclave + ";";
   // Includes the terminating null, as rmw_fastrtps_cpp sends it.
@@ -209,7 +214,7 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   if (!siblings().prefixes.empty()) {
     be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
   }
-  participant_ = create_participant(domain_id, qos, has_default_transports, *listener_);
+  participant_ = create_participant(domain_id, qos, may_choose_ports, *listener_);
   if (participant_ == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
                              ", see its own messages above");

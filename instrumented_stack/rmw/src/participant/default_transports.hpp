@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The transports of a participant whose profile names none: UDP and shared memory, as in Fast DDS.
+#pragma once
+
+#include <cstdint>
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+
+namespace rmw_fastrtps {
+
+// A reliable writer of Fast DDS asks all its readers for an acknowledgement whenever it has filled the send buffer of
+// the transport, 104 KiB by default. Fast DDS 2.9 adds up these bytes wrongly where it sends from its own thread: it
+// counts all that the process has ever sent, again with every message. So a process that has answered some dozens of
+// others asks all of them after each announcement of an endpoint. With 50 processes that is most of what discovery
+// does. With this size it is not felt in systems of several hundred processes, and writers of large histories are still
+// acknowledged without waiting for their heartbeat.
+constexpr std::uint32_t kBytesBetweenHeartbeats = 4 * 1024 * 1024;
+
+// Whether the profile of the participant leaves the transports and the sizes of their buffers to Fast DDS.
+bool has_default_transports(const eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+// `local_peers`: the number of participants on one host that a unicast announcement reaches; 0 for the default of Fast
+// DDS. Buffers and segments have the sizes that Fast DDS gives them; the transports only report
+// kBytesBetweenHeartbeats to writers.
+void use_default_transports(std::uint32_t local_peers, eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+}  // namespace rmw_fastrtps
