@@ -113,7 +113,7 @@ rcl_action_server_options_t rcl_action_server_get_default_options(void) {
           rmw_qos_profile_default,
           rcl_action_qos_profile_status_default,
           rcl_get_default_allocator(),
-          kResultTimeout};
+          {kResultTimeout}};
 }
 
 rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t* node, rcl_clock_t* clock,

@@ -41,12 +41,12 @@ std::optional<int64_t> until_expiry(const rcl_action_server_impl_t& impl, const 
   if (ended < 0) {
     return std::nullopt;
   }
-  return ended + impl.options.result_timeout - now;
+  return ended + impl.options.result_timeout.nanoseconds - now;
 }
 
 // Sets the timer to the next expiry of a result.
 rcl_ret_t set_timer(rcl_action_server_impl_t& impl) {
-  if (impl.options.result_timeout < 0) {
+  if (impl.options.result_timeout.nanoseconds < 0) {
     return RCL_RET_OK;
   }
   rcl_time_point_value_t now = 0;
@@ -124,7 +124,7 @@ rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_
     expired_goals[(*num_expired)++] = info_of(goal);
     return true;
   };
-  if (impl.options.result_timeout >= 0) {
+  if (impl.options.result_timeout.nanoseconds >= 0) {
     impl.goals.erase(std::remove_if(impl.goals.begin(), impl.goals.end(), is_expired), impl.goals.end());
   }
   return set_timer(impl);

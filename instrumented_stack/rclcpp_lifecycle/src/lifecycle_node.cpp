@@ -42,7 +42,7 @@ LifecycleNode::LifecycleNode(const std::string& node_name, const rclcpp::NodeOpt
 
 LifecycleNode::LifecycleNode(const std::string& node_name, const std::string& node_namespace,
                              const rclcpp::NodeOptions& options, bool enable_communication_interface)
-    : Node(node_name, node_namespace, options),
+    : AnyNode(node_name, node_namespace, options),
       states_(std::make_shared<StateManager>(*get_node_base_interface(), get_logger())) {
   // In the trace, the services come before their state machine.
   if (enable_communication_interface) {

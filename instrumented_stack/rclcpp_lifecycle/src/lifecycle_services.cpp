@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "rclcpp_lifecycle/lifecycle_node.hpp"
+
 namespace rclcpp_lifecycle {
 
 namespace {
@@ -38,7 +40,7 @@ void to_messages(const std::vector<Transition>& transitions, GetAvailableTransit
 
 // Creates a service. Its callback gets the states and the request and fills in the response.
 template <typename ServiceT, typename AnswerT>
-typename rclcpp::Service<ServiceT>::SharedPtr make_service(rclcpp::Node& node, std::shared_ptr<StateManager> states,
+typename rclcpp::Service<ServiceT>::SharedPtr make_service(LifecycleNode& node, std::shared_ptr<StateManager> states,
                                                            const char* name, AnswerT answer) {
   using Request = typename ServiceT::Request;
   using Response = typename ServiceT::Response;
@@ -52,7 +54,7 @@ typename rclcpp::Service<ServiceT>::SharedPtr make_service(rclcpp::Node& node, s
 
 }  // namespace
 
-LifecycleServices::LifecycleServices(rclcpp::Node& node, const std::shared_ptr<StateManager>& states) {
+LifecycleServices::LifecycleServices(LifecycleNode& node, const std::shared_ptr<StateManager>& states) {
   change_state_ = make_service<ChangeState>(
       node, states, "~/change_state",
       [](StateManager& manager, const ChangeState::Request& request, ChangeState::Response& response) {

@@ -8,15 +8,17 @@
 #include <lifecycle_msgs/srv/get_state.hpp>
 #include <memory>
 
-#include "rclcpp/node.hpp"
+#include "rclcpp/service.hpp"
 #include "state_manager.hpp"
 
 namespace rclcpp_lifecycle {
 
+class LifecycleNode;
+
 // The services run in the default callback group of the node.
 class LifecycleServices {
  public:
-  LifecycleServices(rclcpp::Node& node, const std::shared_ptr<StateManager>& states);
+  LifecycleServices(LifecycleNode& node, const std::shared_ptr<StateManager>& states);
 
  private:
   template <typename ServiceT>

@@ -200,7 +200,7 @@ TEST_F(ActionTest, GoalThatIsGivenUpIsCanceled) {
 
 TEST_F(ActionTest, ResultExpires) {
   rcl_action_server_options_t options = rcl_action_server_get_default_options();
-  options.result_timeout = 1'000'000;
+  options.result_timeout.nanoseconds = 1'000'000;
   start_server(options);
   const auto goal = send(3);
   goals_[0]->succeed(result_of({}));
@@ -278,7 +278,7 @@ TEST_F(ActionTest, ResultExpiresInTheEventsExecutor) {
   executor_.remove_node(server_node_);
   executor_.remove_node(client_node_);
   rcl_action_server_options_t options = rcl_action_server_get_default_options();
-  options.result_timeout = 50'000'000;
+  options.result_timeout.nanoseconds = 50'000'000;
   start_server(options);
   rclcpp::experimental::executors::EventsExecutor executor;
   executor.add_node(server_node_);

@@ -199,6 +199,33 @@ TEST_F(LifecycleNodeTest, ManagedEntitiesAreSwitchedAsLongAsTheyLive) {
   EXPECT_EQ(node_->deactivate().label(), "inactive");
 }
 
+// What a library offers for nodes of both kinds: as ROS 2, neither is a base of the other.
+static_assert(!std::is_base_of_v<rclcpp::Node, LifecycleNode>);
+[[maybe_unused]] std::string kind_of(const rclcpp::Node&) {
+  return "node";
+}
+std::string kind_of(const LifecycleNode&) {
+  return "managed node";
+}
+std::string kind_of(const rclcpp::Node::SharedPtr& node) {
+  return kind_of(*node);
+}
+std::string kind_of(const LifecycleNode::SharedPtr& node) {
+  return kind_of(*node);
+}
+
+TEST_F(LifecycleNodeTest, OverloadsForBothKindsOfNodesAreNotAmbiguous) {
+  EXPECT_EQ(kind_of(node_), "managed node");
+  EXPECT_EQ(kind_of(std::make_shared<rclcpp::Node>("other")), "node");
+  using namespace rclcpp::node_interfaces;
+  NodeInterfaces<NodeBaseInterface, NodeClockInterface, NodeGraphInterface, NodeLoggingInterface,
+                 NodeParametersInterface, NodeServicesInterface, NodeTimeSourceInterface, NodeTimersInterface,
+                 NodeTopicsInterface, NodeTypeDescriptionsInterface, NodeWaitablesInterface>
+      all(*node_);
+  EXPECT_STREQ(all.get_node_base_interface()->get_name(), "managed");
+  EXPECT_NE(all.get_node_time_source_interface(), nullptr);
+}
+
 TEST_F(LifecycleNodeTest, IsWhatItIsAlsoAsASharedPointer) {
   const std::shared_ptr<LifecycleNode> node = node_->shared_from_this();
   EXPECT_EQ(node, node_);

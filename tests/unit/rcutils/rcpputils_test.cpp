@@ -4,15 +4,20 @@
 
 #include <limits>
 #include <rcpputils/asserts.hpp>
+#include <rcpputils/endian.hpp>
 #include <rcpputils/env.hpp>
 #include <rcpputils/filesystem_helper.hpp>
 #include <rcpputils/find_and_replace.hpp>
+#include <rcpputils/find_library.hpp>
 #include <rcpputils/join.hpp>
 #include <rcpputils/pointer_traits.hpp>
 #include <rcpputils/process.hpp>
+#include <rcpputils/rolling_mean_accumulator.hpp>
 #include <rcpputils/scope_exit.hpp>
+#include <rcpputils/shared_library.hpp>
 #include <rcpputils/split.hpp>
 #include <rcpputils/time.hpp>
+#include <rcpputils/unique_lock.hpp>
 #include <vector>
 
 namespace {
@@ -71,5 +76,32 @@ TEST(Rcpputils, KnowsPathsAndTimes) {
 static_assert(rcpputils::is_pointer<std::shared_ptr<int>>::value && rcpputils::is_pointer<const int*>::value &&
               !rcpputils::is_pointer<int>::value);
 static_assert(std::is_same_v<rcpputils::remove_pointer<std::unique_ptr<int>>::type, int>);
+
+TEST(SharedLibrary, FindsSymbolsUntilItIsUnloaded) {
+  rcpputils::SharedLibrary library("libm.so.6");
+  EXPECT_TRUE(library.has_symbol("cos"));
+  EXPECT_FALSE(library.has_symbol("no_such_symbol"));
+  EXPECT_NE(library.get_symbol("cos"), nullptr);
+  EXPECT_EQ(library.get_library_path(), "libm.so.6");
+  EXPECT_THROW(library.get_symbol("no_such_symbol"), std::runtime_error);
+  library.unload_library();
+  EXPECT_THROW(library.unload_library(), std::runtime_error);
+  EXPECT_THROW(rcpputils::SharedLibrary("/no/such/library.so"), std::runtime_error);
+  EXPECT_EQ(rcpputils::get_platform_library_name("x"), "libx.so");
+  EXPECT_EQ(rcpputils::path_for_library("/no/such/directory", "x"), "");
+}
+
+TEST(RollingMean, IsThatOfTheLastValues) {
+  rcpputils::RollingMeanAccumulator<double> mean(2);
+  mean.accumulate(1);
+  EXPECT_EQ(mean.getRollingMean(), 1);
+  mean.accumulate(3);
+  mean.accumulate(5);
+  EXPECT_EQ(mean.getRollingMean(), 4);
+}
+
+TEST(Endian, IsThatOfTheMachine) {
+  static_assert(rcpputils::endian::native == rcpputils::endian::little);
+}
 
 }  // namespace

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The additions of rmw to Fast DDS's discovery.
+#include <fastdds/rtps/transport/TransportInterface.h>
 #include <gmock/gmock.h>
 
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <vector>
 
+#include "participant/default_transports.hpp"
 #include "participant/shared_memory_ports.hpp"
 #include "participant/unanswered_participants.hpp"
 
@@ -16,6 +19,7 @@ using rmw_fastrtps::Gid;
 using rmw_fastrtps::UnansweredParticipants;
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
+namespace transports = eprosima::fastdds::rtps;
 
 using Time = UnansweredParticipants::TimePoint;
 constexpr Time kStart{};
@@ -128,6 +132,46 @@ TEST_F(SharedMemoryPorts, LeaveTheLocatorsOfAProfile) {
   const fdds::DomainParticipantQos before = qos;
   choose_shared_memory_ports(0, prefix_, qos);
   EXPECT_TRUE(qos == before);
+}
+
+TEST(DefaultTransports, AreUdpAndSharedMemoryThatReportALargerSendBuffer) {
+  fdds::DomainParticipantQos qos;
+  rmw_fastrtps::use_default_transports(0, qos);
+  EXPECT_FALSE(qos.transport().use_builtin_transports);
+  std::vector<int> kinds;
+  for (const auto& descriptor : qos.transport().user_transports) {
+    const std::unique_ptr<transports::TransportInterface> transport(descriptor->create_transport());
+    ASSERT_TRUE(transport->init());
+    kinds.push_back(transport->kind());
+    const auto& configuration = *transport->get_configuration();
+    EXPECT_EQ(configuration.min_send_buffer_size(), rmw_fastrtps::kBytesBetweenHeartbeats);
+    EXPECT_EQ(configuration.max_message_size(), 65500U) << "as Fast DDS has it for both";
+    EXPECT_EQ(configuration.max_initial_peers_range(), 4U);
+    transport->shutdown();
+  }
+  EXPECT_THAT(kinds, testing::ElementsAre(LOCATOR_KIND_UDPv4, LOCATOR_KIND_SHM));
+}
+
+TEST(DefaultTransports, ReachAsManyLocalPeersAsAskedFor) {
+  fdds::DomainParticipantQos qos;
+  rmw_fastrtps::use_default_transports(32, qos);
+  EXPECT_EQ(qos.transport().user_transports.front()->max_initial_peers_range(), 32U);
+}
+
+TEST(DefaultTransports, LeaveTheTransportsAndBuffersOfAProfile) {
+  fdds::DomainParticipantQos qos;
+  EXPECT_TRUE(rmw_fastrtps::has_default_transports(qos));
+  qos.transport().listen_socket_buffer_size = 1 << 20;
+  EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
+  qos = {};
+  qos.transport().send_socket_buffer_size = 1 << 20;
+  EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
+  qos = {};
+  rmw_fastrtps::use_default_transports(0, qos);
+  EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
+  qos = {};
+  qos.transport().use_builtin_transports = false;
+  EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
 }
 
 }  // namespace

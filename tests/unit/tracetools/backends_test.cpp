@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/command.hpp"
+#include "tests/support/preloading.hpp"
 #include "tracetools/tracetools.h"
 
 namespace {
@@ -51,7 +52,7 @@ Names symbols(const std::string& file, const std::string& kind, const std::vecto
 
 // A program that was built with the library of LTTng runs with another library in its place.
 CommandResult run_with(const std::string& library, const std::string& program) {
-  return run_command(Command{{program}, {{"LD_LIBRARY_PATH", std::filesystem::path(library).parent_path().string()}}});
+  return run_command(Command{{program}, test_support::preloading(library)});
 }
 
 void expect_status(const CommandResult& result, int exit_code, const std::string& out) {

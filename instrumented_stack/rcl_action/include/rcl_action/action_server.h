@@ -35,8 +35,8 @@ typedef struct rcl_action_server_options_s {
   rmw_qos_profile_t feedback_topic_qos;
   rmw_qos_profile_t status_topic_qos;
   rcl_allocator_t allocator;
-  // How long an ended goal is kept, in ns; negative: forever. Default 10 s.
-  rcl_duration_value_t result_timeout;
+  // How long an ended goal is kept; negative: forever. Default 10 s.
+  rcl_duration_t result_timeout;
 } rcl_action_server_options_t;
 
 // Selects the goals to cancel: this one; with an all zero id every one, or all that were accepted until a time.

@@ -52,8 +52,8 @@ class Clock {
   // False while a simulation drives this clock and has not set a time yet.
   bool started() const;
 
-  // Return true once the clock has started, false if the context or the time ended first. Throw std::runtime_error
-  // unless it is a ROS time clock and the context is valid.
+  // Return true once the clock has started, false if the context or the time ended first. A clock that no simulation
+  // drives has started. Throw std::runtime_error without a valid context.
   bool wait_until_started(Context::SharedPtr context = contexts::get_global_default_context());
   bool wait_until_started(const Duration& timeout, Context::SharedPtr context = contexts::get_global_default_context(),
                           const Duration& wait_tick_ns = Duration(0, 1'000'000));

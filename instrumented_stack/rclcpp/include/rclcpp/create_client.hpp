@@ -8,8 +8,8 @@
 
 #include "rclcpp/client.hpp"
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
-#include "rclcpp/node_interfaces/node_graph.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_graph_interface.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
 
 namespace rclcpp {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "rclcpp/generic_client.hpp"
-#include "rclcpp/node_interfaces/node_graph.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_graph_interface.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
 
 namespace rclcpp {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "rclcpp/generic_publisher.hpp"
-#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_interfaces/node_topics_interface.hpp"
 #include "rclcpp/typesupport_helpers.hpp"
 
 namespace rclcpp {
@@ -18,7 +18,7 @@ std::shared_ptr<GenericPublisher> create_generic_publisher(
     const node_interfaces::NodeTopicsInterface::SharedPtr& topics, const std::string& topic_name,
     const std::string& topic_type, const QoS& qos,
     const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
-  return std::make_shared<GenericPublisher>(topics->get_node_base_interface().get(),
+  return std::make_shared<GenericPublisher>(topics->get_node_base_interface(),
                                             get_typesupport_library(topic_type, "rosidl_typesupport_cpp"), topic_name,
                                             topic_type, qos, options);
 }

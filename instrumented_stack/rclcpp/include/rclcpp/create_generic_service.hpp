@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rclcpp/generic_service.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
 
 namespace rclcpp {
 

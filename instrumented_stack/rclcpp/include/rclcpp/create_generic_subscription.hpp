@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rclcpp/generic_subscription.hpp"
-#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_interfaces/node_topics_interface.hpp"
 #include "rclcpp/typesupport_helpers.hpp"
 
 namespace rclcpp {
@@ -23,8 +23,8 @@ std::shared_ptr<GenericSubscription> create_generic_subscription(
   GenericSubscription::CallbackType any_callback;
   any_callback.set(std::forward<CallbackT>(callback));
   auto subscription = std::make_shared<GenericSubscription>(
-      topics->get_node_base_interface().get(), get_typesupport_library(topic_type, "rosidl_typesupport_cpp"),
-      topic_name, topic_type, qos, std::move(any_callback), options);
+      topics->get_node_base_interface(), get_typesupport_library(topic_type, "rosidl_typesupport_cpp"), topic_name,
+      topic_type, qos, std::move(any_callback), options);
   topics->add_subscription(subscription, options.callback_group);
   return subscription;
 }

@@ -22,13 +22,13 @@ std::shared_ptr<PublisherT> create_publisher(
     const std::shared_ptr<node_interfaces::NodeTopicsInterface>& node_topics, const std::string& topic_name,
     const QoS& qos,
     const PublisherOptionsWithAllocator<AllocatorT>& options = PublisherOptionsWithAllocator<AllocatorT>()) {
-  const auto node_base = node_topics->get_node_base_interface();
-  const QoS actual_qos = detail::overridden_qos(options.qos_overriding_options, node_parameters, *node_base, topic_name,
-                                                qos, detail::QosEntity::Publisher);
-  auto publisher = std::make_shared<PublisherT>(node_base.get(), topic_name, actual_qos, options);
-  publisher->post_init_setup(node_base.get(), topic_name, actual_qos, options);
+  const QoS actual_qos =
+      detail::overridden_qos(options.qos_overriding_options, node_parameters, *node_topics->get_node_base_interface(),
+                             topic_name, qos, detail::QosEntity::Publisher);
+  const auto publisher = node_topics->create_publisher(
+      topic_name, create_publisher_factory<MessageT, AllocatorT, PublisherT>(options), actual_qos);
   node_topics->add_publisher(publisher, options.callback_group);
-  return publisher;
+  return std::dynamic_pointer_cast<PublisherT>(publisher);
 }
 
 // `node` is a Node, a pointer to one, a similar class, or only its topics interface.

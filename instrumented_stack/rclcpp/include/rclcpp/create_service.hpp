@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
 #include "rclcpp/service.hpp"
 
 namespace rclcpp {

@@ -27,18 +27,18 @@ std::shared_ptr<SubscriptionT> create_subscription(
     const QoS& qos, CallbackT&& callback,
     const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>(),
     const std::shared_ptr<node_interfaces::NodeTimersInterface>& node_timers = nullptr) {
-  const auto node_base = node_topics->get_node_base_interface();
-  const QoS actual_qos = detail::overridden_qos(options.qos_overriding_options, node_parameters, *node_base, topic_name,
+  auto& node_base = *node_topics->get_node_base_interface();
+  const QoS actual_qos = detail::overridden_qos(options.qos_overriding_options, node_parameters, node_base, topic_name,
                                                 qos, detail::QosEntity::Subscription);
-  AnySubscriptionCallback<MessageT, AllocatorT> any_callback(*options.get_allocator());
-  any_callback.set(std::forward<CallbackT>(callback));
-  auto statistics =
-      node_timers ? detail::make_topic_statistics(options, *node_base, *node_topics, *node_timers) : nullptr;
-  auto subscription =
-      std::make_shared<SubscriptionT>(node_base.get(), topic_name, actual_qos, std::move(any_callback), options);
-  subscription->set_topic_statistics(std::move(statistics));
+  auto* timers = node_timers ? node_timers.get() : node_topics->get_node_timers_interface();
+  auto statistics = timers ? detail::make_topic_statistics(options, node_base, *node_topics, *timers) : nullptr;
+  const auto subscription =
+      node_topics->create_subscription(topic_name,
+                                       create_subscription_factory<MessageT, AllocatorT, SubscriptionT>(
+                                           std::forward<CallbackT>(callback), options, std::move(statistics)),
+                                       actual_qos);
   node_topics->add_subscription(subscription, options.callback_group);
-  return subscription;
+  return std::dynamic_pointer_cast<SubscriptionT>(subscription);
 }
 
 // `node` is a Node, a pointer to one, a similar class, or only its topics interface. Throws std::invalid_argument for

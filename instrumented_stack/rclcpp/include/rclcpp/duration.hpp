@@ -6,6 +6,7 @@
 #include <rmw/time.h>
 
 #include <builtin_interfaces/msg/duration.hpp>
+#include <builtin_interfaces/msg/time.hpp>
 #include <chrono>
 #include <cstdint>
 
@@ -62,5 +63,10 @@ class Duration {
 
   rcl_duration_value_t nanoseconds_ = 0;
 };
+
+// Calculate with the time in a message. Throw std::runtime_error if it is negative, std::overflow_error and
+// std::underflow_error.
+builtin_interfaces::msg::Time operator+(const builtin_interfaces::msg::Time& time, const Duration& duration);
+builtin_interfaces::msg::Time operator-(const builtin_interfaces::msg::Time& time, const Duration& duration);
 
 }  // namespace rclcpp

@@ -8,6 +8,7 @@
 
 #include <rcl/publisher.h>
 
+#include <functional>
 #include <memory>
 #include <new>
 #include <rosidl_runtime_cpp/message_initialization.hpp>
@@ -60,6 +61,16 @@ class LoanedMessage {
 
   bool is_valid() const { return loan_ || own_; }
   MessageT& get() const { return loan_ ? *loan_ : *own_; }
+
+  // Gives the message up. An ordinary message is freed with the pointer; a loan is not, so publish it, or return it
+  // with rcl_return_loaned_message_from_publisher().
+  std::unique_ptr<MessageT, std::function<void(MessageT*)>> release() {
+    if (loan_) {
+      return {std::exchange(loan_, nullptr), [](MessageT*) {}};
+    }
+    auto deleter = own_.get_deleter();
+    return {own_.release(), [deleter](MessageT* message) mutable { deleter(message); }};
+  }
 
   // For publishers: they take the loan (null if there is none) or the ordinary message.
   MessageT* release_loan() { return std::exchange(loan_, nullptr); }

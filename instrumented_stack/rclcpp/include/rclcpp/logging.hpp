@@ -23,6 +23,7 @@
 #include <type_traits>
 
 #include "rclcpp/logger.hpp"
+#include "rcutils/logging_macros.h"
 
 namespace rclcpp::detail {
 

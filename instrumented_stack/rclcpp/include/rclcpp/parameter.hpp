@@ -68,5 +68,22 @@ class Parameter {
 // Returns JSON: {"name": "speed", "type": "double", "value": "1.500000"}.
 std::string to_string(const Parameter& parameter);
 std::ostream& operator<<(std::ostream& stream, const Parameter& parameter);
+// Returns JSON: {"speed": {"type": "double", "value": "1.500000"}, …}.
+std::string to_string(const std::vector<Parameter>& parameters);
+std::ostream& operator<<(std::ostream& stream, const std::vector<Parameter>& parameters);
+// One of these entries.
+std::string _to_json_dict_entry(const Parameter& parameter);  // NOLINT: rclcpp's name
 
 }  // namespace rclcpp
+
+// rclcpp has these functions here, and programs call them so.
+namespace std {
+
+inline string to_string(const rclcpp::Parameter& parameter) {  // NOLINT
+  return rclcpp::to_string(parameter);
+}
+inline string to_string(const vector<rclcpp::Parameter>& parameters) {  // NOLINT
+  return rclcpp::to_string(parameters);
+}
+
+}  // namespace std

@@ -17,14 +17,15 @@
 #include <rcl_interfaces/srv/set_parameters.hpp>
 #include <rcl_interfaces/srv/set_parameters_atomically.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "rclcpp/client.hpp"
 #include "rclcpp/create_subscription.hpp"
 #include "rclcpp/executors.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
-#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
+#include "rclcpp/node_interfaces/node_topics_interface.hpp"
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/parameter_map.hpp"
 
@@ -79,15 +80,20 @@ class AsyncParametersClient {
                                                  Callback<ListResult> callback = nullptr);
 
   // Subscribes to the parameter changes of all nodes.
-  template <typename CallbackT>
+  template <typename CallbackT, typename AllocatorT = std::allocator<void>>
   Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr on_parameter_event(
-      CallbackT&& callback, const QoS& qos = ParameterEventsQoS()) {
-    AnySubscriptionCallback<rcl_interfaces::msg::ParameterEvent> any_callback{std::allocator<void>()};
-    any_callback.set(std::forward<CallbackT>(callback));
-    auto subscription = std::make_shared<Subscription<rcl_interfaces::msg::ParameterEvent>>(
-        node_base_.get(), "/parameter_events", qos, std::move(any_callback), SubscriptionOptions());
-    node_topics_->add_subscription(subscription, nullptr);
-    return subscription;
+      CallbackT&& callback, const QoS& qos = ParameterEventsQoS(),
+      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
+    return on_parameter_event(node_topics_, std::forward<CallbackT>(callback), qos, options);
+  }
+  // The same without a client. `node` is a Node, a pointer to one, a similar class, or only its topics interface.
+  template <typename CallbackT, typename NodeT, typename AllocatorT = std::allocator<void>,
+            typename = std::enable_if_t<!std::is_convertible_v<CallbackT, QoS>>>
+  static Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr on_parameter_event(
+      NodeT&& node, CallbackT&& callback, const QoS& qos = ParameterEventsQoS(),
+      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
+    return create_subscription<rcl_interfaces::msg::ParameterEvent>(node, "/parameter_events", qos,
+                                                                    std::forward<CallbackT>(callback), options);
   }
 
   // Whether all six services are available.

@@ -4,15 +4,15 @@
 
 #include <vector>
 
-#include "rclcpp/node_interfaces/node_base.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/service_base.hpp"
 
 namespace rclcpp {
 
 namespace node_interfaces {
-class NodeParameters;
+class NodeParametersInterface;
 }
 
 // `<node>/get_parameters`, get_parameter_types, set_parameters, set_parameters_atomically, describe_parameters and
@@ -22,7 +22,7 @@ class ParameterService {
   // `node_parameters` must outlive the services and the executor that runs them.
   ParameterService(const node_interfaces::NodeBaseInterface::SharedPtr& node_base,
                    const node_interfaces::NodeServicesInterface::SharedPtr& node_services,
-                   node_interfaces::NodeParameters* node_parameters, const QoS& qos = ParametersQoS());
+                   node_interfaces::NodeParametersInterface* node_parameters, const QoS& qos = ParametersQoS());
 
  private:
   std::vector<ServiceBase::SharedPtr> services_;

@@ -19,6 +19,7 @@ class RateBase {
   virtual bool sleep() = 0;
   virtual rcl_clock_type_t get_type() const = 0;
   virtual void reset() = 0;
+  [[deprecated("use get_type() instead")]] virtual bool is_steady() const { return get_type() == RCL_STEADY_TIME; }
 };
 
 class Rate : public RateBase {
@@ -81,7 +82,7 @@ class [[deprecated("use rclcpp::Rate class instead of GenericRate")]] GenericRat
     }
     return sleep_for(std::chrono::duration_cast<std::chrono::nanoseconds>(next - now));
   }
-  bool is_steady() const {
+  bool is_steady() const override {
     return ClockT::is_steady;
   }
   rcl_clock_type_t get_type() const override {

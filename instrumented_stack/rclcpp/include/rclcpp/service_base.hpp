@@ -16,7 +16,7 @@
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/macros.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/qos.hpp"
 
 namespace rclcpp {

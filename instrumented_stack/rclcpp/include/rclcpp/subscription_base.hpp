@@ -20,7 +20,7 @@
 #include "rclcpp/macros.hpp"
 #include "rclcpp/message_info.hpp"
 #include "rclcpp/network_flow_endpoint.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/serialized_message.hpp"
 #include "rclcpp/subscription_options.hpp"
@@ -116,7 +116,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // intra-process communication is enabled but the QoS does not allow it.
   bool uses_intra_process(const SubscriptionOptionsBase& options,
                           const node_interfaces::NodeBaseInterface& node_base) const;
-  void join_intra_process(const node_interfaces::NodeBaseInterface& node_base,
+  void join_intra_process(node_interfaces::NodeBaseInterface& node_base,
                           std::shared_ptr<experimental::SubscriptionIntraProcessBase> intra_process,
                           const AnySubscriptionCallbackBase& callback);
 

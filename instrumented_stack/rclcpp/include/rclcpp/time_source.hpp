@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <rosgraph_msgs/msg/clock.hpp>
 
 #include "rclcpp/clock.hpp"
 #include "rclcpp/macros.hpp"

@@ -22,6 +22,11 @@
 
 namespace rclcpp {
 
+class TimerBase;
+
+using VoidCallbackType = std::function<void()>;
+using TimerCallbackType = std::function<void(TimerBase&)>;
+
 // The time at which a call of a timer was due and the time at which it was made, on the timer's clock.
 struct TimerInfo {
   Time expected_call_time;

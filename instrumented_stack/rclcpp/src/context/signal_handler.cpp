@@ -18,8 +18,28 @@ namespace {
 std::atomic<int> event_fd{-1};
 std::atomic<int> last_signal{0};
 std::atomic<bool> stop_thread{false};
-std::atomic<void (*)(int)> previous_sigint_function{nullptr};
-std::atomic<void (*)(int)> previous_sigterm_function{nullptr};
+
+// The handler that the program had set before, of either kind. It is called before ours.
+struct PreviousHandler {
+  std::atomic<void (*)(int)> plain{nullptr};
+  std::atomic<void (*)(int, siginfo_t*, void*)> with_info{nullptr};
+
+  void set(const struct sigaction& action) {
+    const bool takes_info = (action.sa_flags & SA_SIGINFO) != 0;
+    const bool is_function = action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
+    plain = is_function && !takes_info ? action.sa_handler : nullptr;
+    with_info = is_function && takes_info ? action.sa_sigaction : nullptr;
+  }
+  void call(int signal_number, siginfo_t* info, void* context) const {
+    if (const auto function = with_info.load()) {
+      function(signal_number, info, context);
+    } else if (const auto plain_function = plain.load()) {
+      plain_function(signal_number);
+    }
+  }
+};
+PreviousHandler previous_of_sigint;
+PreviousHandler previous_of_sigterm;
 
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<void (*)(int)>::is_always_lock_free);
 
@@ -34,13 +54,6 @@ bool handles_sigint(SignalHandlerOptions options) {
 
 bool handles_sigterm(SignalHandlerOptions options) {
   return options == SignalHandlerOptions::All || options == SignalHandlerOptions::SigTerm;
-}
-
-// The handler that the program had set before. It is called after ours.
-void (*plain_function(const struct sigaction& action))(int) {
-  const bool is_function =
-      !(action.sa_flags & SA_SIGINFO) && action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
-  return is_function ? action.sa_handler : nullptr;
 }
 
 }  // namespace
@@ -77,14 +90,16 @@ bool SignalHandler::install(SignalHandlerOptions options) {
 
   struct sigaction action {};
   action.sa_sigaction = &SignalHandler::handle;
-  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  action.sa_flags = SA_SIGINFO;  // no SA_RESTART: a thread that reads or sleeps goes on and sees the end of the context
   if (handles_sigint(options)) {
-    sigaction(SIGINT, &action, &previous_sigint_);
-    previous_sigint_function = plain_function(previous_sigint_);
+    sigaction(SIGINT, nullptr, &previous_sigint_);
+    previous_of_sigint.set(previous_sigint_);
+    sigaction(SIGINT, &action, nullptr);
   }
   if (handles_sigterm(options)) {
-    sigaction(SIGTERM, &action, &previous_sigterm_);
-    previous_sigterm_function = plain_function(previous_sigterm_);
+    sigaction(SIGTERM, nullptr, &previous_sigterm_);
+    previous_of_sigterm.set(previous_sigterm_);
+    sigaction(SIGTERM, &action, nullptr);
   }
   installed_ = true;
   return true;
@@ -121,14 +136,11 @@ SignalHandlerOptions SignalHandler::current_options() {
   return options_;
 }
 
-void SignalHandler::handle(int signal_number, siginfo_t* /*info*/, void* /*context*/) {
+void SignalHandler::handle(int signal_number, siginfo_t* info, void* context) {
   const int saved_errno = errno;
+  (signal_number == SIGINT ? previous_of_sigint : previous_of_sigterm).call(signal_number, info, context);
   last_signal = signal_number;
   wake_thread();
-  const auto previous = signal_number == SIGINT ? previous_sigint_function.load() : previous_sigterm_function.load();
-  if (previous) {
-    previous(signal_number);
-  }
   errno = saved_errno;
 }
 

@@ -238,13 +238,13 @@ void ExecutorEntities::find_groups(Owners& owners) {
   nodes_.erase(std::remove_if(nodes_.begin(), nodes_.end(), expired), nodes_.end());
   for (const auto& weak : nodes_) {
     if (NodePtr node = weak.lock()) {
-      for (CallbackGroup::SharedPtr& group : node->callback_groups()) {
+      node->for_each_callback_group([&](CallbackGroup::SharedPtr group) {
         if (group->automatically_add_to_executor_with_node() &&
             !group->get_associated_with_executor_atomic().exchange(true)) {
           serve(group, node, false);
         }
         owners.groups.push_back(std::move(group));
-      }
+      });
       owners.nodes.push_back(std::move(node));
     }
   }

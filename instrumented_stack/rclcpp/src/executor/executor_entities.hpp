@@ -20,7 +20,7 @@
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/ready_entity.hpp"
 #include "rclcpp/guard_condition.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 
 namespace rclcpp {
 

@@ -7,7 +7,7 @@ namespace rclcpp {
 
 namespace {
 
-ExecutorOptions options_for(const node_interfaces::NodeBaseInterface& node) {
+ExecutorOptions options_for(node_interfaces::NodeBaseInterface& node) {
   ExecutorOptions options;
   options.context = node.get_context();
   return options;

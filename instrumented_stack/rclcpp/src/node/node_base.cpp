@@ -87,7 +87,7 @@ CallbackGroup::SharedPtr NodeBase::create_callback_group(CallbackGroupType group
   return group;
 }
 
-bool NodeBase::callback_group_in_node(const CallbackGroup::SharedPtr& group) const {
+bool NodeBase::callback_group_in_node(CallbackGroup::SharedPtr group) {
   const std::vector<CallbackGroup::SharedPtr> groups = callback_groups();
   return std::find(groups.begin(), groups.end(), group) != groups.end();
 }
@@ -103,10 +103,18 @@ std::vector<CallbackGroup::SharedPtr> NodeBase::callback_groups() const {
   return groups;
 }
 
-void NodeBase::for_each_callback_group(const std::function<void(CallbackGroup::SharedPtr)>& function) const {
+void NodeBase::for_each_callback_group(const CallbackGroupFunction& function) {
   for (const CallbackGroup::SharedPtr& group : callback_groups()) {
     function(group);
   }
+}
+
+GuardCondition::SharedPtr NodeBase::get_shared_notify_guard_condition() {
+  const std::lock_guard lock(mutex_);
+  if (!notify_guard_condition_) {
+    notify_guard_condition_ = std::make_shared<GuardCondition>(context_);
+  }
+  return notify_guard_condition_;
 }
 
 void NodeBase::set_on_change(std::function<void()> on_change) {
@@ -116,12 +124,17 @@ void NodeBase::set_on_change(std::function<void()> on_change) {
 
 void NodeBase::notify() const {
   std::function<void()> on_change;
+  GuardCondition::SharedPtr guard_condition;
   {
     const std::lock_guard lock(mutex_);
     on_change = on_change_;
+    guard_condition = notify_guard_condition_;
   }
   if (on_change) {
     on_change();
+  }
+  if (guard_condition && context_->is_valid()) {
+    guard_condition->trigger();
   }
 }
 

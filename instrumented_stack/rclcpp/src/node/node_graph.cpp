@@ -36,6 +36,14 @@ std::vector<std::pair<std::string, std::string>> NodeGraph::get_node_names_and_n
   return result;
 }
 
+std::vector<std::tuple<std::string, std::string, std::string>> NodeGraph::get_node_names_with_enclaves() const {
+  std::vector<std::tuple<std::string, std::string, std::string>> result;
+  for (const auto& [name, node_namespace] : get_node_names_and_namespaces()) {
+    result.emplace_back(name, node_namespace, "/");
+  }
+  return result;
+}
+
 NodeGraph::NamesAndTypes NodeGraph::get_topic_names_and_types(bool no_demangle) const {
   rcl_names_and_types_t topics = rcl_get_zero_initialized_names_and_types();
   rcl_allocator_t allocator = rcl_get_default_allocator();
@@ -84,7 +92,7 @@ size_t NodeGraph::count_clients(const std::string& service_name) const {
   return count;
 }
 
-Event::SharedPtr NodeGraph::get_graph_event() const {
+Event::SharedPtr NodeGraph::get_graph_event() {
   // Events may outlive the node interface, so they hold the rcl node.
   return std::make_shared<Event>([node = node_base_->get_shared_rcl_node_handle()] {
     uint64_t number = 0;
@@ -94,7 +102,7 @@ Event::SharedPtr NodeGraph::get_graph_event() const {
   });
 }
 
-void NodeGraph::wait_for_graph_change(const Event::SharedPtr& event, std::chrono::nanoseconds timeout) const {
+void NodeGraph::wait_for_graph_change(Event::SharedPtr event, std::chrono::nanoseconds timeout) {
   if (!event) {
     throw exceptions::InvalidEventError();
   }

@@ -27,8 +27,8 @@ namespace {
 using AskForEndpoints = rcl_ret_t (*)(const rcl_node_t*, rcl_allocator_t*, const char*, bool,
                                       rcl_topic_endpoint_info_array_t*);
 
-std::vector<TopicEndpointInfo> endpoints(const NodeBase& node_base, const std::string& topic_name, bool no_mangle,
-                                         AskForEndpoints ask) {
+std::vector<TopicEndpointInfo> endpoints(const NodeBaseInterface& node_base, const std::string& topic_name,
+                                         bool no_mangle, AskForEndpoints ask) {
   const std::string name = no_mangle ? topic_name : node_base.resolve_topic_or_service_name(topic_name, false);
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rcl_topic_endpoint_info_array_t infos = rcl_get_zero_initialized_topic_endpoint_info_array();

@@ -44,12 +44,15 @@ void set_levels(const std::shared_ptr<SetLoggerLevels::Request> request,
 
 }  // namespace
 
-void NodeLogging::create_logger_services(const NodeServicesInterface::SharedPtr& services) {
-  const NodeBaseInterface::SharedPtr& node_base = services->get_node_base_interface();
+NodeLogging::NodeLogging(NodeBaseInterface::SharedPtr node_base)
+    : node_base_(std::move(node_base)),
+      logger_(rclcpp::get_logger(rcl_node_get_logger_name(node_base_->get_rcl_node_handle()))) {}
+
+void NodeLogging::create_logger_services(NodeServicesInterface::SharedPtr services) {
   get_levels_ =
-      create_service<GetLoggerLevels>(node_base, services, "~/get_logger_levels", get_levels, ServicesQoS(), nullptr);
+      create_service<GetLoggerLevels>(node_base_, services, "~/get_logger_levels", get_levels, ServicesQoS(), nullptr);
   set_levels_ =
-      create_service<SetLoggerLevels>(node_base, services, "~/set_logger_levels", set_levels, ServicesQoS(), nullptr);
+      create_service<SetLoggerLevels>(node_base_, services, "~/set_logger_levels", set_levels, ServicesQoS(), nullptr);
 }
 
 }  // namespace rclcpp::node_interfaces

@@ -7,7 +7,7 @@
 
 namespace rclcpp::node_interfaces {
 
-void NodeTimers::add_timer(const TimerBase::SharedPtr& timer, const CallbackGroup::SharedPtr& group) {
+void NodeTimers::add_timer(TimerBase::SharedPtr timer, CallbackGroup::SharedPtr group) {
   if (group && !node_base_->callback_group_in_node(group)) {
     throw std::runtime_error("Cannot create timer, group not in node.");
   }

@@ -5,7 +5,18 @@
 
 namespace rclcpp::node_interfaces {
 
-void NodeTopics::add_publisher(const PublisherBase::SharedPtr& publisher, const CallbackGroup::SharedPtr& group) {
+PublisherBase::SharedPtr NodeTopics::create_publisher(const std::string& topic_name,
+                                                      const PublisherFactory& publisher_factory, const QoS& qos) {
+  return publisher_factory.create_typed_publisher(node_base_.get(), topic_name, qos);
+}
+
+SubscriptionBase::SharedPtr NodeTopics::create_subscription(const std::string& topic_name,
+                                                            const SubscriptionFactory& subscription_factory,
+                                                            const QoS& qos) {
+  return subscription_factory.create_typed_subscription(node_base_.get(), topic_name, qos);
+}
+
+void NodeTopics::add_publisher(PublisherBase::SharedPtr publisher, CallbackGroup::SharedPtr group) {
   if (group && !node_base_->callback_group_in_node(group)) {
     throw std::runtime_error("Cannot create publisher, group not in node.");
   }
@@ -16,8 +27,7 @@ void NodeTopics::add_publisher(const PublisherBase::SharedPtr& publisher, const 
   }
 }
 
-void NodeTopics::add_subscription(const SubscriptionBase::SharedPtr& subscription,
-                                  const CallbackGroup::SharedPtr& group) {
+void NodeTopics::add_subscription(SubscriptionBase::SharedPtr subscription, CallbackGroup::SharedPtr group) {
   if (group && !node_base_->callback_group_in_node(group)) {
     throw std::runtime_error("Cannot create subscription, callback group not in node.");
   }

@@ -108,7 +108,7 @@ NodeTypeDescriptions::NodeTypeDescriptions(const NodeBaseInterface::SharedPtr& n
                                            const NodeParametersInterface::SharedPtr& parameters,
                                            const NodeServicesInterface::SharedPtr& services) {
   if (!parameters->has_parameter(kParameter)) {
-    NodeParameters::Descriptor descriptor;
+    NodeParametersInterface::Descriptor descriptor;
     descriptor.name = kParameter;
     descriptor.type = PARAMETER_BOOL;
     descriptor.description = "Start the ~/get_type_description service for this node.";

@@ -7,7 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "parameter/change_scope.hpp"
+#include "parameter/parameter_callbacks.hpp"
 #include "parameter/parameter_constraints.hpp"
+#include "rclcpp/detail/qos_parameters.hpp"
 #include "rclcpp/exceptions.hpp"
 
 namespace rclcpp::node_interfaces {
@@ -17,7 +20,7 @@ namespace {
 using rcl_interfaces::msg::ParameterEvent;
 
 // Later sources replace earlier ones: the process's command line, the node's own arguments, the program's options.
-std::map<std::string, ParameterValue> collect_overrides(const NodeBaseInterface& node_base, const NodeOptions& options,
+std::map<std::string, ParameterValue> collect_overrides(NodeBaseInterface& node_base, const NodeOptions& options,
                                                         const rcl_node_options_t& rcl_options) {
   std::map<std::string, ParameterValue> overrides;
   const auto add = [&](const rcl_arguments_t& arguments) {
@@ -36,34 +39,12 @@ std::map<std::string, ParameterValue> collect_overrides(const NodeBaseInterface&
   return overrides;
 }
 
-// The living handles. They are held so that a callback can remove itself.
 template <typename HandleT>
-std::vector<std::shared_ptr<HandleT>> living(std::list<std::weak_ptr<HandleT>>& handles) {
-  std::vector<std::shared_ptr<HandleT>> result;
-  handles.remove_if([&result](const std::weak_ptr<HandleT>& weak) {
-    auto handle = weak.lock();
-    if (handle) {
-      result.push_back(std::move(handle));
-    }
-    return weak.expired();
-  });
-  return result;
-}
-
-template <typename HandleT, typename CallbackT>
-std::shared_ptr<HandleT> add_handle(std::list<std::weak_ptr<HandleT>>& handles, CallbackT callback) {
-  auto handle = std::make_shared<HandleT>();
-  handle->callback = std::move(callback);
-  handles.push_front(handle);  // the newest is called first
-  return handle;
-}
-
-template <typename HandleT>
-void remove_handle(std::list<std::weak_ptr<HandleT>>& handles, const HandleT* handle) {
+void remove_handle(std::list<std::weak_ptr<HandleT>>& handles, const HandleT* handle, const std::string& kind) {
   const auto found =
       std::find_if(handles.begin(), handles.end(), [handle](const auto& weak) { return weak.lock().get() == handle; });
   if (found == handles.end()) {
-    throw std::runtime_error("Callback doesn't exist");
+    throw std::runtime_error(kind + " set parameter callback doesn't exist");
   }
   handles.erase(found);
 }
@@ -73,24 +54,6 @@ std::string in_quotes(const std::string& name) {
 }
 
 }  // namespace
-
-// Held while parameters change. If a callback tries to change parameters too, it is refused.
-class NodeParameters::ChangeScope {
- public:
-  explicit ChangeScope(NodeParameters& parameters) : lock_(parameters.mutex_), parameters_(parameters) {
-    if (parameters_.changing_) {
-      throw exceptions::ParameterModifiedInCallbackException(
-          "cannot set or declare a parameter, or change the callback from within set callback");
-    }
-    parameters_.changing_ = true;
-  }
-  ~ChangeScope() { parameters_.changing_ = false; }
-  RCLCPP_DISABLE_COPY(ChangeScope)
-
- private:
-  std::lock_guard<std::recursive_mutex> lock_;
-  NodeParameters& parameters_;
-};
 
 NodeParameters::NodeParameters(NodeBaseInterface::SharedPtr node_base,
                                const NodeServicesInterface::SharedPtr& node_services, Clock::SharedPtr clock,
@@ -102,14 +65,21 @@ NodeParameters::NodeParameters(NodeBaseInterface::SharedPtr node_base,
   if (options.start_parameter_services()) {
     services_ = std::make_unique<ParameterService>(node_base_, node_services, this);
   }
+  const QoS events_qos = detail::declare_qos_parameters(
+      {QosPolicyKind::Depth, QosPolicyKind::Durability, QosPolicyKind::History, QosPolicyKind::Reliability}, *this,
+      node_base_->resolve_topic_or_service_name("/parameter_events", false), options.parameter_event_qos(),
+      detail::QosEntity::Publisher);
   if (options.start_parameter_event_publisher()) {
     PublisherOptions events_options(options.parameter_event_publisher_options());
     events_options.use_default_callbacks = false;
-    events_publisher_ = std::make_shared<Publisher<ParameterEvent>>(node_base_.get(), "/parameter_events",
-                                                                    options.parameter_event_qos(), events_options);
+    events_publisher_ =
+        std::make_shared<Publisher<ParameterEvent>>(node_base_.get(), "/parameter_events", events_qos, events_options);
   }
   if (options.automatically_declare_parameters_from_overrides()) {
     for (const auto& [name, value] : overrides_) {
+      if (has_parameter(name)) {
+        continue;
+      }
       Descriptor descriptor;
       descriptor.dynamic_typing = true;
       declare_parameter(name, value, descriptor, true);
@@ -127,10 +97,12 @@ const ParameterValue& NodeParameters::declare_parameter(const std::string& name,
 const ParameterValue& NodeParameters::declare_parameter(const std::string& name, ParameterType type,
                                                         const Descriptor& descriptor, bool ignore_override) {
   if (type == PARAMETER_NOT_SET) {
-    throw std::invalid_argument("declare_parameter(): the provided parameter type cannot be PARAMETER_NOT_SET");
+    throw std::invalid_argument("declare_parameter(): the provided parameter type cannot be rclcpp::PARAMETER_NOT_SET");
   }
   if (descriptor.dynamic_typing) {
-    throw std::invalid_argument("declare_parameter(): cannot declare parameter of specific type and dynamically typed");
+    throw std::invalid_argument(
+        "declare_parameter(): cannot declare parameter of specific type and pass descriptor with "
+        "`dynamic_typing=true`");
   }
   Descriptor typed = descriptor;
   typed.type = type;
@@ -159,8 +131,10 @@ const ParameterValue& NodeParameters::declare(const std::string& name, const Par
   const bool overridden = override != overrides_.end() && !ignore_override;
   const ParameterValue* value = overridden ? &override->second : default_value;
   if (!value || value->get_type() == PARAMETER_NOT_SET) {
-    // Declared, but without a value until one is set.
-    return (parameters_[name] = {ParameterValue(), descriptor}).value;
+    // Declared, but without a value until one is set. The event tells no parameter, as in ROS 2.
+    const Declared& declared = parameters_[name] = {ParameterValue(), descriptor};
+    publish(new_event());
+    return declared.value;
   }
 
   const Parameter parameter(name, *value);
@@ -176,7 +150,7 @@ const ParameterValue& NodeParameters::declare(const std::string& name, const Par
   }
   descriptor.type = value->get_type();
   Declared& declared = parameters_[name] = {*value, descriptor};
-  for (const auto& handle : living(post_set_callbacks_)) {
+  for (const auto& handle : detail::living(post_set_callbacks_)) {
     handle->callback({parameter});
   }
 
@@ -202,128 +176,41 @@ void NodeParameters::undeclare_parameter(const std::string& name) {
   parameters_.erase(found);
 }
 
-std::vector<NodeParameters::Result> NodeParameters::set_parameters(const std::vector<Parameter>& parameters) {
-  std::vector<Result> results;
-  for (const Parameter& parameter : parameters) {
-    results.push_back(set_parameters_atomically({parameter}));
-  }
-  return results;
-}
-
-NodeParameters::Result NodeParameters::set_parameters_atomically(const std::vector<Parameter>& parameters_before) {
-  const ChangeScope scope(*this);
-  Result result;
-  result.successful = false;
-
-  std::vector<Parameter> parameters = parameters_before;
-  for (const auto& handle : living(pre_set_callbacks_)) {
-    handle->callback(parameters);
-  }
-  if (parameters.empty() && !parameters_before.empty()) {
-    result.reason =
-        "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying the original "
-        "parameters list.";
-    return result;
-  }
-
-  // Everything is checked on copies first, so that a refusal leaves nothing half set.
-  std::map<std::string, Declared> changed;
-  std::vector<std::string> deleted;
-  for (const Parameter& parameter : parameters) {
-    const std::string& name = parameter.get_name();
-    if (name.empty()) {
-      throw exceptions::InvalidParametersException("parameter name must not be empty");
-    }
-    const auto found = parameters_.find(name);
-    Declared declared;
-    if (found != parameters_.end()) {
-      declared = found->second;
-    } else if (allow_undeclared_) {
-      declared.descriptor.name = name;
-      declared.descriptor.dynamic_typing = true;
-    } else {
-      throw exceptions::ParameterNotDeclaredException(in_quotes(name) + " cannot be set because it was not declared");
-    }
-    if (declared.descriptor.read_only) {
-      result.reason = in_quotes(name) + " cannot be set because it is read-only";
-      return result;
-    }
-    if (parameter.get_type() == PARAMETER_NOT_SET && declared.descriptor.dynamic_typing) {
-      deleted.push_back(name);
-      continue;
-    }
-    Result allowed = check_constraints(declared.descriptor, parameter.get_parameter_value());
-    if (!allowed.successful) {
-      return allowed;
-    }
-    declared.value = parameter.get_parameter_value();
-    declared.descriptor.type = declared.value.get_type();
-    changed[name] = std::move(declared);
-  }
-  result = call_on_set_callbacks(parameters);
-  if (!result.successful) {
-    return result;
-  }
-
-  ParameterEvent event = new_event();
-  for (auto& [name, declared] : changed) {
-    const auto found = parameters_.find(name);
-    const bool was_set = found != parameters_.end() && found->second.value.get_type() != PARAMETER_NOT_SET;
-    (was_set ? event.changed_parameters : event.new_parameters)
-        .push_back(Parameter(name, declared.value).to_parameter_msg());
-    parameters_[name] = std::move(declared);
-  }
-  for (const std::string& name : deleted) {
-    const auto found = parameters_.find(name);
-    if (found != parameters_.end()) {
-      event.deleted_parameters.push_back(Parameter(name, found->second.value).to_parameter_msg());
-      parameters_.erase(found);
-    }
-  }
-  for (const auto& handle : living(post_set_callbacks_)) {
-    handle->callback(parameters);
-  }
-  if (!changed.empty() || !event.deleted_parameters.empty()) {
-    publish(event);
-  }
-  return result;
-}
-
 OnSetParametersCallbackHandle::SharedPtr NodeParameters::add_on_set_parameters_callback(
-    decltype(OnSetParametersCallbackHandle::callback) callback) {
+    OnSetParametersCallbackType callback) {
   const ChangeScope scope(*this);
-  return add_handle(on_set_callbacks_, std::move(callback));
+  return detail::add_handle(on_set_callbacks_, std::move(callback));
 }
 
 PreSetParametersCallbackHandle::SharedPtr NodeParameters::add_pre_set_parameters_callback(
-    decltype(PreSetParametersCallbackHandle::callback) callback) {
+    PreSetParametersCallbackType callback) {
   const ChangeScope scope(*this);
-  return add_handle(pre_set_callbacks_, std::move(callback));
+  return detail::add_handle(pre_set_callbacks_, std::move(callback));
 }
 
 PostSetParametersCallbackHandle::SharedPtr NodeParameters::add_post_set_parameters_callback(
-    decltype(PostSetParametersCallbackHandle::callback) callback) {
+    PostSetParametersCallbackType callback) {
   const ChangeScope scope(*this);
-  return add_handle(post_set_callbacks_, std::move(callback));
+  return detail::add_handle(post_set_callbacks_, std::move(callback));
 }
 
 void NodeParameters::remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle) {
   const ChangeScope scope(*this);
-  remove_handle(on_set_callbacks_, handle);
+  remove_handle(on_set_callbacks_, handle, "On");
 }
 
 void NodeParameters::remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle) {
   const ChangeScope scope(*this);
-  remove_handle(pre_set_callbacks_, handle);
+  remove_handle(pre_set_callbacks_, handle, "Pre");
 }
 
 void NodeParameters::remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle) {
   const ChangeScope scope(*this);
-  remove_handle(post_set_callbacks_, handle);
+  remove_handle(post_set_callbacks_, handle, "Post");
 }
 
 NodeParameters::Result NodeParameters::call_on_set_callbacks(const std::vector<Parameter>& parameters) {
-  for (const auto& handle : living(on_set_callbacks_)) {
+  for (const auto& handle : detail::living(on_set_callbacks_)) {
     Result result = handle->callback(parameters);
     if (!result.successful) {
       return result;

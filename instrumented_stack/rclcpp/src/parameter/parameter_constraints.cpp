@@ -27,8 +27,7 @@ SetParametersResult failure(std::string reason) {
 }
 
 bool nearly_equal(double a, double b) {
-  const double scale = std::max(std::fabs(a), std::fabs(b));
-  return std::fabs(a - b) <= scale * std::numeric_limits<double>::epsilon() * 100.0;
+  return std::fabs(a - b) <= std::numeric_limits<double>::epsilon() * std::fabs(a + b) * 100.0;
 }
 
 // Both ends of a range belong to it, even if they are not a whole number of steps apart.

@@ -14,7 +14,7 @@
 #include "rclcpp/create_service.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
-#include "rclcpp/node_interfaces/node_parameters.hpp"
+#include "rclcpp/node_interfaces/node_parameters_interface.hpp"
 
 namespace rclcpp {
 
@@ -29,7 +29,7 @@ std::vector<Parameter> from_messages(const std::vector<rcl_interfaces::msg::Para
   return parameters;
 }
 
-rcl_interfaces::msg::SetParametersResult set(node_interfaces::NodeParameters& node_parameters,
+rcl_interfaces::msg::SetParametersResult set(node_interfaces::NodeParametersInterface& node_parameters,
                                              const std::vector<Parameter>& parameters) {
   try {
     return node_parameters.set_parameters_atomically(parameters);
@@ -78,7 +78,7 @@ class ServiceFactory {
 
 ParameterService::ParameterService(const node_interfaces::NodeBaseInterface::SharedPtr& node_base,
                                    const node_interfaces::NodeServicesInterface::SharedPtr& node_services,
-                                   node_interfaces::NodeParameters* node_parameters, const QoS& qos) {
+                                   node_interfaces::NodeParametersInterface* node_parameters, const QoS& qos) {
   const ServiceFactory factory(node_base, node_services, qos);
   // The order of creation is visible in the trace.
   services_.push_back(
@@ -101,7 +101,15 @@ ParameterService::ParameterService(const node_interfaces::NodeBaseInterface::Sha
       }));
   services_.push_back(factory.make<srv::SetParametersAtomically>(
       names::kSetParametersAtomically, [node_parameters](const auto& request, auto& response) {
-        response.result = set(*node_parameters, from_messages(request.parameters));
+        try {
+          response.result = node_parameters->set_parameters_atomically(from_messages(request.parameters));
+        } catch (const exceptions::ParameterNotDeclaredException&) {
+          response.result.successful = false;
+          response.result.reason = "One or more parameters were not declared before setting";
+        } catch (const std::exception& error) {
+          response.result.successful = false;
+          response.result.reason = error.what();
+        }
       }));
   services_.push_back(factory.make<srv::DescribeParameters>(
       names::kDescribeParameters, [node_parameters](const auto& request, auto& response) {

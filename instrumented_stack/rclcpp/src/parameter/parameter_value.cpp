@@ -17,9 +17,6 @@ void write(std::ostream& stream, uint8_t value) {
 void write(std::ostream& stream, bool value) {
   stream << (value ? "true" : "false");
 }
-void write(std::ostream& stream, const std::string& value) {
-  stream << '"' << value << '"';
-}
 
 template <typename ContainerT>
 std::string list(const ContainerT& values) {

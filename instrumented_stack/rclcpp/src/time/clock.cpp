@@ -18,12 +18,6 @@ void require_valid(const Context::SharedPtr& context) {
   }
 }
 
-void require_ros_time(const Clock& clock) {
-  if (clock.get_clock_type() != RCL_ROS_TIME) {
-    throw std::runtime_error("only a clock of ROS time can be waited for");
-  }
-}
-
 }  // namespace
 
 struct Clock::Impl {
@@ -119,13 +113,11 @@ bool Clock::started() const {
 
 bool Clock::wait_until_started(Context::SharedPtr context) {
   require_valid(context);
-  require_ros_time(*this);
-  return started() || sleep_until(Time(0, 1, RCL_ROS_TIME), std::move(context)) || started();
+  return started() || sleep_until(Time(0, 1, get_clock_type()), std::move(context)) || started();
 }
 
 bool Clock::wait_until_started(const Duration& timeout, Context::SharedPtr context, const Duration& wait_tick_ns) {
   require_valid(context);
-  require_ros_time(*this);
   // Simulated time cannot measure how long it takes to start.
   Clock steady(RCL_STEADY_TIME);
   const Time begin = steady.now();

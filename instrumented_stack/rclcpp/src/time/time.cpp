@@ -131,6 +131,25 @@ Duration Duration::operator*(double scale) const {
   return from_nanoseconds(static_cast<int64_t>(scaled));
 }
 
+namespace {
+
+int64_t nanoseconds_of(const builtin_interfaces::msg::Time& time) {
+  if (time.sec < 0) {
+    throw std::runtime_error("message time is negative");
+  }
+  return int64_t{time.sec} * kNanosecondsPerSecond + time.nanosec;
+}
+
+}  // namespace
+
+builtin_interfaces::msg::Time operator+(const builtin_interfaces::msg::Time& time, const Duration& duration) {
+  return to_message<builtin_interfaces::msg::Time>(sum(nanoseconds_of(time), duration.nanoseconds()));
+}
+
+builtin_interfaces::msg::Time operator-(const builtin_interfaces::msg::Time& time, const Duration& duration) {
+  return to_message<builtin_interfaces::msg::Time>(difference(nanoseconds_of(time), duration.nanoseconds(), "time"));
+}
+
 Time::Time(int32_t seconds, uint32_t nanoseconds, rcl_clock_type_t clock_type)
     : Time(int64_t{seconds} * kNanosecondsPerSecond + nanoseconds, clock_type) {
   if (seconds < 0) {

@@ -54,7 +54,7 @@ class ClockThread {
   }
 
  private:
-  static ExecutorOptions options_of(const node_interfaces::NodeBaseInterface& node_base) {
+  static ExecutorOptions options_of(node_interfaces::NodeBaseInterface& node_base) {
     ExecutorOptions options;
     options.context = node_base.get_context();
     return options;

@@ -293,7 +293,7 @@ bool SubscriptionBase::uses_intra_process(const SubscriptionOptionsBase& options
   return true;
 }
 
-void SubscriptionBase::join_intra_process(const node_interfaces::NodeBaseInterface& node_base,
+void SubscriptionBase::join_intra_process(node_interfaces::NodeBaseInterface& node_base,
                                           std::shared_ptr<experimental::SubscriptionIntraProcessBase> intra_process,
                                           const AnySubscriptionCallbackBase& callback) {
   trace_callback(intra_process.get(), callback);

@@ -9,14 +9,13 @@
 
 namespace rclcpp {
 
-GuardCondition::GuardCondition(const Context::SharedPtr& context)
+GuardCondition::GuardCondition(const Context::SharedPtr& context, rcl_guard_condition_options_t options)
     : rcl_context_(context ? context->get_rcl_context() : nullptr),
       rcl_guard_condition_(rcl_get_zero_initialized_guard_condition()) {
-  if (!rcl_context_) {
-    throw std::invalid_argument("context argument unexpectedly nullptr, or rclcpp::init() was not called");
+  if (!context) {
+    throw std::invalid_argument("context argument unexpectedly nullptr");
   }
-  const rcl_ret_t ret =
-      rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(), rcl_guard_condition_get_default_options());
+  const rcl_ret_t ret = rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(), options);
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "failed to create guard condition");
   }
@@ -30,15 +29,15 @@ GuardCondition::~GuardCondition() {
 }
 
 void GuardCondition::trigger() {
-  const std::lock_guard lock(trigger_mutex_);
-  if (on_trigger_callback_) {
-    on_trigger_callback_(1);
-    return;
-  }
-  ++unread_count_;
   const rcl_ret_t ret = rcl_trigger_guard_condition(&rcl_guard_condition_);
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "failed to trigger guard condition");
+  }
+  const std::lock_guard lock(trigger_mutex_);
+  if (on_trigger_callback_) {
+    on_trigger_callback_(1);
+  } else {
+    ++unread_count_;
   }
 }
 

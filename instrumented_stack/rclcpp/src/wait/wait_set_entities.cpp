@@ -68,10 +68,17 @@ void append_ready(const std::vector<std::shared_ptr<EntityT>>& entities, const H
   }
 }
 
+Context& not_null(const Context::SharedPtr& context) {
+  if (!context) {
+    throw std::invalid_argument("context is nullptr");
+  }
+  return *context;
+}
+
 }  // namespace
 
 WaitSetEntities::WaitSetEntities(const Context::SharedPtr& context, Threads threads)
-    : rcl_context_(context->get_rcl_context()),
+    : rcl_context_(not_null(context).get_rcl_context()),
       interrupt_(threads == Threads::kMany ? std::make_unique<GuardCondition>(context) : nullptr),
       wait_set_(rcl_get_zero_initialized_wait_set()) {
   if (!rcl_context_) {

@@ -20,7 +20,7 @@
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/logger.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/waitable.hpp"
 #include "rclcpp_action/client_goal_handle.hpp"

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "rclcpp/callback_group.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
-#include "rclcpp/node_interfaces/node_graph.hpp"
-#include "rclcpp/node_interfaces/node_logging.hpp"
-#include "rclcpp/node_interfaces/node_waitables.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_graph_interface.hpp"
+#include "rclcpp/node_interfaces/node_logging_interface.hpp"
+#include "rclcpp/node_interfaces/node_waitables_interface.hpp"
 #include "rclcpp_action/client.hpp"
 #include "rclcpp_action/detail/add_to_node.hpp"
 

@@ -17,7 +17,7 @@
 #include "rclcpp/clock.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/logger.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/qos.hpp"
 #include "rclcpp/timer.hpp"
 #include "rclcpp/waitable.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "rclcpp/node_interfaces/node_base.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 
 namespace rclcpp_components {
 

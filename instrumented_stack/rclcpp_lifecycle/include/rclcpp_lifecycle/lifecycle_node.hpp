@@ -31,8 +31,11 @@ class LifecycleServices;
 class StateManager;
 
 // Any thread may trigger transitions, one at a time. A second transition meanwhile is refused, because the transition
-// state does not have it. In ROS 2 the class is not an rclcpp::Node but has the same functions; here it is one.
-class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNodeInterface {
+// state does not have it. It is no rclcpp::Node, but has its functions (rclcpp/detail/any_node.hpp). Executors take it
+// by its get_node_base_interface().
+class LifecycleNode : public rclcpp::detail::AnyNode,
+                      public node_interfaces::LifecycleNodeInterface,
+                      public std::enable_shared_from_this<LifecycleNode> {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(LifecycleNode)
   using CallbackReturn = node_interfaces::LifecycleNodeInterface::CallbackReturn;
@@ -44,16 +47,6 @@ class LifecycleNode : public rclcpp::Node, public node_interfaces::LifecycleNode
   LifecycleNode(const std::string& node_name, const std::string& node_namespace,
                 const rclcpp::NodeOptions& options = rclcpp::NodeOptions(), bool enable_communication_interface = true);
   ~LifecycleNode() override;
-
-  std::shared_ptr<LifecycleNode> shared_from_this() {
-    return std::static_pointer_cast<LifecycleNode>(rclcpp::Node::shared_from_this());
-  }
-  std::shared_ptr<const LifecycleNode> shared_from_this() const {
-    return std::static_pointer_cast<const LifecycleNode>(rclcpp::Node::shared_from_this());
-  }
-  std::weak_ptr<LifecycleNode> weak_from_this() {
-    return std::static_pointer_cast<LifecycleNode>(rclcpp::Node::weak_from_this().lock());
-  }
 
   // Creates a publisher that publishes only while the node is active.
   template <typename MessageT, typename AllocatorT = std::allocator<void>>

@@ -235,3 +235,7 @@ static inline bool rcutils_log_throttle_due_(rcutils_ret_t (*time_function)(rcut
   RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
                   RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
                   __VA_ARGS__)
+
+// The clocks for _THROTTLE.
+#define RCUTILS_STEADY_TIME rcutils_steady_time_now
+#define RCUTILS_SYSTEM_TIME rcutils_system_time_now

@@ -49,6 +49,14 @@ struct Service final : ServiceChannel {
   ServiceClients clients;
 };
 
+// Whether the client of a request is known by its response reader. A client of another DDS program may name none; then
+// it is known by the writer of the request, and nothing tells whether its reader has been found yet. The kind of an
+// entity is in the last byte of its id: readers have this bit, writers do not (RTPS 9.3.1.2).
+bool names_a_reader(const rmw_fastrtps::Gid& client) {
+  constexpr uint8_t kReaderBit = 0x04;
+  return (rmw_fastrtps::to_guid(client).entityId.value[3] & kReaderBit) != 0;
+}
+
 // rmw_wait() takes `data` as a Waitable.
 Service& service_of(const rmw_service_t& handle) {
   return *static_cast<Service*>(static_cast<Waitable*>(handle.data));
@@ -110,7 +118,9 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
     id.sequence_number = sample.sample_identity.sequence_number().to64long();
     request_header->source_timestamp = sample.source_timestamp.to_ns();
     request_header->received_timestamp = sample.reception_timestamp.to_ns();
-    owned.clients.request_taken(client, writer);
+    if (names_a_reader(client)) {
+      owned.clients.request_taken(client, writer);
+    }
   }
   TRACETOOLS_TRACEPOINT(rmw_take_request, static_cast<const void*>(service), ros_request,
                         reinterpret_cast<const uint8_t*>(id.writer_guid), id.sequence_number, *taken);
@@ -124,15 +134,17 @@ rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* requ
   Service& owned = service_of(*service);
   rmw_fastrtps::Gid client;
   std::copy(std::begin(request_header->writer_guid), std::end(request_header->writer_guid), client.begin());
-  switch (owned.clients.wait_for_reader(client, kDiscoveryPatience)) {
-    case ServiceClients::Presence::kGone:
-      return RMW_RET_OK;
-    case ServiceClients::Presence::kUnmatched:
-      RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the client of service '%s' that a response is for cannot receive it yet",
-                                           service->service_name);
-      return RMW_RET_TIMEOUT;
-    case ServiceClients::Presence::kMatched:
-      break;
+  if (names_a_reader(client)) {
+    switch (owned.clients.wait_for_reader(client, kDiscoveryPatience)) {
+      case ServiceClients::Presence::kGone:
+        return RMW_RET_OK;
+      case ServiceClients::Presence::kUnmatched:
+        RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the client of service '%s' that a response is for cannot receive it yet",
+                                             service->service_name);
+        return RMW_RET_TIMEOUT;
+      case ServiceClients::Presence::kMatched:
+        break;
+    }
   }
   rtps::WriteParams params;
   params.related_sample_identity().writer_guid() = rmw_fastrtps::to_guid(client);

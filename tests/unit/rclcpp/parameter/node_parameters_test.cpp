@@ -79,7 +79,8 @@ TEST_F(NodeParametersTest, DeclaringTwiceOrWithoutANameIsRefused) {
 TEST_F(NodeParametersTest, AParameterWithoutDefaultNeedsAnOverride) {
   rclcpp::Node node("node", rclcpp::NodeOptions().append_parameter_override("given", 4));
   EXPECT_EQ(node.declare_parameter<int>("given"), 4);
-  EXPECT_THROW(node.declare_parameter<int>("missing"), rclcpp::exceptions::ParameterUninitializedException);
+  EXPECT_THROW(node.declare_parameter<int>("missing"),
+               rclcpp::exceptions::UninitializedStaticallyTypedParameterException);
   EXPECT_THROW(node.get_parameter("missing"), rclcpp::exceptions::ParameterUninitializedException);
   EXPECT_TRUE(node.set_parameter(Parameter("missing", 5)).successful);
   EXPECT_EQ(node.get_parameter("missing").as_int(), 5);

@@ -20,7 +20,7 @@ TEST(ParameterValue, KeepsEachTypeAndPrintsIt) {
   EXPECT_EQ(to_string(ParameterValue()), "not set");
   EXPECT_EQ(to_string(ParameterValue(std::vector<bool>{true, false})), "[true, false]");
   EXPECT_EQ(to_string(ParameterValue(std::vector<uint8_t>{10, 255})), "[0xa, 0xff]");
-  EXPECT_EQ(to_string(ParameterValue(std::vector<std::string>{"a", "b"})), "[\"a\", \"b\"]");
+  EXPECT_EQ(to_string(ParameterValue(std::vector<std::string>{"a", "b"})), "[a, b]");
   EXPECT_EQ(to_string(rclcpp::PARAMETER_DOUBLE_ARRAY), "double_array");
 }
 
@@ -51,7 +51,7 @@ TEST(Parameter, RefusesAnotherTypeWithItsName) {
 TEST(Parameter, ConvertsToAMessageAndBack) {
   const Parameter parameter("name", std::vector<std::string>{"x"});
   EXPECT_EQ(Parameter::from_parameter_msg(parameter.to_parameter_msg()), parameter);
-  EXPECT_EQ(to_string(parameter), R"({"name": "name", "type": "string_array", "value": "["x"]"})");
+  EXPECT_EQ(to_string(parameter), R"({"name": "name", "type": "string_array", "value": "[x]"})");
 }
 
 }  // namespace

@@ -93,6 +93,15 @@ TEST(Time, BecomesTheLargestMessageIfItIsLarger) {
   EXPECT_EQ(smallest.nanosec, 0u);
 }
 
+TEST(Time, ThatOfAMessageTakesPartInArithmetic) {
+  builtin_interfaces::msg::Time message;
+  message.sec = 2;
+  EXPECT_EQ((message + Duration(1, 5)).nanosec, 5u);
+  EXPECT_EQ((message - Duration(5, 0)).sec, -3);
+  message.sec = -1;
+  EXPECT_THROW((void)(message + Duration(1, 0)), std::runtime_error);
+}
+
 TEST(Time, RefusesToMixClocks) {
   const Time system(1, 0, RCL_SYSTEM_TIME);
   const Time steady(1, 0, RCL_STEADY_TIME);

@@ -286,4 +286,20 @@ TEST_F(WaitSetTest, WaitForMessageMakesItsSubscriptionAndEndsWithTheContext) {
   EXPECT_FALSE(found);
 }
 
+TEST_F(WaitSetTest, NeedsAContext) {
+  EXPECT_EQ(error_of([] { rclcpp::WaitSet wait_set({}, {}, {}, {}, {}, {}, nullptr); }), "context is nullptr");
+  EXPECT_EQ(error_of([] { rclcpp::GuardCondition condition(nullptr); }), "context argument unexpectedly nullptr");
+  EXPECT_THROW(rclcpp::GuardCondition(std::make_shared<rclcpp::Context>()), rclcpp::exceptions::RCLInvalidArgument);
+}
+
+TEST_F(WaitSetTest, AGuardConditionWithACallbackWakesItToo) {
+  const auto condition = std::make_shared<rclcpp::GuardCondition>();
+  size_t called = 0;
+  condition->set_on_trigger_callback([&](size_t count) { called += count; });
+  rclcpp::WaitSet wait_set({}, {condition}, {}, {}, {}, {});
+  condition->trigger();
+  EXPECT_EQ(called, 1u);
+  EXPECT_EQ(wait_set.wait(kPatience).kind(), WaitResultKind::Ready);
+}
+
 }  // namespace

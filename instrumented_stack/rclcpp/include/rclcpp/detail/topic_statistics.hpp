@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "rclcpp/node_interfaces/node_base.hpp"
-#include "rclcpp/node_interfaces/node_timers.hpp"
-#include "rclcpp/node_interfaces/node_topics.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_timers_interface.hpp"
+#include "rclcpp/node_interfaces/node_topics_interface.hpp"
 #include "rclcpp/subscription_options.hpp"
 
 namespace rclcpp {

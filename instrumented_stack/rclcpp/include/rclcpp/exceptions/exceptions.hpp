@@ -132,6 +132,13 @@ class ParameterUninitializedException : public std::runtime_error {
       : std::runtime_error("parameter '" + name + "' is not initialized") {}
 };
 
+// A parameter was declared by type alone and no override gave it a value.
+class UninitializedStaticallyTypedParameterException : public std::runtime_error {
+ public:
+  explicit UninitializedStaticallyTypedParameterException(const std::string& name)
+      : std::runtime_error("Statically typed parameter '" + name + "' must be initialized.") {}
+};
+
 class ParameterAlreadyDeclaredException : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

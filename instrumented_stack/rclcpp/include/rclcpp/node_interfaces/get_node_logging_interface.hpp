@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
-#include "rclcpp/node_interfaces/node_logging.hpp"
+#include "rclcpp/node_interfaces/node_logging_interface.hpp"
 
 namespace rclcpp::node_interfaces {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
-#include "rclcpp/node_interfaces/node_parameters.hpp"
+#include "rclcpp/node_interfaces/node_parameters_interface.hpp"
 
 namespace rclcpp::node_interfaces {
 

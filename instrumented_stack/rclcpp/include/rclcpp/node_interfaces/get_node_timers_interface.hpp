@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rclcpp/node_interfaces/get_node_interface.hpp"
-#include "rclcpp/node_interfaces/node_timers.hpp"
+#include "rclcpp/node_interfaces/node_timers_interface.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -29,9 +29,11 @@ inline std::shared_ptr<NodeTimersInterface> get_node_timers_interface(
 
 template <typename NodeT, typename EnableT = void>
 struct HasNodeTimers : std::false_type {};
+// Not a topics interface, whose function of this name returns a plain pointer.
 template <typename NodeT>
-struct HasNodeTimers<NodeT, std::void_t<decltype(std::declval<NodeT>().get_node_timers_interface())>> : std::true_type {
-};
+struct HasNodeTimers<NodeT, std::void_t<decltype(std::declval<NodeT>().get_node_timers_interface())>>
+    : std::is_convertible<decltype(std::declval<NodeT>().get_node_timers_interface()),
+                          std::shared_ptr<NodeTimersInterface>> {};
 
 // Null if there is none.
 template <typename NodeT>

@@ -2,8 +2,6 @@
 // The core of a node: its rcl handle, names and callback groups.
 #pragma once
 
-#include <rcl/node.h>
-
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -11,13 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "rclcpp/callback_group.hpp"
-#include "rclcpp/context.hpp"
-#include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 
 namespace rclcpp::node_interfaces {
 
-class NodeBase {
+class NodeBase : public NodeBaseInterface {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeBase)
 
@@ -25,39 +21,42 @@ class NodeBase {
   NodeBase(const std::string& node_name, const std::string& node_namespace, Context::SharedPtr context,
            const rcl_node_options_t& rcl_node_options, bool use_intra_process_default = false,
            bool enable_topic_statistics_default = false);
-  ~NodeBase();
+  ~NodeBase() override;
 
-  const char* get_name() const { return rcl_node_get_name(node_handle_.get()); }
-  const char* get_namespace() const { return rcl_node_get_namespace(node_handle_.get()); }
-  const char* get_fully_qualified_name() const { return rcl_node_get_fully_qualified_name(node_handle_.get()); }
-  Context::SharedPtr get_context() const { return context_; }
-  // Whether publishers and subscriptions use intra-process communication by default.
-  bool get_use_intra_process_default() const { return use_intra_process_default_; }
-  // Whether subscriptions publish statistics by default.
-  bool get_enable_topic_statistics_default() const { return enable_topic_statistics_default_; }
+  const char* get_name() const override { return rcl_node_get_name(node_handle_.get()); }
+  const char* get_namespace() const override { return rcl_node_get_namespace(node_handle_.get()); }
+  const char* get_fully_qualified_name() const override {
+    return rcl_node_get_fully_qualified_name(node_handle_.get());
+  }
+  Context::SharedPtr get_context() override { return context_; }
 
-  rcl_node_t* get_rcl_node_handle() { return node_handle_.get(); }
-  const rcl_node_t* get_rcl_node_handle() const { return node_handle_.get(); }
-  // Publishers, subscriptions and other entities hold it. The rcl node is destroyed with the last of them.
-  std::shared_ptr<rcl_node_t> get_shared_rcl_node_handle() const { return node_handle_; }
+  rcl_node_t* get_rcl_node_handle() override { return node_handle_.get(); }
+  const rcl_node_t* get_rcl_node_handle() const override { return node_handle_.get(); }
+  std::shared_ptr<rcl_node_t> get_shared_rcl_node_handle() override { return node_handle_; }
+  std::shared_ptr<const rcl_node_t> get_shared_rcl_node_handle() const override { return node_handle_; }
 
-  // The node holds groups weakly, except the default one.
   CallbackGroup::SharedPtr create_callback_group(CallbackGroupType group_type,
-                                                 bool automatically_add_to_executor_with_node = true);
-  CallbackGroup::SharedPtr get_default_callback_group() const { return default_callback_group_; }
-  bool callback_group_in_node(const CallbackGroup::SharedPtr& group) const;
-  std::vector<CallbackGroup::SharedPtr> callback_groups() const;
-  void for_each_callback_group(const std::function<void(CallbackGroup::SharedPtr)>& function) const;
+                                                 bool automatically_add_to_executor_with_node = true) override;
+  CallbackGroup::SharedPtr get_default_callback_group() override { return default_callback_group_; }
+  bool callback_group_in_node(CallbackGroup::SharedPtr group) override;
+  void for_each_callback_group(const CallbackGroupFunction& function) override;
 
-  // True while an executor has the node. Executors set it.
-  std::atomic_bool& get_associated_with_executor_atomic() { return associated_with_executor_; }
-  // Sets the function that is called after a callback group was created or the node was destroyed. Executors use it.
-  void set_on_change(std::function<void()> on_change);
+  std::atomic_bool& get_associated_with_executor_atomic() override { return associated_with_executor_; }
+  // Made when it is first asked for: the executors of this stack need none. Throw what its constructor throws.
+  GuardCondition& get_notify_guard_condition() override { return *get_shared_notify_guard_condition(); }
+  GuardCondition::SharedPtr get_shared_notify_guard_condition() override;
+  void trigger_notify_guard_condition() override { notify(); }
 
-  std::string resolve_topic_or_service_name(const std::string& name, bool is_service, bool only_expand = false) const;
+  bool get_use_intra_process_default() const override { return use_intra_process_default_; }
+  bool get_enable_topic_statistics_default() const override { return enable_topic_statistics_default_; }
+
+  std::string resolve_topic_or_service_name(const std::string& name, bool is_service,
+                                            bool only_expand = false) const override;
+  void set_on_change(std::function<void()> on_change) override;
 
  private:
   void notify() const;
+  std::vector<CallbackGroup::SharedPtr> callback_groups() const;
 
   Context::SharedPtr context_;
   bool use_intra_process_default_;
@@ -69,9 +68,7 @@ class NodeBase {
   mutable std::mutex mutex_;
   std::vector<CallbackGroup::WeakPtr> callback_groups_;
   std::function<void()> on_change_;
+  GuardCondition::SharedPtr notify_guard_condition_;
 };
-
-// There is one implementation. The name comes from rclcpp's interface.
-using NodeBaseInterface = NodeBase;
 
 }  // namespace rclcpp::node_interfaces

@@ -11,16 +11,17 @@
 #include <type_traits>
 #include <utility>
 
-#include "rclcpp/node_interfaces/node_base.hpp"
-#include "rclcpp/node_interfaces/node_clock.hpp"
-#include "rclcpp/node_interfaces/node_graph.hpp"
-#include "rclcpp/node_interfaces/node_logging.hpp"
-#include "rclcpp/node_interfaces/node_parameters.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
-#include "rclcpp/node_interfaces/node_timers.hpp"
-#include "rclcpp/node_interfaces/node_topics.hpp"
-#include "rclcpp/node_interfaces/node_type_descriptions.hpp"
-#include "rclcpp/node_interfaces/node_waitables.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_clock_interface.hpp"
+#include "rclcpp/node_interfaces/node_graph_interface.hpp"
+#include "rclcpp/node_interfaces/node_logging_interface.hpp"
+#include "rclcpp/node_interfaces/node_parameters_interface.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
+#include "rclcpp/node_interfaces/node_time_source_interface.hpp"
+#include "rclcpp/node_interfaces/node_timers_interface.hpp"
+#include "rclcpp/node_interfaces/node_topics_interface.hpp"
+#include "rclcpp/node_interfaces/node_type_descriptions_interface.hpp"
+#include "rclcpp/node_interfaces/node_waitables_interface.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -48,6 +49,7 @@ RCLCPP_NODE_INTERFACE_ACCESS_(NodeGraphInterface, get_node_graph_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeLoggingInterface, get_node_logging_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeParametersInterface, get_node_parameters_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeServicesInterface, get_node_services_interface)
+RCLCPP_NODE_INTERFACE_ACCESS_(NodeTimeSourceInterface, get_node_time_source_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeTimersInterface, get_node_timers_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeTopicsInterface, get_node_topics_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeTypeDescriptionsInterface, get_node_type_descriptions_interface)

@@ -1,33 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The logger of a node, and the services that read and change log levels.
+// The logger of a node.
 #pragma once
 
 #include <utility>
 
-#include "rclcpp/logger.hpp"
-#include "rclcpp/macros.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_logging_interface.hpp"
 
 namespace rclcpp::node_interfaces {
 
-class NodeLogging {
+class NodeLogging : public NodeLoggingInterface {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeLogging)
 
-  explicit NodeLogging(Logger logger) : logger_(std::move(logger)) {}
+  explicit NodeLogging(NodeBaseInterface::SharedPtr node_base);
 
-  Logger get_logger() const { return logger_; }
-  const char* get_logger_name() const { return logger_.get_name(); }
-
-  // Starts ~/get_logger_levels and ~/set_logger_levels, for all loggers of the process. Throws exceptions::RCLError.
-  void create_logger_services(const NodeServicesInterface::SharedPtr& services);
+  Logger get_logger() const override { return logger_; }
+  const char* get_logger_name() const override { return logger_.get_name(); }
+  void create_logger_services(NodeServicesInterface::SharedPtr services) override;
 
  private:
+  NodeBaseInterface::SharedPtr node_base_;
   Logger logger_;
   ServiceBase::SharedPtr get_levels_;
   ServiceBase::SharedPtr set_levels_;
 };
-
-using NodeLoggingInterface = NodeLogging;
 
 }  // namespace rclcpp::node_interfaces

@@ -18,75 +18,58 @@
 
 #include "rclcpp/clock.hpp"
 #include "rclcpp/macros.hpp"
-#include "rclcpp/node_interfaces/node_base.hpp"
-#include "rclcpp/node_interfaces/node_services.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_parameters_interface.hpp"
+#include "rclcpp/node_interfaces/node_services_interface.hpp"
 #include "rclcpp/node_options.hpp"
-#include "rclcpp/parameter.hpp"
 #include "rclcpp/parameter_service.hpp"
 #include "rclcpp/publisher.hpp"
 
 namespace rclcpp::node_interfaces {
 
-// Registered callbacks live as long as their handle.
-template <typename FunctionT>
-struct ParameterCallbackHandle {
-  RCLCPP_SMART_PTR_ALIASES_ONLY(ParameterCallbackHandle)
-  FunctionT callback;
-};
-using OnSetParametersCallbackHandle =
-    ParameterCallbackHandle<std::function<rcl_interfaces::msg::SetParametersResult(const std::vector<Parameter>&)>>;
-using PreSetParametersCallbackHandle = ParameterCallbackHandle<std::function<void(std::vector<Parameter>&)>>;
-using PostSetParametersCallbackHandle = ParameterCallbackHandle<std::function<void(const std::vector<Parameter>&)>>;
-
 // Thread safe. Callbacks run in the thread that changes parameters.
-class NodeParameters {
+class NodeParameters : public NodeParametersInterface {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(NodeParameters)
-
-  using Descriptor = rcl_interfaces::msg::ParameterDescriptor;
-  using Result = rcl_interfaces::msg::SetParametersResult;
 
   // Throws what parsing the node's arguments and creating the services and /parameter_events throw.
   NodeParameters(NodeBaseInterface::SharedPtr node_base, const NodeServicesInterface::SharedPtr& node_services,
                  Clock::SharedPtr clock, const NodeOptions& options, const rcl_node_options_t& rcl_options);
-  ~NodeParameters();
+  ~NodeParameters() override;
 
-  // Node documents the exceptions.
   const ParameterValue& declare_parameter(const std::string& name, const ParameterValue& default_value,
-                                          const Descriptor& descriptor = Descriptor(), bool ignore_override = false);
+                                          const Descriptor& descriptor = Descriptor(),
+                                          bool ignore_override = false) override;
   const ParameterValue& declare_parameter(const std::string& name, ParameterType type,
-                                          const Descriptor& descriptor = Descriptor(), bool ignore_override = false);
-  void undeclare_parameter(const std::string& name);
-  bool has_parameter(const std::string& name) const;
+                                          const Descriptor& descriptor = Descriptor(),
+                                          bool ignore_override = false) override;
+  void undeclare_parameter(const std::string& name) override;
+  bool has_parameter(const std::string& name) const override;
 
-  std::vector<Result> set_parameters(const std::vector<Parameter>& parameters);
-  Result set_parameters_atomically(const std::vector<Parameter>& parameters);
+  std::vector<Result> set_parameters(const std::vector<Parameter>& parameters) override;
+  Result set_parameters_atomically(const std::vector<Parameter>& parameters) override;
 
-  Parameter get_parameter(const std::string& name) const;
-  bool get_parameter(const std::string& name, Parameter& parameter) const;
-  std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const;
-  // Gets the set parameters `prefix.x` by the name x.
-  bool get_parameters_by_prefix(const std::string& prefix, std::map<std::string, Parameter>& parameters) const;
+  Parameter get_parameter(const std::string& name) const override;
+  bool get_parameter(const std::string& name, Parameter& parameter) const override;
+  std::vector<Parameter> get_parameters(const std::vector<std::string>& names) const override;
+  bool get_parameters_by_prefix(const std::string& prefix, std::map<std::string, Parameter>& parameters) const override;
 
-  std::vector<Descriptor> describe_parameters(const std::vector<std::string>& names) const;
-  std::vector<uint8_t> get_parameter_types(const std::vector<std::string>& names) const;
-  // Lists the names below the prefixes, at most `depth` levels down (0: all).
+  std::vector<Descriptor> describe_parameters(const std::vector<std::string>& names) const override;
+  std::vector<uint8_t> get_parameter_types(const std::vector<std::string>& names) const override;
   rcl_interfaces::msg::ListParametersResult list_parameters(const std::vector<std::string>& prefixes,
-                                                            uint64_t depth) const;
+                                                            uint64_t depth) const override;
 
   OnSetParametersCallbackHandle::SharedPtr add_on_set_parameters_callback(
-      decltype(OnSetParametersCallbackHandle::callback) callback);
+      OnSetParametersCallbackType callback) override;
   PreSetParametersCallbackHandle::SharedPtr add_pre_set_parameters_callback(
-      decltype(PreSetParametersCallbackHandle::callback) callback);
+      PreSetParametersCallbackType callback) override;
   PostSetParametersCallbackHandle::SharedPtr add_post_set_parameters_callback(
-      decltype(PostSetParametersCallbackHandle::callback) callback);
-  // Throw std::runtime_error if the handle is not registered.
-  void remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle);
-  void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle);
-  void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle);
+      PostSetParametersCallbackType callback) override;
+  void remove_on_set_parameters_callback(const OnSetParametersCallbackHandle* handle) override;
+  void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle) override;
+  void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle) override;
 
-  // Overrides by name, from the command line, parameter files and NodeOptions. Only those for this node.
-  const std::map<std::string, ParameterValue>& get_parameter_overrides() const { return overrides_; }
+  const std::map<std::string, ParameterValue>& get_parameter_overrides() const override { return overrides_; }
 
  private:
   struct Declared {
@@ -97,6 +80,9 @@ class NodeParameters {
 
   const ParameterValue& declare(const std::string& name, const ParameterValue* default_value, Descriptor descriptor,
                                 bool ignore_override);
+  Result check_names(const std::vector<Parameter>& parameters) const;
+  Result check_values(const std::vector<Parameter>& parameters) const;
+  void apply(const std::vector<Parameter>& parameters);
   Result call_on_set_callbacks(const std::vector<Parameter>& parameters);
   void publish(const rcl_interfaces::msg::ParameterEvent& event);
   rcl_interfaces::msg::ParameterEvent new_event() const;
@@ -115,7 +101,5 @@ class NodeParameters {
   std::list<OnSetParametersCallbackHandle::WeakPtr> on_set_callbacks_;
   std::list<PostSetParametersCallbackHandle::WeakPtr> post_set_callbacks_;
 };
-
-using NodeParametersInterface = NodeParameters;
 
 }  // namespace rclcpp::node_interfaces

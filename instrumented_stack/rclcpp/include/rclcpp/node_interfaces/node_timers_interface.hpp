@@ -1,5 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// ROS 2 declares node_interfaces::NodeTimersInterface here. In this stack it is the class itself.
+// Adds timers to callback groups, where executors find them.
 #pragma once
 
-#include "rclcpp/node_interfaces/node_timers.hpp"
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/macros.hpp"
+#include "rclcpp/timer.hpp"
+
+namespace rclcpp::node_interfaces {
+
+class NodeTimersInterface {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(NodeTimersInterface)
+  virtual ~NodeTimersInterface() = default;
+
+  // Null means the default group. Throws std::runtime_error if the group belongs to another node.
+  virtual void add_timer(TimerBase::SharedPtr timer, CallbackGroup::SharedPtr group) = 0;
+};
+
+}  // namespace rclcpp::node_interfaces

@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// ROS 2 declares node_interfaces::NodeTypeDescriptionsInterface here. In this stack it is the class itself.
+// Stands for the service `~/get_type_description` of a node. It has no functions.
 #pragma once
 
-#include "rclcpp/node_interfaces/node_type_descriptions.hpp"
+#include "rclcpp/macros.hpp"
+
+namespace rclcpp::node_interfaces {
+
+class NodeTypeDescriptionsInterface {
+ public:
+  RCLCPP_SMART_PTR_ALIASES_ONLY(NodeTypeDescriptionsInterface)
+  virtual ~NodeTypeDescriptionsInterface() = default;
+};
+
+}  // namespace rclcpp::node_interfaces

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "rclcpp/callback_group.hpp"
-#include "rclcpp/node_interfaces/node_waitables.hpp"
+#include "rclcpp/node_interfaces/node_waitables_interface.hpp"
 
 namespace rclcpp_action::detail {
 
