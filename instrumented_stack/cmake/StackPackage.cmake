@@ -12,14 +12,30 @@ cmake_policy(VERSION 3.20...3.25)  # users' projects may ask for older behaviour
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Programs and libraries keep the libraries that they were built with, also in a shell where another ROS 2 is sourced:
+# its LD_LIBRARY_PATH comes before run paths (DT_RUNPATH), but not before DT_RPATH. That includes libraries of the
+# system, because other installations of ROS 2 bring a libfastcdr.so.1 of their own.
+set(STACK_KEEPS_LIBRARIES LINKER:--disable-new-dtags)
+set(STACK_SYSTEM_LIBRARIES "")
+if(CMAKE_LIBRARY_ARCHITECTURE AND IS_DIRECTORY /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE})
+  set(STACK_SYSTEM_LIBRARIES /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE})
+endif()
+set(STACK_PREFIX_LIBRARIES "")  # of the stack, for packages of users; they come before those of the system
+if(CMAKE_CURRENT_LIST_DIR MATCHES "^(.*)/share/[^/]+/cmake$")
+  set(STACK_PREFIX_LIBRARIES ${CMAKE_MATCH_1}/lib)
+endif()
+
 # stack_library(<pkg> [SOURCES <file>...] [PUBLIC <target>...] [PRIVATE <target>...] [INCLUDE <dir>...]
-#               [CONFIG_EXTRAS <file>...] [SKIP_INSTALL])
+#               [CONFIG_EXTRAS <file>...] [PACKAGE <name>] [SKIP_INSTALL])
 #
 # A shared library (without SOURCES: headers only) with the alias <pkg>::<pkg>. Its headers are those under each <dir>,
-# by default include/. CONFIG_EXTRAS are CMake files that find_package(<pkg>) runs. With SKIP_INSTALL it is only a
+# by default include/. The package has the name of the library unless PACKAGE says otherwise. CONFIG_EXTRAS are CMake files that find_package(<pkg>) runs. With SKIP_INSTALL it is only a
 # library of the build tree, not a package.
 function(stack_library pkg)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "PACKAGE" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS")
+  if(NOT ARG_PACKAGE)
+    set(ARG_PACKAGE ${pkg})
+  endif()
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "stack_library(${pkg}): unexpected ${ARG_UNPARSED_ARGUMENTS}")
   endif()
@@ -46,10 +62,11 @@ function(stack_library pkg)
   add_library(${pkg}::${pkg} ALIAS ${pkg})
   if(ARG_INCLUDE)
     target_include_directories(${pkg} ${scope}
-      "$<BUILD_INTERFACE:${ARG_INCLUDE}>" $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/${pkg}>)
+      "$<BUILD_INTERFACE:${ARG_INCLUDE}>" $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/${ARG_PACKAGE}>)
   endif()
   target_link_libraries(${pkg} ${scope} ${ARG_PUBLIC})
   target_compile_features(${pkg} ${scope} cxx_std_17)
+  target_link_options(${pkg} ${scope} ${STACK_KEEPS_LIBRARIES})
   if(ARG_SKIP_INSTALL)
     return()
   endif()
@@ -59,11 +76,11 @@ function(stack_library pkg)
   endif()
   if(ARG_INCLUDE)
     list(TRANSFORM ARG_INCLUDE APPEND "/")
-    install(DIRECTORY ${ARG_INCLUDE} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${pkg})
+    install(DIRECTORY ${ARG_INCLUDE} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${ARG_PACKAGE})
   endif()
-  install(TARGETS ${pkg} EXPORT ${pkg} LIBRARY DESTINATION lib)
-  stack_package(${pkg})
-  _stack_export(${pkg} DEPENDENCIES ${ARG_PUBLIC} ${ARG_PRIVATE} EXTRAS ${ARG_CONFIG_EXTRAS})
+  install(TARGETS ${pkg} EXPORT stack_${ARG_PACKAGE} LIBRARY DESTINATION lib)
+  stack_package(${ARG_PACKAGE})
+  _stack_export(${pkg} ${ARG_PACKAGE} DEPENDENCIES ${ARG_PUBLIC} ${ARG_PRIVATE} EXTRAS ${ARG_CONFIG_EXTRAS})
 endfunction()
 
 # stack_node(<pkg> <executable> SOURCES <file>... LINK <target>...)
@@ -147,17 +164,18 @@ function(_stack_place target place rpath)
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/prefix/${place}
-    BUILD_RPATH "${rpath}"
-    INSTALL_RPATH "${rpath}"
+    BUILD_RPATH "${rpath};${STACK_PREFIX_LIBRARIES};${STACK_SYSTEM_LIBRARIES}"
+    INSTALL_RPATH "${rpath};${STACK_PREFIX_LIBRARIES};${STACK_SYSTEM_LIBRARIES}"
     INSTALL_RPATH_USE_LINK_PATH ON)
+  target_link_options(${target} PRIVATE ${STACK_KEEPS_LIBRARIES})
 endfunction()
 
 # Writes share/<pkg>/cmake/<pkg>Config.cmake. It finds the packages among DEPENDENCIES, then defines the target and the
 # variables <pkg>_TARGETS, _LIBRARIES and _INCLUDE_DIRS, and runs EXTRAS last.
-function(_stack_export pkg)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "DEPENDENCIES;EXTRAS")
-  set_target_properties(${pkg} PROPERTIES STACK_PACKAGE ${pkg})
-  set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES STACK_PACKAGE)
+function(_stack_export target pkg)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "DEPENDENCIES;EXTRAS")
+  set_target_properties(${target} PROPERTIES STACK_PACKAGE ${pkg})
+  set_property(TARGET ${target} APPEND PROPERTY EXPORT_PROPERTIES STACK_PACKAGE)
   set(config "include(CMakeFindDependencyMacro)\n")
   foreach(dependency IN LISTS ARG_DEPENDENCIES)
     if(TARGET ${dependency})
@@ -168,17 +186,20 @@ function(_stack_export pkg)
     endif()
   endforeach()
   string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Targets.cmake)\n"
-    "set(${pkg}_TARGETS ${pkg}::${pkg})\n"
-    "set(${pkg}_LIBRARIES ${pkg}::${pkg})\n"
-    "get_target_property(${pkg}_INCLUDE_DIRS ${pkg}::${pkg} INTERFACE_INCLUDE_DIRECTORIES)\n"
+    "set(${pkg}_TARGETS ${pkg}::${target})\n"
+    "set(${pkg}_LIBRARIES ${pkg}::${target})\n"
+    "get_target_property(${pkg}_INCLUDE_DIRS ${pkg}::${target} INTERFACE_INCLUDE_DIRECTORIES)\n"
     "if(NOT ${pkg}_INCLUDE_DIRS)\n  set(${pkg}_INCLUDE_DIRS \"\")\nendif()\n")
+  if(NOT target STREQUAL pkg)
+    string(APPEND config "set(${pkg}_ROSIDL_TARGET ${pkg}::${target})\n")
+  endif()
   foreach(extra IN LISTS ARG_EXTRAS)
     get_filename_component(name ${extra} NAME)
     string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${name})\n")
     install(FILES ${extra} DESTINATION share/${pkg}/cmake)
   endforeach()
 
-  install(EXPORT ${pkg} NAMESPACE ${pkg}:: FILE ${pkg}Targets.cmake DESTINATION share/${pkg}/cmake)
+  install(EXPORT stack_${pkg} NAMESPACE ${pkg}:: FILE ${pkg}Targets.cmake DESTINATION share/${pkg}/cmake)
   _stack_config(${pkg} "${config}")
 endfunction()
 

@@ -2,7 +2,7 @@
 # ament_package([CONFIG_EXTRAS <file>...] [CONFIG_EXTRAS_POST <file>...])
 #
 # Call it last in the CMakeLists.txt of a package. It adds the package to the ament index, installs its package.xml, and
-# writes the files that find_package() reads. The extras are CMake files that find_package() runs before and after the
+# writes the files that find_package() reads, and setup.bash and others. The extras are CMake files that find_package() runs before and after the
 # exported targets; one that ends in .in is configured first. The project must have the name of the package.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
@@ -43,6 +43,8 @@ function(ament_package)
   set(exports ${CMAKE_CURRENT_BINARY_DIR}/ament_cmake/${pkg}Exports.cmake)
   configure_file(${modules}/package_exports.cmake.in ${exports} @ONLY)
   install(FILES ${exports} DESTINATION share/${pkg}/cmake)
+  file(GLOB setup_files ${modules}/../setup/*)
+  install(FILES ${setup_files} DESTINATION .)
   # A package with messages already has a configuration, which reads the exports.
   get_property(has_config GLOBAL PROPERTY STACK_CONFIG_${pkg})
   if(NOT has_config)

@@ -1,47 +1,86 @@
 # SPDX-License-Identifier: Apache-2.0
-# rosidl_generate_interfaces(<pkg> <file>... [DEPENDENCIES <pkg>...])
+# rosidl_generate_interfaces(<target> <file>... [DEPENDENCIES <pkg>...] [LIBRARY_NAME <name>])
 #
-# Makes a package of messages, services and actions: the shared library <pkg> (linked as <pkg>::<pkg>) and the headers
-# <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. Files are given as "msg/<Name>.msg",
-# "srv/<Name>.srv" or "action/<Name>.action", relative to the current folder. DEPENDENCIES are the packages whose
-# messages they use; outside the stack find_package them first. Dependencies of services and actions in general are
-# added automatically. SKIP_INSTALL makes a library only for this build. ROS 2's options for linters and groups have no
-# effect here.
+# Makes the messages, services and actions of a package: the shared library <target> and the headers
+# <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. <pkg> is the project if it has a package.xml,
+# and <target> otherwise. Others link <pkg>::<target>.
+#
+# Files are "msg/<Name>.msg", "srv/<Name>.srv", "action/<Name>.action" or the same with ".idl". They are relative to the
+# current folder, or to another one, as in "<folder>:msg/<Name>.msg", or absolute. The folder of a file is the namespace
+# of its types, unless it has another name than msg, srv and action; then its extension is.
+#
+# DEPENDENCIES are the packages whose messages they use; outside the stack find_package them first. Dependencies of
+# services and actions in general are added automatically. With a LIBRARY_NAME, or if <target> is not <pkg>, the library
+# leaves the file lib<pkg>.so to the package. SKIP_INSTALL makes a library only for this build. ROS 2's options for
+# linters and groups have no effect here. INCLUDE are folders with further headers, for packages of the stack.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})  # when installed, StackPackage is in this folder
 include(StackPackage)
 
 set_property(GLOBAL PROPERTY ROSIDL_GENERATOR ${CMAKE_CURRENT_LIST_DIR}/../rosidl_generator)
-set_property(GLOBAL PROPERTY ROSIDL_TARGET_NAMES ${CMAKE_CURRENT_LIST_DIR}/rosidl_target_names.cmake)
 
-function(rosidl_generate_interfaces pkg)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "" "DEPENDENCIES")
-  find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  find_package(fastcdr REQUIRED)
-  set(files ${ARG_UNPARSED_ARGUMENTS})
-  set(output ${CMAKE_CURRENT_BINARY_DIR}/rosidl)
-  set(source ${output}/${pkg}__interfaces.cpp)
-  set(headers ${output}/include/${pkg}/detail/cdr_codecs.hpp)
+# Sets the lists `files` (absolute), `types` (pkg/msg/Name) and `names` (msg/name_in_snake_case) of the caller.
+macro(_rosidl_files)
+  set(files "")
   set(types "")
-  foreach(file IN LISTS files)
-    if(NOT file MATCHES "^(msg|srv|action)/([A-Za-z0-9_]+)\\.(msg|srv|action)$")
-      message(FATAL_ERROR "rosidl_generate_interfaces(${pkg}): "
-        "'${file}' is none of msg/<Name>.msg, srv/<Name>.srv and action/<Name>.action")
+  set(names "")
+  foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS)
+    string(REGEX REPLACE ":([^:]*)$" "/\\1" path "${file}")
+    get_filename_component(path "${path}" ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    if(NOT path MATCHES "([^/]+)/([A-Za-z0-9_]+)\\.(msg|srv|action|idl)$")
+      message(FATAL_ERROR "rosidl_generate_interfaces(${target}): "
+        "'${file}' is none of msg/<Name>.msg, srv/<Name>.srv, action/<Name>.action and msg/<Name>.idl")
     endif()
     set(namespace ${CMAKE_MATCH_1})
-    list(APPEND types ${pkg}/${namespace}/${CMAKE_MATCH_2})
-    string(REGEX REPLACE "(.)([A-Z][a-z]+)" "\\1_\\2" name ${CMAKE_MATCH_2})
+    set(type ${CMAKE_MATCH_2})
+    if(NOT namespace MATCHES "^(msg|srv|action)$")
+      set(namespace ${CMAKE_MATCH_3})
+    endif()
+    if(namespace STREQUAL idl)
+      message(FATAL_ERROR "rosidl_generate_interfaces(${target}): "
+        "'${file}' must be in a folder 'msg', 'srv' or 'action', which says what it defines")
+    endif()
+    if(NOT EXISTS "${path}")
+      message(FATAL_ERROR "rosidl_generate_interfaces(${target}): there is no file '${path}'")
+    endif()
+    list(APPEND files ${path})
+    list(APPEND types ${pkg}/${namespace}/${type})
+    string(REGEX REPLACE "(.)([A-Z][a-z]+)" "\\1_\\2" name ${type})
     string(REGEX REPLACE "([a-z0-9])([A-Z])" "\\1_\\2" name ${name})
     string(TOLOWER ${name} name)
-    list(APPEND headers ${output}/include/${pkg}/${namespace}/${name}.hpp)
-    foreach(part IN ITEMS struct builder traits type_support)
-      list(APPEND headers ${output}/include/${pkg}/${namespace}/detail/${name}__${part}.hpp)
-    endforeach()
-    get_filename_component(folder share/${pkg}/${file} DIRECTORY)
+    list(APPEND names ${namespace}/${name})
     if(NOT ARG_SKIP_INSTALL)
-      install(FILES ${file} DESTINATION ${folder})
+      get_filename_component(name ${path} NAME)
+      configure_file(${path} ${PROJECT_BINARY_DIR}/prefix/share/${pkg}/${namespace}/${name} COPYONLY)
+      install(FILES ${path} DESTINATION share/${pkg}/${namespace})
     endif()
+  endforeach()
+endmacro()
+
+function(rosidl_generate_interfaces target)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "LIBRARY_NAME"
+    "DEPENDENCIES;INCLUDE")
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  find_package(fastcdr REQUIRED)
+  set(pkg ${target})
+  if(EXISTS ${PROJECT_SOURCE_DIR}/package.xml)
+    set(pkg ${PROJECT_NAME})
+  endif()
+  _rosidl_files()
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/rosidl)
+  if(NOT target STREQUAL pkg)
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/rosidl_${target})
+  endif()
+  set(source ${output}/${pkg}__interfaces.cpp)
+  set(headers ${output}/include/${pkg}/detail/cdr_codecs.hpp)
+  foreach(name IN LISTS names)
+    get_filename_component(folder ${name} DIRECTORY)
+    get_filename_component(name ${name} NAME)
+    list(APPEND headers ${output}/include/${pkg}/${folder}/${name}.hpp)
+    foreach(part IN ITEMS struct builder traits type_support)
+      list(APPEND headers ${output}/include/${pkg}/${folder}/detail/${name}__${part}.hpp)
+    endforeach()
   endforeach()
 
   set(implied "")
@@ -62,71 +101,92 @@ function(rosidl_generate_interfaces pkg)
   set(descriptions "")
   set(libraries "")
   foreach(dependency IN LISTS ARG_DEPENDENCIES)
-    if(NOT TARGET ${dependency}::${dependency})
-      message(FATAL_ERROR "rosidl_generate_interfaces(${pkg}): package '${dependency}' is not known; "
+    set(of_package ${${dependency}_ROSIDL_TARGET})
+    if(NOT of_package)
+      set(of_package ${dependency}::${dependency})
+    endif()
+    if(NOT TARGET ${of_package})
+      message(FATAL_ERROR "rosidl_generate_interfaces(${target}): package '${dependency}' is not known; "
         "write find_package(${dependency} REQUIRED) before")
     endif()
-    get_target_property(of_dependency ${dependency}::${dependency} ROSIDL_INTERFACES)
+    get_target_property(of_dependency ${of_package} ROSIDL_INTERFACES)
     if(of_dependency)
       list(APPEND known ${of_dependency})
-      get_target_property(folder ${dependency}::${dependency} ROSIDL_OUTPUT)
+      get_target_property(folder ${of_package} ROSIDL_OUTPUT)
       if(NOT folder)  # the package was found by find_package
         set(folder ${${dependency}_DIR}/..)
       endif()
       list(APPEND descriptions ${folder}/type_descriptions.json)
     endif()
-    list(APPEND libraries ${dependency}::${dependency})
+    list(APPEND libraries ${of_package})
   endforeach()
 
   get_property(generator GLOBAL PROPERTY ROSIDL_GENERATOR)
   file(GLOB generator_sources ${generator}/*.py)
-  set(paths ${files})
-  list(TRANSFORM paths PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   add_custom_command(
     OUTPUT ${source} ${headers} ${output}/type_descriptions.json
     COMMAND ${Python3_EXECUTABLE} -B ${generator} --package ${pkg} --output ${output} --known ${known}
-      --descriptions ${descriptions} -- ${paths}
-    DEPENDS ${paths} ${descriptions} ${generator_sources}
+      --descriptions ${descriptions} -- ${files}
+    DEPENDS ${files} ${descriptions} ${generator_sources}
     COMMENT "Generating the C++ of ${pkg}"
     VERBATIM)
 
+  set(skip_install "")
   if(ARG_SKIP_INSTALL)
     set(skip_install SKIP_INSTALL)
   endif()
-  get_property(target_names GLOBAL PROPERTY ROSIDL_TARGET_NAMES)
-  stack_library(${pkg} ${skip_install}
+  stack_library(${target} ${skip_install} PACKAGE ${pkg}
     SOURCES ${source} ${headers}
     PUBLIC rosidl_runtime_cpp::rosidl_runtime_cpp rosidl_typesupport_cpp::rosidl_typesupport_cpp
-           rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp ${libraries}
+           rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp
+           rosidl_default_runtime::rosidl_default_runtime ${libraries}
     PRIVATE fastcdr
-    INCLUDE ${output}/include
-    CONFIG_EXTRAS ${target_names})
-  if(TARGET interface_sources)
-    add_custom_target(${pkg}__sources DEPENDS ${source} ${headers})
-    add_dependencies(${pkg} ${pkg}__sources)
-    add_dependencies(interface_sources ${pkg}__sources)
+    INCLUDE ${output}/include ${ARG_INCLUDE})
+  if(ARG_LIBRARY_NAME)
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${ARG_LIBRARY_NAME}__rosidl_typesupport_cpp)
+  elseif(NOT target STREQUAL pkg)
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target}__rosidl_typesupport_cpp)
   endif()
+  if(TARGET interface_sources)
+    add_custom_target(${target}__sources DEPENDS ${source} ${headers})
+    add_dependencies(${target} ${target}__sources)
+    add_dependencies(interface_sources ${target}__sources)
+  endif()
+  # In ROS 2 a package has a library for each language and type support. Here all these names mean the one library.
+  # They are targets and not aliases, because a package may make aliases of them.
   foreach(part IN ITEMS rosidl_generator_cpp rosidl_typesupport_cpp rosidl_typesupport_fastrtps_cpp)
-    add_library(${pkg}__${part} ALIAS ${pkg})
+    add_library(${target}__${part} INTERFACE)
+    target_link_libraries(${target}__${part} INTERFACE ${target})
+    if(NOT ARG_SKIP_INSTALL)
+      install(TARGETS ${target}__${part} EXPORT stack_${pkg})
+    endif()
   endforeach()
   if(NOT ARG_SKIP_INSTALL)
     install(FILES ${output}/type_descriptions.json DESTINATION share/${pkg})
   endif()
-  set_target_properties(${pkg} PROPERTIES ROSIDL_INTERFACES "${types}" ROSIDL_OUTPUT ${output})
-  set_property(TARGET ${pkg} APPEND PROPERTY EXPORT_PROPERTIES ROSIDL_INTERFACES)
+  set_target_properties(${target} PROPERTIES ROSIDL_INTERFACES "${types}" ROSIDL_OUTPUT ${output})
+  set_property(TARGET ${target} APPEND PROPERTY EXPORT_PROPERTIES ROSIDL_INTERFACES)
 endfunction()
 
-# rosidl_target_interfaces(<target> <pkg> <typesupport>)
+# rosidl_target_interfaces(<target> <interfaces> <typesupport>)
 #
-# The older way for a target to use the messages of its own package.
-function(rosidl_target_interfaces target pkg typesupport)
-  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${pkg}::${pkg})
-  set_property(TARGET ${target} APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${pkg}::${pkg})
+# The older way for a target to use the messages of its own package. <interfaces> is the target of
+# rosidl_generate_interfaces().
+function(rosidl_target_interfaces target interfaces typesupport)
+  rosidl_get_typesupport_target(library ${interfaces} ${typesupport})
+  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${library})
+  set_property(TARGET ${target} APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${library})
 endfunction()
 
-# rosidl_get_typesupport_target(<variable> <pkg> <name>)
+# rosidl_get_typesupport_target(<variable> <interfaces> <typesupport>)
 #
 # The target that executables of the same package link to use its messages.
-function(rosidl_get_typesupport_target variable pkg)
-  set(${variable} ${pkg}::${pkg} PARENT_SCOPE)
+function(rosidl_get_typesupport_target variable interfaces typesupport)
+  set(library ${interfaces}::${interfaces})
+  if(TARGET ${interfaces})
+    set(library ${interfaces})
+  elseif(${interfaces}_ROSIDL_TARGET)
+    set(library ${${interfaces}_ROSIDL_TARGET})
+  endif()
+  set(${variable} ${library} PARENT_SCOPE)
 endfunction()

@@ -3,8 +3,8 @@
 
 Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp; and
 DIR/type_descriptions.json, which packages that use its messages need as --descriptions. The
-folder of a file, msg, srv or action, is the namespace of its types. --known names the messages of other packages that may be
-used.
+folder of a file, msg, srv or action, is the namespace of its types; if it has another name, the extension of the file is.
+--known names the messages of other packages that may be used.
 """
 
 import argparse
@@ -18,6 +18,7 @@ if __package__ in (None, ''):
     __package__ = 'rosidl_generator'
 
 from . import cpp_builder, cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
+from .idl_parser import parse_idl  # noqa: E402
 from .interface_parser import InterfaceError, parse_file  # noqa: E402
 
 
@@ -32,6 +33,11 @@ def write_if_changed(path: str, text: str) -> None:
         new.write(text)
 
 
+def namespace_of(path: str) -> str:
+    folder = os.path.basename(os.path.dirname(path))
+    return folder if folder in ('msg', 'srv', 'action') else os.path.splitext(path)[1][1:]
+
+
 def main() -> int:
     arguments = argparse.ArgumentParser(prog='rosidl_generator', description=__doc__)
     arguments.add_argument('--package', required=True)
@@ -41,7 +47,7 @@ def main() -> int:
     arguments.add_argument('files', nargs='+', metavar='FILE')
     options = arguments.parse_args()
 
-    namespaces = {path: os.path.basename(os.path.dirname(path)) for path in options.files}
+    namespaces = {path: namespace_of(path) for path in options.files}
     names = {path: os.path.splitext(os.path.basename(path))[0] for path in options.files}
     known = {*options.known,
              *(f'{options.package}/msg/{names[path]}' for path in options.files if namespaces[path] == 'msg')}
@@ -51,8 +57,10 @@ def main() -> int:
         with open(path, encoding='utf-8') as source:
             try:
                 text = source.read()
-                files.append(parse_file(path, text, options.package, namespaces[path], known))
+                parse = parse_idl if path.endswith('.idl') else parse_file
+                files.append(parse(path, text, options.package, namespaces[path], known))
                 files[-1].source = text
+                files[-1].encoding = 'idl' if parse is parse_idl else ''
             except InterfaceError as error:
                 errors.append(str(error))
     if errors:

@@ -42,7 +42,7 @@ def _definition(description: Description, file: Union[InterfaceFile, None], defa
     name = description['type_name']
     fields = ''.join(_field(field, defaults.get((name, field['name']), '')) for field in description['fields'])
     # A part of a file, such as the request of a service, has no text of its own.
-    encoding = file.namespace if file else 'implicit'
+    encoding = (file.encoding or file.namespace) if file else 'implicit'
     text = file.source if file else ''
     lines = ''.join(f'\n    {cpp_types.string_literal(line)}' for line in text.splitlines(keepends=True)) or ' ""'
     fields_symbol = name.replace('/', '__') + '__fields'

@@ -5,7 +5,8 @@ from typing import Any, Iterable, List
 
 from .interface_definition import Type
 
-PRIMITIVES = {'bool': 'bool', 'byte': 'unsigned char', 'char': 'unsigned char', 'float32': 'float', 'float64': 'double',
+PRIMITIVES = {'bool': 'bool', 'byte': 'unsigned char', 'char': 'unsigned char', 'idl_char': 'unsigned char',
+              'float32': 'float', 'float64': 'double',
               'string': 'std::string', 'wstring': 'std::u16string',
               **{f'{sign}int{bits}': f'{sign}int{bits}_t' for sign in ('', 'u') for bits in (8, 16, 32, 64)}}
 
@@ -38,7 +39,8 @@ def literal(type_: Type, value: Any) -> str:
         return '(-9223372036854775807LL - 1)' if value == -(1 << 63) else f'{value}LL'
     if type_.name == 'int32' and value == -(1 << 31):
         return '(-2147483647 - 1)'
-    suffix = {'uint64': 'ULL', 'uint32': 'u', 'uint16': 'u', 'uint8': 'u', 'byte': 'u', 'char': 'u'}
+    suffix = {'uint64': 'ULL', 'uint32': 'u', 'uint16': 'u', 'uint8': 'u', 'byte': 'u', 'char': 'u',
+              'idl_char': 'u'}
     return f'{value}{suffix.get(type_.name, "")}'
 
 

@@ -139,6 +139,7 @@ class InterfaceFile:
     services: List[Service] = field(default_factory=list)
     action: Optional[Action] = None
     source: str = ''  # the text of the file
+    encoding: str = ''  # 'idl' for the text of an .idl file, otherwise the namespace says it
 
     @property
     def header(self) -> str:

@@ -11,9 +11,10 @@ from typing import Any, Dict, Iterable, List, Mapping
 
 from .interface_definition import InterfaceFile, Message, Service, Type
 
-# The values of type_description_interfaces/FieldType. `char` is an unsigned byte, as in its C++ type.
+# The values of type_description_interfaces/FieldType. `char` of a .msg file is an unsigned byte, as
+# in its C++ type; that of an .idl file (`idl_char`) is a type of its own.
 TYPE_IDS = {'int8': 2, 'uint8': 3, 'char': 3, 'int16': 4, 'uint16': 5, 'int32': 6, 'uint32': 7, 'int64': 8, 'uint64': 9,
-            'float32': 10, 'float64': 11, 'bool': 15, 'byte': 16, 'string': 17, 'wstring': 18}
+            'float32': 10, 'float64': 11, 'idl_char': 13, 'bool': 15, 'byte': 16, 'string': 17, 'wstring': 18}
 NESTED_TYPE = 1
 BOUNDED_STRINGS = {'string': 21, 'wstring': 22}
 ARRAY = 48
