@@ -35,6 +35,8 @@ void start_interpreter() {
   if (PyStatus_Exception(status)) {
     throw std::runtime_error(status.err_msg != nullptr ? status.err_msg : "Python can't be initialised");
   }
+  // Fills Python's table of signal handlers. PythonInterrupt reads it, and no package may have imported the module.
+  py::module_::import("_signal");
   PyEval_SaveThread();  // threads that Python starts run while the launcher waits
 }
 

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -99,6 +100,79 @@ YAML = '''launch:
 '''
 
 
+# Derived classes that change nothing, each under the name of the launcher's own action with `own_` in front.
+DERIVED = """
+from launch.actions import (
+    AppendEnvironmentVariable, DeclareLaunchArgument, ExecuteProcess, GroupAction, IncludeLaunchDescription, Log, LogError,
+    LogInfo, ReplaceEnvironmentVariables, ResetEnvironment, ResetLaunchConfigurations, SetEnvironmentVariable,
+    SetLaunchConfiguration, Shutdown, TimerAction, UnsetEnvironmentVariable, UnsetLaunchConfiguration)
+from launch.frontend import expose_action
+from launch_ros.actions import (
+    ComposableNodeContainer, LifecycleNode, LoadComposableNodes, Node, PushROSNamespace, RosTimer, SetParameter,
+    SetParametersFromFile, SetRemap, SetROSLogDir, SetUseSimTime)
+from tracetools_launch.action import Trace
+
+for name, base in {
+        'append_env': AppendEnvironmentVariable, 'arg': DeclareLaunchArgument, 'executable': ExecuteProcess,
+        'group': GroupAction, 'include': IncludeLaunchDescription, 'lifecycle_node': LifecycleNode,
+        'load_composable_node': LoadComposableNodes, 'log': Log, 'log_error': LogError, 'log_info': LogInfo, 'node': Node,
+        'node_container': ComposableNodeContainer, 'push_ros_namespace': PushROSNamespace, 'rep_env':
+        ReplaceEnvironmentVariables, 'reset': ResetLaunchConfigurations, 'reset_env': ResetEnvironment, 'ros_timer': RosTimer,
+        'set_env': SetEnvironmentVariable, 'let': SetLaunchConfiguration, 'set_parameter': SetParameter,
+        'set_parameters_from_file': SetParametersFromFile, 'set_remap': SetRemap, 'set_ros_log_dir': SetROSLogDir,
+        'set_use_sim_time': SetUseSimTime, 'shutdown': Shutdown, 'timer': TimerAction, 'trace': Trace,
+        'unset': UnsetLaunchConfiguration, 'unset_env': UnsetEnvironmentVariable}.items():
+    expose_action(f'own_{name}')(type(base.__name__, (base,), {}))
+"""
+
+# ACTION is 'own_' or nothing.
+OF_ALL = """<launch>
+  <ACTIONarg name="robot" default="r1" description="which"><choice value="r1"/><choice value="r2"/></ACTIONarg>
+  <ACTIONset_env name="A" value="$(var robot)"/>
+  <ACTIONappend_env name="A" value="more" prepend="true" separator=","/>
+  <ACTIONlet name="speed" value="7"/>
+  <ACTIONlog level="warning" message="a $(var speed)"/>
+  <ACTIONlog_info message="b $(var speed)"/>
+  <ACTIONlog_error message="c"/>
+  <ACTIONtrace session-name="own" append-timestamp="true" events-ust="ros2:a 'ros2:b'" context-fields="vpid vtid"
+      subbuffer-size-ust="8192"/>
+  <ACTIONexecutable cmd="echo 'a b' $(var robot)" cwd="/" output="screen" respawn="true" respawn_delay="2.5" shell="false"/>
+  <ACTIONset_parameter name="p" value="5"/>
+  <ACTIONset_parameter name="q" value="$(var speed)"/>
+  <ACTIONset_parameters_from_file filename="$(dirname)/p.yaml"/>
+  <ACTIONset_use_sim_time value="true"/>
+  <ACTIONset_remap from="x" to="y"/>
+  <ACTIONset_ros_log_dir new_log_dir="/tmp"/>
+  <ACTIONgroup scoped="true" forwarding="false"><keep name="robot" value="$(var robot)"/>
+    <ACTIONpush_ros_namespace namespace="space"/>
+    <ACTIONnode exec="/bin/true" name="n" namespace="m" args="--a 'b c'" ros_args="--log-level info">
+      <param name="i" value="1"/><param name="s" value="'1'"/><param name="l" value="[1, 2]"/><param from="$(dirname)/p.yaml"/>
+      <remap from="a" to="b"/><env name="B" value="2"/>
+    </ACTIONnode>
+    <ACTIONlifecycle_node exec="/bin/true" name="l" namespace="" autostart="false"/>
+    <ACTIONnode_container exec="/bin/true" name="c" namespace="">
+      <composable_node pkg="p" plugin="P" name="part" namespace="inner">
+        <param name="z" value="3"/><remap from="k" to="l"/><extra_arg name="use_intra_process_comms" value="true"/>
+      </composable_node>
+    </ACTIONnode_container>
+    <ACTIONload_composable_node target="c"><composable_node pkg="p" plugin="Q" name="q" if="true"/></ACTIONload_composable_node>
+  </ACTIONgroup>
+  <ACTIONnode exec="/bin/true" name="all"/>
+  <ACTIONunset name="speed"/>
+  <ACTIONunset_env name="A"/>
+  <ACTIONtimer period="1.5"><ACTIONexecutable cmd="echo timer"/></ACTIONtimer>
+  <ACTIONros_timer period="2"><ACTIONexecutable cmd="echo ros"/></ACTIONros_timer>
+  <ACTIONinclude file="$(dirname)/inner.launch.xml"><arg name="given" value="$(var robot)"/></ACTIONinclude>
+  <ACTIONreset><keep name="robot" value="kept"/></ACTIONreset>
+  <ACTIONexecutable cmd="echo $(var robot)" if="$(eval 'True')"/>
+  <ACTIONrep_env><env name="ONLY" value="this"/></ACTIONrep_env>
+  <ACTIONexecutable cmd="/bin/true" name="after"/>
+  <ACTIONreset_env/>
+  <ACTIONshutdown reason="enough" unless="true"/>
+</launch>
+"""
+
+
 class ExposedNames(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -141,6 +215,25 @@ class ExposedNames(unittest.TestCase):
                                  [['bridge', 'r2', '7', 'scan', 'R2'], ['echo', 'a b', '--r2', 'XR2'], node, node])
                 self.assertEqual(commands[1][1], {'A': '1'})
                 self.assertEqual(list(commands[2][2][0].values()), list(parameters[0].values()))
+
+    def test_classes_derived_from_the_launchers_take_the_arguments_of_its_own_actions(self):
+        self.add_package(self.directory / 'derived', 'derived_actions', DERIVED)
+        (self.directory / 'p.yaml').write_text('/**:\n  ros__parameters: {from_file: 1}\n')
+        (self.directory / 'inner.launch.xml').write_text('<launch><executable cmd="echo $(var given)"/></launch>')
+        self.maxDiff = None
+        plans = []
+        for prefix in ('', 'own_'):
+            result = self.launch('all.launch.xml', OF_ALL.replace('ACTION', prefix), '--dry-run=json', python='derived')
+            self.assertEqual(result.returncode, 0, result.stderr)
+            # The two sessions are named at two times.
+            plans.append(json.loads(re.sub(r'own-\d{14}', 'own-TIME', result.stdout)))
+        self.assertIn('own-TIME', str(plans[0]))
+        self.assertEqual(len(plans[0]['processes']), 10)
+        for plan in plans:
+            plan.pop('includes', None)
+            for found in plan['processes']:
+                found.pop('source', None)
+        self.assertEqual(plans[1], plans[0])
 
     def assert_error(self, line, expected, python='python'):
         result = self.launch('wrong.launch.xml', f'<launch>\n  {line}\n</launch>\n', '--dry-run', python=python)

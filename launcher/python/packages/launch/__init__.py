@@ -3,7 +3,7 @@
 
 import sys
 
-from launch import _names
+from launch import _lazy, _names
 from launch.action import Action
 from launch.condition import Condition
 from launch.event import Event
@@ -18,18 +18,20 @@ from launch.some_types import (
     SomeSubstitutionsType, SomeSubstitutionsType_types_tuple)
 from launch.substitution import Substitution
 
-from launch import (  # noqa: I100  after the classes that they use
-    actions, conditions, descriptions, event_handlers, events, frontend, launch_description_sources, substitutions,
-    utilities)
-
-InvalidLaunchFileError = launch_description_sources.InvalidLaunchFileError
+_MODULES = ('actions', 'conditions', 'descriptions', 'event_handlers', 'events', 'frontend', 'launch_description_sources',
+            'logging', 'substitutions', 'utilities')
+__all__ = [name for name in vars() if name[0] != '_' and name != 'sys'] + ['InvalidLaunchFileError', *_MODULES]
 
 _names.same_module('launch.some_types', 'launch.some_actions_type', 'launch.some_entities_type',
                    'launch.some_substitutions_type')
 
 
 def __getattr__(name):
-    if name == 'logging':  # logging takes as long to load as all the rest
-        import importlib
-        return importlib.import_module('launch.logging')
-    raise AttributeError(f"module 'launch' has no attribute '{name}'", name=name, obj=sys.modules[__name__])
+    if name == 'InvalidLaunchFileError':
+        from launch.launch_description_sources import InvalidLaunchFileError
+        return InvalidLaunchFileError
+    return _lazy.module(__name__, name, _MODULES)
+
+
+def __dir__():
+    return __all__

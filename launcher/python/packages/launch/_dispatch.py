@@ -7,8 +7,6 @@ event is one for it, the newest handler first. An event that a launch file emits
 emitted it.
 """
 
-import collections
-
 from launch._entities import entities, entity, told_at
 from launch._places import Located, name_of_function
 
@@ -88,7 +86,7 @@ def handled(event, context):
     return found
 
 
-_emitted = collections.deque()  # events that wait for the end of the traversal
+_emitted = []  # events that wait for the end of the traversal
 
 
 class _Emission(_Step):
@@ -115,7 +113,7 @@ class _Handling(_Step):
         return f'the handlers of {type(self._event).__name__}' if _handlers else None
 
     def _do(self, context):
-        event = _emitted.popleft()
+        event = _emitted.pop(0)
         outer = dict(context._locals)
         found = entities(handled(event, context), self._place())
         restoration = _Restoration(outer)

@@ -6,6 +6,7 @@ The instruction that makes an object tells the position of the call. The syntax 
 name and the arguments are; it is read when the first place of the file is asked for.
 """
 
+import _ast  # the module ast would take 2 ms to load
 import os
 import sys
 
@@ -94,7 +95,6 @@ def _call_at(place):
     filename = place[0]
     calls = _calls.get(filename)
     if calls is None:
-        import ast
         calls = _calls[filename] = {}
         try:
             source = _sources.get(filename)
@@ -102,9 +102,14 @@ def _call_at(place):
                 with open(filename, 'rb') as file:
                     source = file.read()
             # Inner calls that begin where outer calls do, as in a().b(), come later.
-            for node in ast.walk(ast.parse(source)):
-                if isinstance(node, ast.Call):
+            waiting = [compile(source, filename, 'exec', _ast.PyCF_ONLY_AST, dont_inherit=True)]
+            for node in waiting:
+                if isinstance(node, _ast.Call):
                     calls.setdefault((node.lineno, node.col_offset), node)
+                for field in node._fields:
+                    value = getattr(node, field, None)
+                    waiting += [each for each in (value if isinstance(value, list) else (value,))
+                                if isinstance(each, _ast.AST)]
         except (OSError, SyntaxError, ValueError):
             pass
     return calls.get(place[1:3])

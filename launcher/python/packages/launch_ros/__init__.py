@@ -2,5 +2,15 @@
 """Launch files in Python: the names of ROS 2's package `launch_ros`, on the launcher that runs this file."""
 
 import launch  # noqa: F401
-from launch_ros import (  # noqa: F401
-    actions, descriptions, event_handlers, events, parameter_descriptions, substitutions, utilities)
+from launch import _lazy
+
+_MODULES = ('actions', 'descriptions', 'event_handlers', 'events', 'parameter_descriptions', 'substitutions', 'utilities')
+__all__ = _MODULES
+
+
+def __getattr__(name):
+    return _lazy.module(__name__, name, _MODULES)
+
+
+def __dir__():
+    return __all__

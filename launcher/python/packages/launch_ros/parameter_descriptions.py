@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of nodes."""
 
-import pathlib
-import tempfile
-from typing import List
-
 from launch._places import Located
 from launch._values import LaunchFileError, text
 from launch.substitutions import parts_of
-from launch.utilities.type_utils import is_text, perform_typed_substitution
+from launch.utilities.type_utils import extract_type, is_text, perform_typed_substitution
 
-_TYPES = {None: None, str: 'str', bool: 'bool', int: 'int', float: 'float', List[str]: 'list_of_str',
-          List[bool]: 'list_of_bool', List[int]: 'list_of_int', List[float]: 'list_of_float',
-          list[str]: 'list_of_str', list[bool]: 'list_of_bool', list[int]: 'list_of_int', list[float]: 'list_of_float'}
+_TYPES = {str: 'str', bool: 'bool', int: 'int', float: 'float'}
+
+
+def _name_of_type(value_type):
+    """The type as XML names it; KeyError, TypeError or ValueError for a type that a parameter can't have."""
+    if value_type is None:
+        return None
+    scalar, is_list = extract_type(value_type)
+    return f'list_of_{_TYPES[scalar]}' if is_list else _TYPES[scalar]
 
 
 class ParameterValue(Located):
@@ -20,8 +22,8 @@ class ParameterValue(Located):
 
     def __init__(self, value, *, value_type=None):
         try:
-            self._type = _TYPES[value_type]
-        except (KeyError, TypeError):
+            self._type = _name_of_type(value_type)
+        except (KeyError, TypeError, ValueError):
             raise LaunchFileError(f'value_type can\'t be {value_type!r}',
                                   'use str, bool, int, float or List of one of them') from None
         self._value = value
@@ -77,6 +79,8 @@ class ParameterFile(Located):
 
     def evaluate(self, context):
         """The path of the file, or of a temporary file with the performed text, which cleanup() removes."""
+        import pathlib
+        import tempfile
         path = pathlib.Path(context._perform(self._path))
         if not perform_typed_substitution(context, self.allow_substs, bool):
             return path

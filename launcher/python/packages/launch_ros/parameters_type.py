@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Type hints."""
 
-from typing import Any
-
-SomeParameters = Any
-SomeParametersDict = Any
-SomeParameterValue = Any
-Parameters = Any
-ParametersDict = Any
-SomeParameterFile = Any
-ParameterFile = Any
-ParameterValue = Any
+SomeParameters = object
+SomeParametersDict = object
+SomeParameterValue = object
+Parameters = object
+ParametersDict = object
+SomeParameterFile = object
+ParameterFile = object
+ParameterValue = object

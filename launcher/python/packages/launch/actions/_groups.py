@@ -112,6 +112,10 @@ class OpaqueCoroutine(Action):
         _coroutines.start(self._coroutine(*context, *self._args, **self._kwargs), self)
 
 
+# More than any launch has: a mistyped length must not fill the memory.
+_MOST_TURNS = 100_000
+
+
 class ForLoop(Action):
     """Calls function(i) for each i from 0 to length - 1; the actions that it returns are visited."""
 
@@ -121,7 +125,10 @@ class ForLoop(Action):
         self._function = callable_of(function, 'function')
 
     def execute(self, context):
-        return [self._function(index) for index in range(int(context._perform(self._length)))]
+        length = int(context._perform(self._length))
+        if length > _MOST_TURNS:
+            raise LaunchFileError(f'the loop has {length} turns, more than {_MOST_TURNS}')
+        return [self._function(index) for index in range(length)]
 
 
 class ForEach(Action):

@@ -115,7 +115,10 @@ class _Process(Action):
                   'respawn_delay', 'respawn_max_retries', 'condition')
     # Arguments that only this launcher has, named as in XML, with "_" for "-".
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
-                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace', 'leave_running')
+                   'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace', 'leave_running',
+                   'allowed_exit_codes', 'crash_dir')
+
+    _DASHED = ('leave_running', 'allowed_exit_codes', 'crash_dir')
 
     def _take(self, options, known=(), former=None):
         """Keeps the options of the process; `known` are the arguments that the caller handles itself."""
@@ -149,7 +152,8 @@ class _Process(Action):
             value = options.get(name)
             if value is not None:
                 convert = boolean if isinstance(value, bool) else number
-                attributes.append(({'leave_running': 'leave-running'}.get(name, name), convert(value, name)))
+                named = name.replace('_', '-') if name in self._DASHED else name
+                attributes.append((named, convert(value, name)))
         if options.get('env') is not None:
             attributes.append(('clean_env', 'true'))
         return attributes + self._output() + self._on_exit() + self._when()

@@ -2,7 +2,6 @@
 """Events of processes: those that handlers get, and those that ask something of a process."""
 
 import os
-import signal
 
 from launch import _names
 from launch._dispatch import _Step
@@ -138,7 +137,10 @@ class SignalProcess(_ProcessTargetedEvent):
 
     @property
     def signal_name(self):
-        return self.signal if isinstance(self.signal, str) else signal.Signals(self.signal).name
+        if isinstance(self.signal, str):
+            return self.signal
+        from signal import Signals
+        return Signals(self.signal).name
 
     def _tag(self, place, process, when):
         number = self.signal if isinstance(self.signal, str) else str(int(self.signal))

@@ -2,23 +2,32 @@
 """The arguments that a class of the launcher takes from an element: what parse() of a derived class begins with."""
 
 import shlex
-from typing import List
 
 from launch._values import LaunchFileError
 from launch.frontend._parser import Entity
-from launch.utilities.type_utils import coerce_to_type
 
-# argument: (attribute, type). str stands for a text with substitutions, 'words' for a command line.
+# argument: (attribute, type). str stands for a text with substitutions, 'literal' for one without, 'words' for a command
+# line, 'typed' for what the rules of YAML make of the text.
 _OF_PROCESS = {'cwd': ('cwd', str), 'prefix': ('launch-prefix', str), 'output': ('output', str),
                'respawn': ('respawn', str), 'respawn_delay': ('respawn_delay', float),
                'respawn_max_retries': ('respawn_max_retries', int), 'shell': ('shell', bool),
                'emulate_tty': ('emulate_tty', bool), 'sigterm_timeout': ('sigterm_timeout', float),
                'sigkill_timeout': ('sigkill_timeout', float)}
+_OF_NODE = {**_OF_PROCESS, 'package': ('pkg', str), 'executable': ('exec', str), 'name': ('name', str),
+            'namespace': ('namespace', str), 'exec_name': ('exec_name', str), 'arguments': ('args', 'words'),
+            'ros_arguments': ('ros_args', 'words')}
+_OF_COMPOSABLE = {'package': ('pkg', str), 'plugin': ('plugin', str), 'name': ('name', str), 'namespace': ('namespace', str)}
+_MESSAGE = {'msg': ('message', str)}
+# The nearest base that is named here tells the attributes.
 _ATTRIBUTES = {
     'ExecuteLocal': {**_OF_PROCESS, 'cmd': ('cmd', 'words'), 'name': ('name', str)},
-    'Node': {**_OF_PROCESS, 'package': ('pkg', str), 'executable': ('exec', str), 'name': ('name', str),
-             'namespace': ('namespace', str), 'exec_name': ('exec_name', str), 'arguments': ('args', 'words'),
-             'ros_arguments': ('ros_args', 'words')},
+    'Node': _OF_NODE,
+    'LifecycleNode': {**_OF_NODE, 'autostart': ('autostart', str)},
+    'ComposableNode': _OF_COMPOSABLE,
+    'ComposableLifecycleNode': {**_OF_COMPOSABLE, 'autostart': ('autostart', str)},
+    'LoadComposableNodes': {'target_container': ('target', str)},
+    'DeclareLaunchArgument': {'name': ('name', 'literal'), 'default_value': ('default', str),
+                              'description': ('description', str)},
     'GroupAction': {'scoped': ('scoped', bool), 'forwarding': ('forwarding', bool)},
     'IncludeLaunchDescription': {'launch_description_source': ('file', str)},
     'TimerAction': {'period': ('period', str), 'cancel_on_shutdown': ('cancel_on_shutdown', str)},
@@ -26,11 +35,29 @@ _ATTRIBUTES = {
     'UnsetLaunchConfiguration': {'name': ('name', str)},
     'SetEnvironmentVariable': {'name': ('name', str), 'value': ('value', str)},
     'UnsetEnvironmentVariable': {'name': ('name', str)},
-    'LogInfo': {'msg': ('message', str)},
+    'ResetLaunchConfigurations': {},
+    'AppendEnvironmentVariable': {'name': ('name', str), 'value': ('value', str), 'prepend': ('prepend', str),
+                                  'separator': ('separator', str)},
+    'ResetEnvironment': {},
+    'ReplaceEnvironmentVariables': {},
+    'Log': {**_MESSAGE, 'level': ('level', str)},
+    'LogDebug': _MESSAGE,
+    'LogInfo': _MESSAGE,
+    'LogWarning': _MESSAGE,
+    'LogError': _MESSAGE,
     'Shutdown': {'reason': ('reason', str)},
-    'PushROSNamespace': {'namespace': ('namespace', str)},
-    'SetParameter': {'name': ('name', str), 'value': ('value', str)},
+    'PushRosNamespace': {'namespace': ('namespace', str)},
+    'SetParameter': {'name': ('name', str), 'value': ('value', 'typed')},
+    'SetParametersFromFile': {'filename': ('filename', str)},
+    'SetUseSimTime': {'value': ('value', str)},
+    'SetROSLogDir': {'new_log_dir': ('new_log_dir', str)},
     'SetRemap': {'src': ('from', str), 'dst': ('to', str)},
+    'Trace': {'session_name': ('session-name', str), 'append_timestamp': ('append-timestamp', bool),
+              'base_path': ('base-path', str), 'append_trace': ('append-trace', bool), 'events_ust': ('events-ust', 'words'),
+              'events_kernel': ('events-kernel', 'words'), 'syscalls': ('syscalls', 'words'),
+              'context_fields': ('context-fields', 'words'), 'subbuffer_size_ust': ('subbuffer-size-ust', int),
+              'subbuffer_size_kernel': ('subbuffer-size-kernel', int), 'snapshot_mode': ('snapshot-mode', bool),
+              'dual_session': ('dual-session', bool)},
 }
 
 
@@ -47,7 +74,7 @@ def arguments_of(cls, entity, parser, ignore=()):
             value = _value(entity, parser, attribute, kind)
             if value is not None:
                 found[argument] = value
-    found.update(_children(name, entity, parser, ignore))
+    found.update(_children(name, names, entity, parser, ignore))
     return found
 
 
@@ -62,9 +89,12 @@ def _conditions(entity, parser):
 
 
 def _value(entity, parser, attribute, kind):
-    value = entity.get_attr(attribute, data_type=str if kind == 'words' else kind, optional=True)
-    if value is None or kind is bool:
+    data_type = {'words': str, 'literal': str, 'typed': None}.get(kind, kind)
+    value = entity.get_attr(attribute, data_type=data_type, optional=True)
+    if value is None or kind in (bool, 'literal'):
         return value
+    if kind == 'typed':
+        return _typed(value, parser)
     if kind == 'words':
         return words(value, parser)
     return parser.parse_substitution(value if isinstance(value, str) else str(value))
@@ -103,7 +133,7 @@ def _with_calls(word, calls):
 
 
 def _items(entity, name):
-    return entity.get_attr(name, data_type=List[Entity], optional=True) or []
+    return entity.get_attr(name, data_type=list[Entity], optional=True) or []
 
 
 def _pairs(entity, parser, tag, first, second):
@@ -111,22 +141,34 @@ def _pairs(entity, parser, tag, first, second):
             for item in _items(entity, tag)]
 
 
-def _children(name, entity, parser, ignore):
+_WITH_ROS_ITEMS = ('Node', 'LifecycleNode', 'ComposableNode', 'ComposableLifecycleNode')
+
+
+def _children(name, names, entity, parser, ignore):
     found = {}
-    if name in ('ExecuteLocal', 'Node'):
+    if name in ('ExecuteLocal', 'Node', 'LifecycleNode'):
         if 'env' not in ignore and (pairs := _pairs(entity, parser, 'env', 'name', 'value')):
             found['additional_env'] = {tuple(variable): value for variable, value in pairs}
         if 'on_exit' not in ignore and entity.get_attr('on_exit', optional=True) is not None:
             from launch.actions import Shutdown
             found['on_exit'] = [Shutdown()]
-    if name == 'Node':
+    if name in _WITH_ROS_ITEMS:
         if remaps := _pairs(entity, parser, 'remap', 'from', 'to'):
             found['remappings'] = remaps
         if parameters := [_parameter(item, parser) for item in _items(entity, 'param')]:
             found['parameters'] = parameters
     if name == 'IncludeLaunchDescription' and (pairs := _pairs(entity, parser, 'arg', 'name', 'value')):
         found['launch_arguments'] = pairs
-    if name == 'GroupAction' and (pairs := _pairs(entity, parser, 'keep', 'name', 'value')):
+    if name in ('ComposableNode', 'ComposableLifecycleNode'):
+        if extra := [_parameter(item, parser) for item in _items(entity, 'extra_arg')]:
+            found['extra_arguments'] = extra
+    if name == 'LoadComposableNodes' or 'ComposableNodeContainer' in names:
+        found['composable_node_descriptions'] = _composable_nodes(entity, parser)
+    if name == 'DeclareLaunchArgument' and (choices := [item.get_attr('value') for item in _items(entity, 'choice')]):
+        found['choices'] = choices
+    if name == 'ReplaceEnvironmentVariables' and (pairs := _pairs(entity, parser, 'env', 'name', 'value')):
+        found['environment'] = {tuple(variable): value for variable, value in pairs}
+    if name in ('GroupAction', 'ResetLaunchConfigurations') and (pairs := _pairs(entity, parser, 'keep', 'name', 'value')):
         found['launch_configurations'] = {tuple(key): value for key, value in pairs}
     if name in ('GroupAction', 'TimerAction') and 'children' not in ignore:
         found['actions'] = [parser.parse_action(child) for child in entity.children if child.type_name != 'keep']
@@ -143,7 +185,18 @@ def _parameter(item, parser):
     nested = _items(item, 'param')
     if nested:
         return {name: {key: value for inner in nested for key, value in _parameter(inner, parser).items()}}
-    value = item.get_attr('value', data_type=None)
-    if isinstance(value, str):
-        value = parser.parse_substitution(value) if '$(' in value else coerce_to_type(value, can_be_str=True)
-    return {name: value}
+    return {name: _typed(item.get_attr('value', data_type=None), parser)}
+
+
+def _typed(value, parser):
+    return parser.parse_substitution(value) if isinstance(value, str) and '$(' in value else value
+
+
+def _composable_nodes(entity, parser):
+    from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode
+    found = []
+    for tag, node in (('composable_node', ComposableNode), ('composable_lifecycle_node', ComposableLifecycleNode)):
+        for item in _items(entity, tag):
+            cls, arguments = node.parse(parser, item)
+            found.append(cls(**arguments))
+    return found

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """An element of a file that the launcher reads, for the class of a package that makes an action of it."""
 
-import difflib
-
 from launch._values import LaunchFileError
 from launch.frontend._parser import Entity
 from launch.utilities.type_utils import coerce_to_type, extract_type, is_instance_of
@@ -84,5 +82,6 @@ class _Untyped(str):
 
 
 def _near(name, known):
+    import difflib
     near = difflib.get_close_matches(name, known, 1)
     return f"did you mean '{near[0]}'?" if near else ''

@@ -3,7 +3,6 @@
 
 import io
 import os
-import xml.etree.ElementTree
 
 from launch.launch_description_sources import InvalidLaunchFileError
 
@@ -78,6 +77,7 @@ class Parser:
     @classmethod
     def load(cls, file):
         """(the root entity, a parser for it) of a path or of an open file."""
+        import xml.etree.ElementTree
         opened = isinstance(file, (str, bytes, os.PathLike))
         text = open(file, encoding='utf-8').read() if opened else file.read()
         path = os.fspath(file) if opened else getattr(file, 'name', None)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Texts with $(…) in them, as XML and YAML files write them."""
 
-import re
-
 from launch._values import literal
 from launch.substitutions import Substitution, TextSubstitution
 
@@ -25,6 +23,7 @@ class _Parsed(Substitution):
 
 def replace_escaped_characters(data):
     """A backslash and a character become this character."""
+    import re
     return re.sub(r'\\(.)', r'\1', data)
 
 

@@ -2,24 +2,23 @@
 """Values with types: what a text gives by the rules of YAML, and values that hold substitutions."""
 
 from collections.abc import Iterable
-from typing import Any, List, get_args, get_origin
 
 from launch._values import text
 from launch.substitution import Substitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 
 ScalarTypesTuple = (int, float, bool, str)
-ListTypesTuple = (List[int], List[float], List[bool], List[str])
+ListTypesTuple = (list[int], list[float], list[bool], list[str])
 AllowedTypesTuple = ScalarTypesTuple + ListTypesTuple
 # Type hints.
-AllowedTypesType = AllowedValueType = ScalarTypesType = ScalarValueType = ListTypesType = ListValueType = Any
-SequenceValueType = SomeScalarType = SomeSequenceType = SomeValueType = Any
-NormalizedScalarType = NormalizedSequenceType = NormalizedValueType = Any
-StrSomeScalarType = StrSomeSequenceType = StrSomeValueType = Any
+AllowedTypesType = AllowedValueType = ScalarTypesType = ScalarValueType = ListTypesType = ListValueType = object
+SequenceValueType = SomeScalarType = SomeSequenceType = SomeValueType = object
+NormalizedScalarType = NormalizedSequenceType = NormalizedValueType = object
+StrSomeScalarType = StrSomeSequenceType = StrSomeValueType = object
 
 
 def is_typing_list(data_type):
-    return data_type in (list, List) or get_origin(data_type) is list
+    return data_type is list or getattr(data_type, '__origin__', None) is list  # so have List and List[int]
 
 
 def is_valid_scalar_type(data_type):
@@ -28,7 +27,7 @@ def is_valid_scalar_type(data_type):
 
 def extract_type(data_type):
     """(type of the scalar or of the items, whether it is a list); ValueError for any other type."""
-    inner = get_args(data_type) if is_typing_list(data_type) else ()
+    inner = getattr(data_type, '__args__', ()) if is_typing_list(data_type) else ()
     scalar = inner[0] if inner else data_type
     if not is_valid_scalar_type(scalar):
         raise ValueError(f'Unrecognized data type: {data_type}')

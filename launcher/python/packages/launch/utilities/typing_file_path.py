@@ -2,6 +2,5 @@
 """A type hint: what names a file."""
 
 import os
-from typing import Union
 
-FilePath = Union[str, bytes, os.PathLike]
+FilePath = str | bytes | os.PathLike

@@ -28,6 +28,12 @@ class ComposableNode(Located):
         self._remappings = pairs(remappings or [], 'remappings')
         self._extra = extra_arguments
 
+    @classmethod
+    def parse(cls, parser, entity):
+        """The class and the arguments that it takes from an element of XML or YAML."""
+        from launch.frontend._arguments import arguments_of
+        return cls, arguments_of(cls, entity, parser)
+
     def condition(self):
         """A method, as in ROS 2."""
         return self._condition

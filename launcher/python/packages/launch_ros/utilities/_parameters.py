@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The `parameters` of nodes in the forms that ROS 2's package hands on: normalised, and evaluated."""
 
-import pathlib
 from collections.abc import Mapping, Sequence
 
 from launch._values import WrongKind, name_of, text
@@ -43,6 +42,7 @@ def _normalized(value):
 
 def evaluate_parameters(context, parameters):
     """Mappings of names to values, paths of files, and Parameter objects."""
+    from pathlib import Path
     found = []
     for given in parameters:
         if isinstance(given, Mapping):
@@ -53,7 +53,7 @@ def evaluate_parameters(context, parameters):
             given.evaluate(context)
             found.append(given)
         else:
-            found.append(pathlib.Path(context._perform(text(given, 'a parameter file'))))
+            found.append(Path(context._perform(text(given, 'a parameter file'))))
     return tuple(found)
 
 
