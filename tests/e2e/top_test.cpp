@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch top in a terminal of its own: what it shows, and what its keys do.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
+#include <sstream>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -187,6 +190,12 @@ class TopTest : public testing::Test {
     return {.argv = {LAUNCH_PROGRAM, path.string()}, .environment = environment_, .directory = sandbox_.directory()};
   }
 
+  // Launches of other tests may run beside this one.
+  static std::vector<std::string> top_of(const RunningCommand& run, std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {LAUNCH_PROGRAM, "top", "--launch", std::to_string(run.pid())});
+    return options;
+  }
+
   Sandbox sandbox_;
   std::map<std::string, std::string> environment_;
 };
@@ -197,7 +206,7 @@ const std::string kTalker = R"xml(<executable name="talker" shell="true" output=
 TEST_F(TopTest, ShowsProcessesAndItsKeysSteerThem) {
   RunningCommand run(launch(kTalker + R"xml(<executable name="sleeper" cmd="sleep 1000"/>)xml"));
   ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience)) << run.out() << run.err();
-  Terminal top({LAUNCH_PROGRAM, "top"}, environment_);
+  Terminal top(top_of(run), environment_);
   ASSERT_TRUE(top.shows("sleeper-2", "running")) << top.screen();
   EXPECT_THAT(top.line_with("NAME"), HasSubstr("CPU %     MEMORY RESTARTS  LINES/S"));
   EXPECT_THAT(top.line_with("launch " + std::to_string(run.pid())), HasSubstr("2 processes"));
@@ -227,12 +236,43 @@ TEST_F(TopTest, ShowsProcessesAndItsKeysSteerThem) {
 TEST_F(TopTest, EndsWithTheLaunch) {
   RunningCommand run(launch(kTalker));
   ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
-  Terminal top({LAUNCH_PROGRAM, "top"}, environment_);
+  Terminal top(top_of(run), environment_);
   ASSERT_TRUE(top.shows("talker-1", "running")) << top.screen();
   run.send_signal(SIGINT);
   EXPECT_EQ(top.wait(), 0);
   EXPECT_THAT(top.everything(), HasSubstr("launch " + std::to_string(run.pid()) + " has ended\r\n"));
   EXPECT_EQ(run.wait().exit_code, 0);
+}
+
+TEST_F(TopTest, ALaunchBeginsInItAndGoesOnWithPlainLines) {
+  Terminal terminal({LAUNCH_PROGRAM, "--top", launch(kTalker).argv[1]}, environment_);
+  ASSERT_TRUE(terminal.shows("talker-1", "running")) << terminal.everything();
+  terminal.type("l");
+  EXPECT_TRUE(terminal.shows("Output of talker-1")) << terminal.screen();
+  terminal.type("kUSR1\r");
+  EXPECT_TRUE(terminal.shows("got USR1")) << terminal.screen();
+  terminal.type("qq");
+  EXPECT_TRUE(terminal.shows("[talker-1] got USR1")) << terminal.everything();
+  terminal.type("\003");
+  EXPECT_EQ(terminal.wait(), 0) << terminal.everything();
+  EXPECT_THAT(terminal.everything(), HasSubstr("user interrupted with ctrl-c (SIGINT)"));
+}
+
+TEST_F(TopTest, CtrlCEndsTheLaunchThatBeganInIt) {
+  Terminal terminal({LAUNCH_PROGRAM, "--top", launch(kTalker).argv[1]}, environment_);
+  ASSERT_TRUE(terminal.shows("talker-1", "running")) << terminal.everything();
+  terminal.type("\003");
+  EXPECT_EQ(terminal.wait(), 0) << terminal.everything();
+  EXPECT_THAT(terminal.everything(), HasSubstr("user interrupted with ctrl-c (SIGINT)"));
+}
+
+TEST_F(TopTest, ALaunchThatCannotBeginInItSaysWhy) {
+  Terminal terminal({LAUNCH_PROGRAM, "--top", launch("<executable/>").argv[1]}, environment_);
+  EXPECT_EQ(terminal.wait(), 1);
+  EXPECT_THAT(terminal.everything(), HasSubstr("system.launch.xml:2:2: error: "));
+  const CommandResult none = run_command({LAUNCH_PROGRAM, "--top", "any.launch.xml"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err, "launch: error: --top needs a terminal\n");
 }
 
 TEST_F(TopTest, FiveHundredProcessesAreScrolledAndALargerTerminalShowsMore) {
@@ -242,7 +282,7 @@ TEST_F(TopTest, FiveHundredProcessesAreScrolledAndALargerTerminalShowsMore) {
   }
   RunningCommand run(launch(actions));
   ASSERT_TRUE(run.wait_for_output("[node-500]: process started", kPatience));
-  Terminal top({LAUNCH_PROGRAM, "top"}, environment_);
+  Terminal top(top_of(run), environment_);
   ASSERT_TRUE(top.shows("node-20 ", "running")) << top.screen();
   EXPECT_EQ(top.line_with("node-21 "), "");
   EXPECT_THAT(top.line_with("processes"), HasSubstr("500 processes"));
@@ -256,6 +296,81 @@ TEST_F(TopTest, FiveHundredProcessesAreScrolledAndALargerTerminalShowsMore) {
   EXPECT_EQ(top.wait(), 0);
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+}
+
+// The number in that column of the line that begins with `name`, in a table that begins with `title`.
+std::string figure_of(const std::string& report, const std::string& title, const std::string& name, int column) {
+  const std::size_t table = report.find("\n" + title + " ");
+  const std::size_t row = table == std::string::npos ? table : report.find("\n  " + name + " ", table);
+  if (row == std::string::npos) return "no row '" + name + "' in '" + title + "'";
+  std::istringstream words(report.substr(row + name.size() + 3, report.find('\n', row + 1) - row - name.size() - 3));
+  std::string word;
+  for (int i = 0; i <= column; ++i) words >> word;
+  return word;
+}
+
+TEST_F(TopTest, ShowsWhatTheNodesDoAndSaysAtTheEndWhatTheTraceSays) {
+  const fs::path beats = sandbox_.directory() / "beats";
+  ASSERT_EQ(::mkfifo(beats.c_str(), 0600), 0);
+  const int fifo = ::open(beats.c_str(), O_RDWR | O_CLOEXEC);
+  RunningCommand run(
+      launch("<trace session-name=\"all\"/><executable name=\"worker\" output=\"both\" shell=\"true\" cmd=\"exec " +
+             std::string(WORKER) + " &lt; " + beats.string() + "\"/>"));
+  ASSERT_TRUE(run.wait_for_output("[worker-1]: process started", kPatience)) << run.out() << run.err();
+  Terminal top(top_of(run, {"--trace"}), environment_);
+  ASSERT_TRUE(top.shows("events/s", "messages/s")) << top.screen();  // the worker has told of its objects again
+  EXPECT_THAT(top.line_with("What the nodes do"), Not(""));
+  ASSERT_EQ(::write(fifo, "120\n", 4), 4);
+  ASSERT_TRUE(run.wait_for_output("[worker-1] done", kPatience));
+  EXPECT_TRUE(top.shows("  /beats  to /beat ")) << top.screen();
+  EXPECT_TRUE(top.shows("  /beat timer 1 ms ")) << top.screen();
+  EXPECT_THAT(top.screen(), HasSubstr("none lost"));
+  top.resize(30, 100);
+  EXPECT_TRUE(top.shows("  /beat subscription /beats ")) << top.screen();
+  top.type("/timer\r");
+  EXPECT_TRUE(top.hides("/beats  to /beat")) << top.screen();
+  EXPECT_TRUE(top.shows("What the nodes do, only rows with 'timer'"));
+  top.type("t");
+  EXPECT_TRUE(top.shows("worker-1", "running")) << top.screen();
+  top.type("q");
+  EXPECT_EQ(top.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+  ::close(fifo);
+
+  std::string seen = top.everything().substr(top.everything().find("Trace      what launch top has recorded"));
+  std::erase(seen, '\r');
+  const CommandResult offline = run_command({LAUNCH_REPORT, sandbox_.directory() / "traces" / "all"});
+  EXPECT_EQ(offline.exit_code, 0) << offline.err;
+  EXPECT_THAT(seen, HasSubstr("\nLosses     no events lost\n"));
+  EXPECT_EQ(figure_of(seen, "Callbacks", "/beat, timer 1 ms", 2), "120") << seen;
+  EXPECT_EQ(figure_of(seen, "Topics", "/beats", 3), "120");
+  for (const int column : {2, 3, 4}) {  // sent, received, dropped
+    EXPECT_EQ(figure_of(seen, "Topics", "/beats", column), figure_of(offline.out, "Topics", "/beats", column));
+  }
+  for (const int column : {2, 11}) {  // count, missed
+    EXPECT_EQ(figure_of(seen, "Callbacks", "/beat, timer 1 ms", column),
+              figure_of(offline.out, "Callbacks", "/beat, timer 1 ms", column))
+        << seen << offline.out;
+  }
+  // Nothing of the recording is left.
+  EXPECT_EQ(run_command({"lttng", "list"}).out.find("launch-top"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(sandbox_.directory() / "tmp"));
+}
+
+TEST_F(TopTest, SaysWhyItCannotShowWhatTheNodesDo) {
+  RunningCommand run(launch(kTalker));
+  ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
+  environment_["PATH"] = sandbox_.directory();
+  Terminal top(top_of(run), environment_);
+  ASSERT_TRUE(top.shows("talker-1", "running")) << top.screen();
+  top.type("t");
+  EXPECT_TRUE(top.shows("there is no 'lttng-relayd' on this machine")) << top.screen();
+  EXPECT_TRUE(top.shows("hint: install the package lttng-tools")) << top.screen();
+  top.type("tq");
+  EXPECT_EQ(top.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
 }
 
 TEST_F(TopTest, NeedsATerminal) {

@@ -12,12 +12,34 @@
 
 namespace tracing {
 
-std::vector<SubscriptionResult> Ros2Analysis::subscription_results() const {
-  std::map<ObjectId, std::uint64_t> overwritten_in_buffer;
+std::map<ObjectId, std::uint64_t> Ros2Analysis::overwritten_in_buffers() const {
+  std::map<ObjectId, std::uint64_t> counts;
   for (const auto& [object, count] : intra_process_.overwritten()) {
     const ObjectId subscription = model_.subscription_of_object(object.first, object.second);
-    if (subscription != kNoObject) overwritten_in_buffer[subscription] += count;
+    if (subscription != kNoObject) counts[subscription] += count;
   }
+  return counts;
+}
+
+std::vector<std::uint64_t> Ros2Analysis::missed_periods() const {
+  std::vector<std::uint64_t> missed;
+  for (const CallbackTimingRecord& record : timing_.records()) missed.push_back(record.missed);
+  return missed;
+}
+
+std::vector<std::uint64_t> Ros2Analysis::dropped_messages() const {
+  std::vector<std::uint64_t> dropped;
+  for (const DeliveryRecord& record : deliveries_.subscriptions()) {
+    dropped.push_back(record.not_executed + record.overwritten + record.lost);
+  }
+  for (const auto& [subscription, count] : overwritten_in_buffers()) {
+    if (subscription < dropped.size()) dropped[subscription] += count;
+  }
+  return dropped;
+}
+
+std::vector<SubscriptionResult> Ros2Analysis::subscription_results() const {
+  std::map<ObjectId, std::uint64_t> overwritten_in_buffer = overwritten_in_buffers();
   std::vector<SubscriptionResult> results;
   for (ObjectId id = 0; id < deliveries_.subscriptions().size(); ++id) {
     const DeliveryRecord& record = deliveries_.subscriptions()[id];

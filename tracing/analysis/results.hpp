@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/analysis/duration_statistics.hpp"
+#include "tracing/execution/duration_statistics.hpp"
 
 namespace tracing {
 

@@ -6,26 +6,27 @@
 // ServiceMatcher).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
-#include "tracing/analysis/allocation_counter.hpp"
-#include "tracing/analysis/callback_timing.hpp"
-#include "tracing/analysis/callback_tracker.hpp"
-#include "tracing/analysis/chain_tracker.hpp"
-#include "tracing/analysis/delivery_statistics.hpp"
-#include "tracing/analysis/execution_sink.hpp"
-#include "tracing/analysis/execution_tracker.hpp"
-#include "tracing/analysis/executor_load.hpp"
-#include "tracing/analysis/first_activity.hpp"
-#include "tracing/analysis/intra_process_matcher.hpp"
-#include "tracing/analysis/lifecycle_tracker.hpp"
-#include "tracing/analysis/message_matcher.hpp"
 #include "tracing/analysis/results.hpp"
-#include "tracing/analysis/scheduler_tracker.hpp"
-#include "tracing/analysis/service_matcher.hpp"
-#include "tracing/analysis/sink_list.hpp"
-#include "tracing/analysis/thread_map.hpp"
+#include "tracing/execution/allocation_counter.hpp"
+#include "tracing/execution/callback_timing.hpp"
+#include "tracing/execution/callback_tracker.hpp"
+#include "tracing/execution/execution_sink.hpp"
+#include "tracing/execution/execution_tracker.hpp"
+#include "tracing/execution/executor_load.hpp"
+#include "tracing/execution/first_activity.hpp"
+#include "tracing/execution/lifecycle_tracker.hpp"
+#include "tracing/execution/scheduler_tracker.hpp"
+#include "tracing/execution/sink_list.hpp"
+#include "tracing/execution/thread_map.hpp"
+#include "tracing/messages/chain_tracker.hpp"
+#include "tracing/messages/delivery_statistics.hpp"
+#include "tracing/messages/intra_process_matcher.hpp"
+#include "tracing/messages/message_matcher.hpp"
+#include "tracing/messages/service_matcher.hpp"
 #include "tracing/objects/object_model.hpp"
 #include "tracing/reader/ros2_events.hpp"
 
@@ -54,6 +55,10 @@ class Ros2Analysis {
 
   const ObjectModel& model() const { return model_; }
   const FirstActivity& first_activity() const { return first_activity_; }
+  // So far, by ObjectId; maybe shorter than the model's lists. Periods in which the timer of a callback did not call
+  // it, and messages that a subscription missed (SubscriptionResult::dropped()).
+  std::vector<std::uint64_t> missed_periods() const;
+  std::vector<std::uint64_t> dropped_messages() const;
 
  private:
   struct Thread {
@@ -113,6 +118,7 @@ class Ros2Analysis {
 
   ProcessIndex place_of(ProcessId process) const;
   bool is_doubtful(ObjectId node) const;
+  std::map<ObjectId, std::uint64_t> overwritten_in_buffers() const;  // by subscription
   CallbackResult callback_result(ObjectId id) const;
   TopicResult topic_result(ObjectId id) const;
   CallResult call_result(const ServiceMatcher::Pair& pair, const CallRecord& record) const;

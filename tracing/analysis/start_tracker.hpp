@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tracing/analysis/critical_start.hpp"
-#include "tracing/analysis/first_activity.hpp"
 #include "tracing/analysis/results.hpp"
+#include "tracing/execution/first_activity.hpp"
 #include "tracing/objects/process_table.hpp"
 #include "tracing/reader/event.hpp"
 

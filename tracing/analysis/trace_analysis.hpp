@@ -10,11 +10,11 @@
 
 #include <utility>
 
-#include "tracing/analysis/allocation_decoder.hpp"
 #include "tracing/analysis/overview_counter.hpp"
 #include "tracing/analysis/results.hpp"
 #include "tracing/analysis/ros2_analysis.hpp"
 #include "tracing/analysis/start_tracker.hpp"
+#include "tracing/execution/allocation_decoder.hpp"
 #include "tracing/reader/lifecycle_state.hpp"
 #include "tracing/reader/ros2_decoder.hpp"
 #include "tracing/reader/trace_reader.hpp"
@@ -32,6 +32,10 @@ class TraceAnalysis : public TraceSink {
 
   // To be called once, at the end. Tells the sink what was not finished.
   TraceResults finish();
+
+  // So far: Ros2Analysis::missed_periods() and dropped_messages().
+  std::vector<std::uint64_t> missed_periods() const { return ros2_.missed_periods(); }
+  std::vector<std::uint64_t> dropped_messages() const { return ros2_.dropped_messages(); }
 
   // What the ids of the sink refer to.
   const ObjectModel& objects() const { return ros2_.model(); }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "tracing/analysis/hop_times.hpp"
 #include "tracing/compare/subject_names.hpp"
+#include "tracing/messages/hop_times.hpp"
 
 namespace tracing::compare {
 

@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/analysis/chain_tracker.hpp"
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/compare/kept_samples.hpp"
 #include "tracing/compare/run_summary.hpp"
+#include "tracing/messages/chain_tracker.hpp"
 
 namespace tracing::compare {
 

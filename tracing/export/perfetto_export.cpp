@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chrome's trace event format. Its times are microseconds; they count from the first event of the trace, because a
-// double can't hold microseconds since the epoch to the nanosecond.
+// Chrome's trace event format, as far as Perfetto's trace processor reads it. Its times are microseconds. They count
+// from what is first in the file, because a double can't hold microseconds since the epoch to the nanosecond, and
+// because Perfetto reads the digits behind the point of a negative time as positive ones. There is no displayTimeUnit:
+// former releases of Perfetto take it for the unit of all times.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -30,12 +33,15 @@ std::string json_text(const std::string& text) {
 class PerfettoWriter {
  public:
   PerfettoWriter(const TracedSystem& system, const std::filesystem::path& file)
-      : system_(system), timeline_(system.timeline), file_(file) {}
+      : system_(system), timeline_(system.timeline), file_(file), origin_ns_(timeline_.begin_ns) {
+    // Processes start before the first event.
+    for (const StartResult& start : system_.results.starts) origin_ns_ = std::min(origin_ns_, start.exec_ns);
+  }
 
   void write() {
-    file_.write("{\"displayTimeUnit\":\"ns\",\"otherData\":");
+    file_.write("{\"otherData\":");
     file_.write(nlohmann::json{{"directory", system_.directory.native()},
-                               {"begin_ns", timeline_.begin_ns},
+                               {"begin_ns", origin_ns_},
                                {"lost_events", system_.results.overview.lost_events()}}
                     .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     file_.write(",\"traceEvents\":[\n");
@@ -62,9 +68,8 @@ class PerfettoWriter {
   }
 
   std::string time(std::int64_t ns) const {
-    const std::int64_t after = ns - timeline_.begin_ns;
-    // Processes start before the first event.
-    return fmt::format("{}{}.{:03}", after < 0 ? "-" : "", std::abs(after) / 1000, std::abs(after) % 1000);
+    const std::int64_t after = ns - origin_ns_;
+    return fmt::format("{}.{:03}", after / 1000, after % 1000);
   }
 
   std::string place(Index thread) const {
@@ -97,18 +102,27 @@ class PerfettoWriter {
     }
   }
 
-  void instant(std::int64_t vpid, std::int64_t ns, const std::string& name, const std::string& arguments) {
+  void instant(std::int64_t pid, std::int64_t ns, const std::string& name, const std::string& arguments) {
     event(fmt::format(R"("ph":"i","s":"p","cat":"start","name":{},"pid":{},"tid":{},"ts":{},"args":{{{}}})",
-                      json_text(name), vpid, vpid, time(ns), arguments));
+                      json_text(name), pid, pid, time(ns), arguments));
+  }
+
+  // Of the process on its own machine, if it recorded something.
+  std::int64_t pid_of(const StartResult& start) const {
+    for (std::size_t id = 0; start.place && id < timeline_.processes.size(); ++id) {
+      if (timeline_.processes[id].place == start.place) return pids_[id];
+    }
+    return start.vpid;
   }
 
   void write_starts() {
     for (const StartResult& start : system_.results.starts) {
+      const std::int64_t pid = pid_of(start);
       const std::string from = fmt::format("\"process\":{},\"file\":{},\"line\":{}", json_text(start.process),
                                            json_text(start.file), start.line);
-      instant(start.vpid, start.exec_ns, "exec", from);
-      if (start.node_after_ns) instant(start.vpid, start.exec_ns + *start.node_after_ns, "first node", from);
-      if (start.ready_after_ns) instant(start.vpid, start.exec_ns + *start.ready_after_ns, "ready", from);
+      instant(pid, start.exec_ns, "exec", from);
+      if (start.node_after_ns) instant(pid, start.exec_ns + *start.node_after_ns, "first node", from);
+      if (start.ready_after_ns) instant(pid, start.exec_ns + *start.ready_after_ns, "ready", from);
     }
   }
 
@@ -232,6 +246,7 @@ class PerfettoWriter {
   const TracedSystem& system_;
   const Timeline& timeline_;
   OutputFile file_;
+  std::int64_t origin_ns_;
   std::vector<std::int64_t> pids_;  // of the processes
   bool several_hosts_ = false;
   bool first_ = true;

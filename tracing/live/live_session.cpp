@@ -3,6 +3,7 @@
 
 #include "tracing/live/live_report.hpp"
 #include "tracing/live/live_view.hpp"
+#include "tracing/live/read_some.hpp"
 #include "tracing/reader/live_reader.hpp"
 #include "tracing/reader/trace_read_error.hpp"
 
@@ -14,7 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kRetry{10};  // the relay daemon is asked this often; it tells nothing by itself
 constexpr std::chrono::milliseconds kRetryAttach{50};
-constexpr std::size_t kMostItems = 4096;  // between two looks at the clock
 
 // Returns false when the user has ended the report before.
 bool attach(LiveReader& reader, const LiveAddress& address, LiveScreen& screen) {
@@ -30,22 +30,6 @@ bool attach(LiveReader& reader, const LiveAddress& address, LiveScreen& screen) 
         address.session);
   }
   return true;
-}
-
-// Gives the view what has come, but not much more than is read in an instant.
-LiveReader::State read_some(LiveReader& reader, LiveView& view) {
-  TraceItem item;
-  LiveReader::State state = LiveReader::State::kItem;
-  for (std::size_t i = 0; i < kMostItems && state == LiveReader::State::kItem; ++i) {
-    state = reader.next(item);
-    if (state != LiveReader::State::kItem) break;
-    if (item.event != nullptr) {
-      view.on_event(*item.event);
-    } else {
-      view.on_loss(*item.loss);
-    }
-  }
-  return state;
 }
 
 }  // namespace

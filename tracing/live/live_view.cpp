@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/objects/object_names.hpp"
@@ -17,13 +18,24 @@ std::string duration(std::int64_t nanoseconds) {
   return format_duration(static_cast<double>(nanoseconds));
 }
 
+std::string hertz_text(double hertz) {
+  return fmt::format("{:.4g} Hz", hertz);
+}
+
+Cell count_cell(std::uint64_t count) {
+  return {count == 0 ? "-" : std::to_string(count), count == 0 ? Style::kPlain : Style::kBad};
+}
+
 Row row_of(std::string label, std::string remark, std::uint64_t count, const DurationSummary& took, double seconds) {
   Row row{.label = std::move(label)};
   row.remark = std::move(remark);
   row.count = static_cast<double>(count);
   row.rate = row.count / seconds;
-  row.cells = {{fmt::format("{:.4g} Hz", row.rate)}};
-  if (took.count == 0) return row;
+  row.cells = {{hertz_text(row.rate)}};
+  if (took.count == 0) {
+    row.cells.insert(row.cells.end(), 3, {"-"});
+    return row;
+  }
   row.cells.insert(row.cells.end(),
                    {{duration(took.p50_ns)}, {duration(took.p99_ns), Style::kBold}, {duration(took.max_ns)}});
   row.total = took.mean_ns * static_cast<double>(took.count);
@@ -100,29 +112,75 @@ std::string LiveView::line(double seconds) const {
   return head(seconds) + ", " + losses();
 }
 
+std::string LiveView::node_table(double seconds, const ReportOptions& options,
+                                 const std::vector<std::uint64_t>& missed) const {
+  struct NodeActivity {
+    std::uint64_t count = 0;
+    std::int64_t busy_ns = 0;
+    std::int64_t longest_ns = 0;
+    std::uint64_t missed = 0;
+  };
+  const ObjectModel& objects = analysis_.objects();
+  std::map<std::string, NodeActivity> nodes;
+  for (ObjectId id = 0; id < callbacks_.size(); ++id) {
+    const Activity& activity = callbacks_[id];
+    if (!activity.is_shown()) continue;
+    NodeActivity& node = nodes[node_name(objects, objects.callbacks()[id])];
+    const DurationSummary took = activity.took.summary();
+    node.count += activity.count;
+    node.busy_ns += static_cast<std::int64_t>(took.mean_ns * static_cast<double>(took.count));
+    node.longest_ns = std::max(node.longest_ns, took.max_ns);
+  }
+  for (ObjectId id = 0; id < missed.size(); ++id) {
+    const auto node = nodes.find(node_name(objects, objects.callbacks()[id]));
+    if (node != nodes.end()) node->second.missed += missed[id];
+  }
+  ScreenTable table("Nodes", {"callbacks", "load", "longest", "missed"}, "total");
+  for (const auto& [name, node] : nodes) {
+    Row row{.label = name.empty() ? "?" : name};
+    row.count = static_cast<double>(node.count);
+    row.rate = row.count / seconds;
+    row.max = static_cast<double>(node.longest_ns);
+    row.total = static_cast<double>(node.busy_ns);
+    row.cells = {{hertz_text(row.rate)},
+                 {fmt::format("{:.2f} %", row.total / seconds / 1e7)},
+                 {node.longest_ns == 0 ? "-" : duration(node.longest_ns), Style::kBold},
+                 count_cell(node.missed)};
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
 std::string LiveView::screen(double seconds, const ReportOptions& options) const {
   const ObjectModel& objects = analysis_.objects();
   const bool lost = all_lost_ > 0 || has_uncounted_loss_;
   std::string text = shortened(head(seconds), options.width) + "\n" +
                      styled(losses(), lost ? Style::kBad : Style::kGood, options.color) + "\n";
-  ScreenTable messages("Messages, publish to callback", {"rate", "p50", "p99", "max"}, "p99");
+  const std::vector<std::uint64_t> missed = analysis_.missed_periods();
+  const std::vector<std::uint64_t> dropped = analysis_.dropped_messages();
+  text += node_table(seconds, options, missed);
+  ScreenTable messages("Messages, publish to callback", {"rate", "p50", "p99", "max", "dropped"}, "p99");
   for (ObjectId id = 0; id < subscriptions_.size(); ++id) {
     const Activity& activity = subscriptions_[id];
-    if (activity.count == 0) continue;
+    if (!activity.is_shown()) continue;
     const EndpointObject& subscription = objects.subscriptions()[id];
     const std::string topic =
         subscription.topic == kNoObject ? std::string("?") : objects.topics()[subscription.topic].name;
-    messages.add(
-        row_of(topic, "to " + node_of(objects, subscription.node), activity.count, activity.took.summary(), seconds));
+    Row row =
+        row_of(topic, "to " + node_of(objects, subscription.node), activity.count, activity.took.summary(), seconds);
+    row.cells.push_back(count_cell(id < dropped.size() ? dropped[id] : 0));
+    messages.add(std::move(row));
   }
-  ScreenTable callbacks("Callbacks", {"rate", "p50", "p99", "max"}, "total");
+  ScreenTable callbacks("Callbacks", {"rate", "p50", "p99", "max", "missed"}, "total");
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const Activity& activity = callbacks_[id];
-    if (activity.count == 0) continue;
+    if (!activity.is_shown()) continue;
     const CallbackObject& callback = objects.callbacks()[id];
     const std::string node = node_name(objects, callback);
-    callbacks.add(row_of((node.empty() ? "?" : node) + " " + callback_source(objects, callback), "", activity.count,
-                         activity.took.summary(), seconds));
+    Row row = row_of((node.empty() ? "?" : node) + " " + callback_source(objects, callback), "", activity.count,
+                     activity.took.summary(), seconds);
+    row.cells.push_back(count_cell(id < missed.size() ? missed[id] : 0));
+    callbacks.add(std::move(row));
   }
   return text + messages.text(options) + callbacks.text(options);
 }
@@ -133,7 +191,8 @@ void LiveView::clear() {
   latency_ = {};
   for (std::vector<Activity>* activities : {&subscriptions_, &callbacks_}) {
     for (Activity& activity : *activities) {
-      if (activity.count > 0) activity = {};
+      if (activity.count > 0) activity = {.rested = 0};
+      if (activity.is_shown()) ++activity.rested;
     }
   }
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rates, latencies and losses since the last time that somebody looked. The memory grows with the number of objects,
-// not with the number of events.
+// Rates, durations and latencies since the last time that somebody looked; missed periods and losses since the
+// beginning. The memory grows with the number of objects, not with the number of events.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "tracing/analysis/duration_statistics.hpp"
 #include "tracing/analysis/trace_analysis.hpp"
+#include "tracing/execution/duration_statistics.hpp"
 #include "tracing/report/report.hpp"
 
 namespace tracing {
@@ -24,7 +24,7 @@ class LiveView : public ExecutionSink, public TraceSink {
   void on_callback(const CallbackInstance& instance) override;
   void on_message(const MessageFlow& message) override;
 
-  // Text of several lines that fits the width, with tables of subscriptions and callbacks.
+  // Text of several lines that fits the width, with tables of nodes, subscriptions and callbacks.
   std::string screen(double seconds, const ReportOptions& options) const;
   // "2345 events/s, 200 callbacks/s, 100 messages/s, latency p50 123 us, p99 1.20 ms, none lost"
   std::string line(double seconds) const;
@@ -38,12 +38,17 @@ class LiveView : public ExecutionSink, public TraceSink {
  private:
   // What one subscription or callback did in the interval.
   struct Activity {
+    // What rests is shown for so many intervals, so that one sees what has stopped.
+    static constexpr int kShown = 10;
     std::uint64_t count = 0;
-    DurationStatistics took;
+    DurationStatistics took = {};
+    int rested = kShown;  // intervals since the last one in which it did something
+    bool is_shown() const { return count > 0 || rested < kShown; }
   };
   static Activity& at(std::vector<Activity>& activities, ObjectId id);
   std::string head(double seconds) const;
   std::string losses() const;
+  std::string node_table(double seconds, const ReportOptions& options, const std::vector<std::uint64_t>& missed) const;
 
   TraceAnalysis analysis_;
   std::uint64_t all_events_ = 0;

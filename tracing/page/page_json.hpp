@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "tracing/analysis/duration_statistics.hpp"
 #include "tracing/analysis/results.hpp"
+#include "tracing/execution/duration_statistics.hpp"
 #include "tracing/timeline/timeline.hpp"
 
 namespace tracing {

@@ -43,6 +43,35 @@ std::string marked(std::string label, bool doubtful) {
   return doubtful ? label + " *" : label;
 }
 
+// "left: " before what a process on the machine of this name does, if the trace has several machines.
+class Hosts {
+ public:
+  explicit Hosts(const TraceOverview& overview) : processes_(overview.processes) {
+    for (const ProcessResult& process : processes_) several_ = several_ || process.host != processes_.front().host;
+  }
+
+  std::string before(ProcessIndex process) const {
+    return several_ && process < processes_.size() ? processes_[process].host + ": " : "";
+  }
+
+  // "left -> right: " for a chain from one machine to another.
+  std::string before(const ChainResult& chain) const {
+    if (!several_) return "";
+    std::string text;
+    std::string last;
+    for (const ChainResult::Step& step : chain.steps) {
+      if (step.process >= processes_.size() || processes_[step.process].host == last) continue;
+      last = processes_[step.process].host;
+      text += (text.empty() ? "" : " -> ") + last;
+    }
+    return text.empty() ? "" : text + ": ";
+  }
+
+ private:
+  const std::vector<ProcessResult>& processes_;
+  bool several_ = false;
+};
+
 void sort_by(Row& row, const DurationSummary& took) {
   if (took.count == 0) return;
   row.count = static_cast<double>(took.count);
@@ -77,7 +106,9 @@ bool is_chosen(const ChainResult& chain, const ReportOptions& options) {
                      [&](const auto& step) { return matches(options.chain.second, step.node); });
 }
 
-std::string chain_table(const Ros2Results& ros2, const ReportOptions& options) {
+std::string chain_table(const TraceResults& results, const ReportOptions& options) {
+  const Ros2Results& ros2 = results.ros2;
+  const Hosts hosts(results.overview);
   const bool with_budget = std::any_of(ros2.chains.begin(), ros2.chains.end(),
                                        [](const ChainResult& chain) { return chain.budget_ns.has_value(); });
   std::vector<std::string> columns{"count", "p50", "p99", "max", "reaction p99", "age max"};
@@ -85,7 +116,7 @@ std::string chain_table(const Ros2Results& ros2, const ReportOptions& options) {
   ScreenTable table("Chains", columns, "");
   for (const ChainResult& chain : ros2.chains) {
     if (!is_chosen(chain, options)) continue;
-    Row row{.label = marked(chain_label(chain), chain.doubtful)};
+    Row row{.label = marked(hosts.before(chain) + chain_label(chain), chain.doubtful)};
     row.remark = chain.name.empty() ? chain.steps.front().callback : topics_of(chain);
     row.cells = {count_cell(chain.response.count),
                  time_cell(chain.response, &DurationSummary::p50_ns),
@@ -113,13 +144,14 @@ std::string callback_table(const TraceResults& results, const ReportOptions& opt
   std::vector<std::string> columns{"rate", "count", "p50", "p99", "max", "jitter", "missed", "load"};
   if (with_memory) columns.insert(columns.begin() + 5, "mallocs");
   ScreenTable table("Callbacks", columns, "total");
+  const Hosts hosts(results.overview);
   const double span =
       results.overview.begin_ns ? static_cast<double>(*results.overview.end_ns - *results.overview.begin_ns) : 0;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (!matches(options.node, callback.node)) continue;
     const bool of_topic = callback.owner == CallbackResult::Owner::kSubscription;
     if (!options.topic.empty() && !(of_topic && matches(options.topic, callback.owner_name))) continue;
-    Row row{.label = marked(callback_label(callback), callback.doubtful)};
+    Row row{.label = marked(hosts.before(callback.process) + callback_label(callback), callback.doubtful)};
     row.remark = short_symbol(callback.symbol);
     const DurationSummary& took = callback.durations;
     sort_by(row, took);
@@ -177,9 +209,10 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
 std::string executor_table(const TraceResults& results, const ReportOptions& options) {
   if (!options.node.empty() || !options.topic.empty()) return "";
   ScreenTable table("Executors", {"busy", "callbacks", "longest busy", "in"}, "total");
+  const Hosts hosts(results.overview);
   for (const ExecutorResult& executor : results.ros2.executors) {
     if (executor.callbacks == 0) continue;
-    Row row{.label = marked(executor_label(executor, results), executor.doubtful)};
+    Row row{.label = marked(hosts.before(executor.process) + executor_label(executor, results), executor.doubtful)};
     row.total = executor.utilisation;
     row.count = static_cast<double>(executor.callbacks);
     row.max = static_cast<double>(executor.longest_busy_ns);

@@ -11,7 +11,7 @@ namespace tracing {
 // Whether the options leave the chain in the report.
 bool is_chosen(const ChainResult& chain, const ReportOptions& options);
 
-std::string chain_table(const Ros2Results& ros2, const ReportOptions& options);
+std::string chain_table(const TraceResults& results, const ReportOptions& options);
 std::string callback_table(const TraceResults& results, const ReportOptions& options);
 std::string topic_table(const Ros2Results& ros2, const ReportOptions& options);
 std::string executor_table(const TraceResults& results, const ReportOptions& options);

@@ -6,6 +6,7 @@
 #include "tracing/findings/finding.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/report/details.hpp"
+#include "tracing/report/duration_rows.hpp"
 #include "tracing/report/report.hpp"
 #include "tracing/report/report_tables.hpp"
 #include "tracing/report/screen_table.hpp"
@@ -15,6 +16,27 @@ namespace tracing {
 namespace {
 
 constexpr std::size_t kFindings = 5;
+
+// Those whose cost is measured. Names of kernel events have no provider.
+std::uint64_t userspace_events(const TraceOverview& overview) {
+  std::uint64_t events = 0;
+  for (const EventCount& event : overview.event_counts) {
+    if (event.name.find(':') != std::string::npos) events += event.total;
+  }
+  return events;
+}
+
+std::string cost_line(const Report& report) {
+  const TraceOverview& overview = report.results.overview;
+  const std::uint64_t events = userspace_events(overview);
+  if (!report.verdict.ns_per_event || events == 0) return "";
+  const double cost = *report.verdict.ns_per_event * static_cast<double>(events);
+  const double span = static_cast<double>(*overview.end_ns - *overview.begin_ns);
+  std::string text = fmt::format("Cost       {} of {} for each event", format_duration(cost),
+                                 format_duration(*report.verdict.ns_per_event));
+  if (span > 0) text += fmt::format(", {:.2g} % of a processor", 100 * cost / span);
+  return text + (events < overview.events ? ", without the events of the kernel\n" : "\n");
+}
 
 std::string head(const Report& report, bool color) {
   const TraceOverview& overview = report.results.overview;
@@ -32,13 +54,7 @@ std::string head(const Report& report, bool color) {
                         format_duration(static_cast<double>(*overview.end_ns - *overview.begin_ns)));
   }
   text += fmt::format("Events     {} of {}\n", overview.events, format_count(overview.processes.size(), "process"));
-  if (report.verdict.ns_per_event && overview.events > 0) {
-    const double cost = *report.verdict.ns_per_event * static_cast<double>(overview.events);
-    const double span = static_cast<double>(*overview.end_ns - *overview.begin_ns);
-    text += fmt::format("Cost       {} of {} for each event", format_duration(cost),
-                        format_duration(*report.verdict.ns_per_event));
-    text += span > 0 ? fmt::format(", {:.2g} % of a processor\n", 100 * cost / span) : "\n";
-  }
+  text += cost_line(report);
   const bool doubtful = !overview.losses.empty();
   const RecordedVerdict& verdict = report.verdict;
   const bool none = !doubtful && verdict.discarded_events == 0 && verdict.lost_packets == 0;
@@ -85,7 +101,8 @@ std::string finding_section(const Report& report, const ReportOptions& options) 
 std::string chosen_chains(const Ros2Results& ros2, const ReportOptions& options) {
   std::string text;
   for (const ChainResult& chain : ros2.chains) {
-    if (is_chosen(chain, options)) text += "\n" + chain_details(chain);
+    if (!is_chosen(chain, options)) continue;
+    text += "\n" + duration_table().row("Step by step", duration_titles()) + chain_details(chain);
   }
   if (!text.empty()) return text;
   return fmt::format("\nNo chain leads from {} to {}.\n", options.chain.first, options.chain.second);
@@ -97,10 +114,10 @@ std::string text_report(const Report& report, const ReportOptions& options) {
   const TraceResults& results = report.results;
   std::string text = head(report, options.color) + absence_section(absences_of(report), options.color);
   if (!options.chain.first.empty()) {
-    return text + chain_table(results.ros2, options) + chosen_chains(results.ros2, options);
+    return text + chain_table(results, options) + chosen_chains(results.ros2, options);
   }
   if (options.node.empty() && options.topic.empty()) text += finding_section(report, options);
-  text += chain_table(results.ros2, options) + callback_table(results, options) + topic_table(results.ros2, options) +
+  text += chain_table(results, options) + callback_table(results, options) + topic_table(results.ros2, options) +
           executor_table(results, options) + service_table(results.ros2, options) +
           action_table(results.ros2, options) + lifecycle_table(results.ros2, options);
   if (options.all) {

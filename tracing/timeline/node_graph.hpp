@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tracing/analysis/duration_statistics.hpp"
+#include "tracing/execution/duration_statistics.hpp"
 #include "tracing/timeline/timeline.hpp"
 
 namespace tracing::timeline {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tracing/analysis/execution_sink.hpp"
 #include "tracing/analysis/results.hpp"
+#include "tracing/execution/execution_sink.hpp"
 
 namespace tracing::timeline {
 

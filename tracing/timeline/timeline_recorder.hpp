@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/analysis/execution_sink.hpp"
 #include "tracing/analysis/trace_analysis.hpp"
+#include "tracing/execution/execution_sink.hpp"
 #include "tracing/timeline/timeline.hpp"
 
 namespace tracing::timeline {

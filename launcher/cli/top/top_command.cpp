@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "launcher/cli/control/commands.hpp"
 #include "launcher/cli/control/process_text.hpp"
 #include "launcher/cli/subcommand.hpp"
+#include "launcher/cli/top/node_watch.hpp"
 #include "launcher/cli/top/top_rows.hpp"
 #include "launcher/cli/top/top_screen.hpp"
 #include "launcher/control/control_client.hpp"
@@ -28,16 +30,23 @@ using TopJson = ControlClient::Json;
 constexpr milliseconds kPeriod{1000};
 constexpr milliseconds kRedraw{100};  // lines of a log come at most so often
 
-constexpr const char* kTableKeys = "s start  x stop  r restart  k signal  l log  / filter  o sort  q quit";
+constexpr const char* kTableKeys = "s start  x stop  r restart  k signal  l log  t nodes  / filter  o sort  q quit";
 constexpr const char* kLogKeys = "up/down scroll  / search  s start  x stop  r restart  q back";
+constexpr const char* kNodesKeys = "up/down scroll  / search  t back";
 
 class Top {
  public:
-  explicit Top(ControlClient launch) : launch_(std::move(launch)) {}
+  Top(ControlClient launch, bool shows_nodes) : launch_(std::move(launch)) {
+    if (shows_nodes) {
+      show_nodes();
+    }
+  }
 
   // Returns when the user quits or the launch ends.
   void run();
   bool launch_ended() const { return launch_.ended(); }
+  // The nodes' report, if they were watched. Ends the watching.
+  std::string end() { return nodes_ ? nodes_->end() : std::string(); }
 
  private:
   enum class Prompt { kNone, kFilter, kSearch, kSignal };
@@ -45,7 +54,9 @@ class Top {
   void update();
   void take_events();
   void draw();
+  void show_nodes();
   void press(int key);
+  void press_in_nodes(int key);
   void press_in_prompt(int key);
   void move(int key);
   void ask(const char* what, const std::string& signal = {});
@@ -66,6 +77,8 @@ class Top {
   std::string search_;
   std::string shown_log_;  // the process whose lines are shown
   std::size_t count_ = 0;
+  std::unique_ptr<NodeWatch> nodes_;  // from the first time on that they are shown
+  bool shows_nodes_ = false;
   bool quit_ = false;
 };
 
@@ -86,8 +99,15 @@ void Top::run() {
       return;  // the terminal has gone
     }
     take_events();
+    if (nodes_) {
+      nodes_->update();
+    }
     for (int key; (key = screen_.key()) != TopScreen::kNone && !quit_;) {
-      prompt_ == Prompt::kNone ? press(key) : press_in_prompt(key);
+      if (prompt_ != Prompt::kNone) {
+        press_in_prompt(key);
+      } else {
+        shows_nodes_ ? press_in_nodes(key) : press(key);
+      }
     }
   }
 }
@@ -140,11 +160,40 @@ void Top::draw() {
     view_.scrolled = std::min(view_.scrolled, view_.lines.size());
   }
   view_.keys = shown_log_.empty() ? kTableKeys : kLogKeys;
+  view_.from_beginning = shows_nodes_;
+  if (shows_nodes_) {
+    nodes_->set_width(screen_.width());
+    view_.title = "What the nodes do" + (search_.empty() ? "" : fmt::format(", only rows with '{}'", search_));
+    view_.lines = nodes_->lines_with(search_);
+    view_.scrolled = std::min(view_.scrolled, view_.lines.size());
+    view_.keys = kNodesKeys;
+  }
   view_.prompt = prompt_ == Prompt::kFilter   ? "show only names or states with: "
                  : prompt_ == Prompt::kSearch ? "show only lines with: "
                  : prompt_ == Prompt::kSignal ? "signal for " + selected() + ": "
                                               : "";
   screen_.draw(view_);
+}
+
+void Top::show_nodes() {
+  if (!nodes_) {
+    nodes_ = std::make_unique<NodeWatch>();
+  }
+  shows_nodes_ = true;
+  search_.clear();
+  view_.scrolled = 0;
+}
+
+void Top::press_in_nodes(int key) {
+  view_.message.clear();
+  if (key == 't' || key == 'q' || key == TopScreen::kEscape) {
+    shows_nodes_ = false;
+    search_.clear();
+  } else if (key == '/') {
+    open(Prompt::kSearch);
+  } else {
+    move(key);
+  }
 }
 
 void Top::press(int key) {
@@ -180,6 +229,10 @@ void Top::press(int key) {
       view_.message = fmt::format("sorted by {}", kNames[static_cast<int>(sort_)]);
       break;
     }
+    case 't':
+      shown_log_.clear();
+      show_nodes();
+      break;
     case 'l':
     case TopScreen::kEnter:
       if (!log) {
@@ -194,13 +247,14 @@ void Top::press(int key) {
 }
 
 void Top::move(int key) {
-  const bool log = !shown_log_.empty();
+  const bool lines = shows_nodes_ || !shown_log_.empty();
+  const bool log = lines && !view_.from_beginning;
   const std::size_t page = screen_.height();
   const bool up = key == TopScreen::kUp || key == TopScreen::kPageUp || key == TopScreen::kHome;
   const bool down = key == TopScreen::kDown || key == TopScreen::kPageDown || key == TopScreen::kEnd;
   std::size_t step = key == TopScreen::kUp || key == TopScreen::kDown ? 1 : page;
-  std::size_t& position = log ? view_.scrolled : view_.selected;
-  const std::size_t last = log ? view_.lines.size() : view_.rows.empty() ? 0 : view_.rows.size() - 1;
+  std::size_t& position = lines ? view_.scrolled : view_.selected;
+  const std::size_t last = lines ? view_.lines.size() : view_.rows.empty() ? 0 : view_.rows.size() - 1;
   if (key == TopScreen::kHome || key == TopScreen::kEnd) {
     step = last;
   }
@@ -261,6 +315,9 @@ void Top::ask(const char* what, const std::string& signal) {
 int top_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
   std::string wanted;
   Subcommand command("launch " + name, "Shows the processes of a running launch on the whole screen, and steers them.");
+  bool shows_nodes = false;
+  command.take_flag("--trace", shows_nodes,
+                    "begin with what the nodes do, as the key t shows it: rates, latencies, missed periods, losses");
   command.take_text("--launch", wanted, kLaunchHelp);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
@@ -271,8 +328,9 @@ int top_command(const std::string& name, const std::vector<std::string>& words, 
   ControlClient launch = choose_launch(environment, wanted);
   const pid_t pid = launch.pid();
   bool ended = false;
+  std::string report;
   {
-    Top top(std::move(launch));
+    Top top(std::move(launch), shows_nodes);
     try {
       top.run();
     } catch (const ControlError&) {
@@ -281,7 +339,9 @@ int top_command(const std::string& name, const std::vector<std::string>& words, 
       }
     }
     ended = top.launch_ended();
+    report = top.end();
   }
+  fmt::print("{}", report);
   if (ended) {
     fmt::print("launch {} has ended\n", pid);
   }

@@ -63,9 +63,13 @@ std::size_t TopScreen::height() const {
   return static_cast<std::size_t>(std::max(::getmaxy(stdscr) - kHeadingLines - kFootLines, 1));
 }
 
+std::size_t TopScreen::width() const {
+  return static_cast<std::size_t>(std::max(::getmaxx(stdscr), 1));
+}
+
 void TopScreen::put(int line, const std::string& text, int attributes) {
   ::wattrset(stdscr, attributes);
-  ::mvwaddstr(stdscr, line, 0, fit(text, static_cast<std::size_t>(std::max(::getmaxx(stdscr), 1))).c_str());
+  ::mvwaddstr(stdscr, line, 0, fit(text, width()).c_str());
   ::wattrset(stdscr, 0);
 }
 
@@ -93,8 +97,9 @@ void TopScreen::draw_table(const TopView& view) {
 void TopScreen::draw_lines(const TopView& view) {
   put(1, view.title, A_REVERSE);
   const std::size_t rows = height();
-  const std::size_t end = view.lines.size() - std::min(view.scrolled, view.lines.size());
-  const std::size_t begin = end > rows ? end - rows : 0;
+  const std::size_t scrolled = std::min(view.scrolled, view.lines.size());
+  const std::size_t end = view.from_beginning ? view.lines.size() : view.lines.size() - scrolled;
+  const std::size_t begin = view.from_beginning ? scrolled : end > rows ? end - rows : 0;
   for (std::size_t i = 0; i < rows; ++i) {
     put(static_cast<int>(i) + kHeadingLines, begin + i < end ? view.lines[begin + i] : "");
   }

@@ -16,7 +16,8 @@ struct TopView {
   std::size_t selected = 0;  // of `rows`
   std::string title;         // not empty: the lines of a process are shown instead of the table
   std::vector<std::string> lines;
-  std::size_t scrolled = 0;  // lines from the end
+  std::size_t scrolled = 0;  // lines from the end, or from the beginning
+  bool from_beginning = false;
   std::string message;
   std::string prompt;  // not empty: the user types `input`
   std::string input;
@@ -37,8 +38,9 @@ class TopScreen {
   void draw(const TopView& view);
   // A Key, or the character that was typed. kNone: no key waits.
   int key();
-  // Lines between heading and foot.
+  // Lines between heading and foot, and columns.
   std::size_t height() const;
+  std::size_t width() const;
 
  private:
   void draw_table(const TopView& view);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an analysis tells while it reads.
-#include "tracing/analysis/execution_sink.hpp"
+#include "tracing/execution/execution_sink.hpp"
 
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ std::vector<json> events_of(const json& trace, const std::string& phase) {
 TEST(PerfettoExport, HasEverythingOfACycle) {
   const json trace = exported(testing::traced_example(1));
   EXPECT_EQ(trace["otherData"],
-            json::parse(R"json({"begin_ns":1767225600000000000,"directory":"/traces/example","lost_events":0})json"));
+            json::parse(R"json({"begin_ns":1767225599970000000,"directory":"/traces/example","lost_events":0})json"));
 
   std::map<std::string, int> phases;
   for (const json& event : trace["traceEvents"]) ++phases[event["ph"]];
@@ -41,27 +41,27 @@ TEST(PerfettoExport, HasEverythingOfACycle) {
 
   EXPECT_EQ(events_of(trace, "M")[1]["args"]["name"], "sensor");
   const std::vector<json> slices = events_of(trace, "X");
-  EXPECT_EQ(slices[0], json::parse(R"json({"ph":"X","cat":"callback","pid":101,"tid":101,"ts":20000.0,"dur":200.0,
+  EXPECT_EQ(slices[0], json::parse(R"json({"ph":"X","cat":"callback","pid":101,"tid":101,"ts":50000.0,"dur":200.0,
       "name":"timer 10 ms","args":{"node":"/sensor","symbol":"Sensor::on_timer()"
 }
 })json"));
   EXPECT_EQ(slices[1]["name"], "subscription /scan");
   EXPECT_EQ(slices[3], json::parse(R"json({"ph":"X","cat":"publish","name":"publish /scan","pid":101,"tid":101,
-      "ts":20095.0,"dur":5.0})json"));
+      "ts":50095.0,"dur":5.0})json"));
   EXPECT_EQ(
       events_of(trace, "s")[0],
-      json::parse(R"json({"ph":"s","cat":"message","name":"/scan","id":0,"pid":101,"tid":101,"ts":20095.0})json"));
+      json::parse(R"json({"ph":"s","cat":"message","name":"/scan","id":0,"pid":101,"tid":101,"ts":50095.0})json"));
   EXPECT_EQ(
       events_of(trace, "f")[0],
       json::parse(
-          R"json({"ph":"f","bp":"e","cat":"message","name":"/scan","id":0,"pid":102,"tid":102,"ts":20300.0})json"));
+          R"json({"ph":"f","bp":"e","cat":"message","name":"/scan","id":0,"pid":102,"tid":102,"ts":50300.0})json"));
   EXPECT_EQ(events_of(trace, "C")[0], json::parse(R"json({"ph":"C","name":"latency of /scan","pid":102,"tid":102,
-      "ts":20300.0,"args":{"us":200.0}})json"));
+      "ts":50300.0,"args":{"us":200.0}})json"));
   EXPECT_EQ(events_of(trace, "b")[4], json::parse(R"json({"ph":"b","cat":"lifecycle","id":2,"name":"/display active",
-      "pid":103,"tid":103,"ts":9500.0})json"));
+      "pid":103,"tid":103,"ts":39500.0})json"));
   EXPECT_EQ(events_of(trace, "i")[0],
             json::parse(R"json({"ph":"i","s":"p","cat":"start","name":"exec","pid":101,"tid":101,
-      "ts":-30000.0,"args":{"process":"sensor-1","file":"/examples/system.launch.xml","line":3}})json"));
+      "ts":0.0,"args":{"process":"sensor-1","file":"/examples/system.launch.xml","line":3}})json"));
 }
 
 TEST(PerfettoExport, HasARowForWhatAThreadDidOnTheMachine) {
@@ -73,14 +73,14 @@ TEST(PerfettoExport, HasARowForWhatAThreadDidOnTheMachine) {
     if (slice["cat"] == "state") states.push_back(slice);
   }
   EXPECT_EQ(*std::find_if(states.begin(), states.end(), [](const json& one) { return one["args"].size() == 2; }),
-            json::parse(R"json({"ph":"X","cat":"state","name":"runnable","pid":102,"tid":2000000001,"ts":211600.0,
+            json::parse(R"json({"ph":"X","cat":"state","name":"runnable","pid":102,"tid":2000000001,"ts":241600.0,
       "dur":3500.0,"args":{"cpu":1,"ran_instead":"stress [90]"}})json"));
   std::vector<json> counters;
   for (const json& counter : events_of(trace, "C")) {
     if (counter["name"] == "threads that wait for a processor") counters.push_back(counter);
   }
   EXPECT_EQ(counters.back()["args"], json::parse(R"json({"threads":0})json"));
-  EXPECT_EQ(counters.back()["ts"], 215100.0);
+  EXPECT_EQ(counters.back()["ts"], 245100.0);
 }
 
 // Perfetto connects an arrow with the slice that holds its time.
@@ -102,9 +102,25 @@ TEST(PerfettoExport, EndsOfFlowsLieWithinSlices) {
   EXPECT_EQ(ends, 2 * 119);
 }
 
+// Perfetto takes what stands behind the point of a negative time for positive, and in some releases displayTimeUnit for
+// the unit of all times.
+TEST(PerfettoExport, HasNoNegativeTimesAndNoUnit) {
+  const json trace = exported(testing::traced_example(3));
+  EXPECT_FALSE(trace.contains("displayTimeUnit"));
+  for (const json& event : trace["traceEvents"]) EXPECT_GE(event.value("ts", 0.0), 0) << event;
+}
+
 TEST(PerfettoExport, KeepsProcessesOfTwoMachinesApart) {
   TracedSystem system;
-  system.timeline.processes = {{71, "ping", "left", {}}, {71, "ping", "right", {}}};
+  system.timeline.processes = {{71, "ping", "left", 0}, {71, "ping", "right", 1}};
+  system.results.starts.resize(2);
+  for (std::size_t id = 0; id < 2; ++id) {
+    system.results.starts[id].vpid = 71;
+    system.results.starts[id].place = id;
+  }
+  const std::vector<json> starts = events_of(exported(system), "i");
+  EXPECT_EQ(starts[0]["pid"], 71);
+  EXPECT_EQ(starts[1]["pid"], 1'000'000'071);
   const std::vector<json> names = events_of(exported(system), "M");
   EXPECT_EQ(names[0]["pid"], 71);
   EXPECT_EQ(names[0]["args"]["name"], "left ping");

@@ -29,17 +29,25 @@ TEST_F(LiveViewOfTheExample, ShowsSubscriptionsAndCallbacks) {
             R"(1360 events/s, 149 callbacks/s, 99 messages/s, latency p50 205 us, p99 205 us
 none lost
 
-Messages, publish to callback   rate     p50     p99     max
-  /scan  to /filter            50 Hz  205 us  205 us  205 us
-  /points  to /display         49 Hz  205 us  205 us  205 us
+Nodes       callbacks    load  longest  missed
+  /filter       50 Hz  2.90 %  4.00 ms       -
+  /sensor       50 Hz  1.00 %   200 us       -
+  /display      49 Hz  0.24 %  50.0 us       -
 
-Callbacks                         rate      p50      p99      max
-  /filter subscription /scan     50 Hz   400 us  4.00 ms  4.00 ms
-  /sensor timer 10 ms            50 Hz   200 us   200 us   200 us
-  /display subscription /points  49 Hz  50.0 us  50.0 us  50.0 us
+Messages, publish to callback   rate     p50     p99     max  dropped
+  /scan  to /filter            50 Hz  205 us  205 us  205 us        -
+  /points  to /display         49 Hz  205 us  205 us  205 us        1
+
+Callbacks                         rate      p50      p99      max  missed
+  /filter subscription /scan     50 Hz   400 us  4.00 ms  4.00 ms       -
+  /sensor timer 10 ms            50 Hz   200 us   200 us   200 us       -
+  /display subscription /points  49 Hz  50.0 us  50.0 us  50.0 us       -
 )");
   EXPECT_EQ(view_.screen(2, {.width = 60, .top = 1}), R"(1360 events/s, 149 callbacks/..atency p50 205 us, p99 205 us
 none lost
+
+Nodes, 1 of 3  callbacks    load  longest  missed
+  /filter          50 Hz  2.90 %  4.00 ms       -
 
 Messages, publish to callback, 1 of 2   rate     p50     p99     max
   /scan  to /filter            50 Hz  205 us  205 us  205 us
@@ -52,6 +60,28 @@ Callbacks, 1 of 3             rate     p50      p99      max
 TEST_F(LiveViewOfTheExample, BeginsAnewWhenItIsCleared) {
   view_.clear();
   EXPECT_EQ(view_.line(2), "0 events/s, 0 callbacks/s, 0 messages/s, none lost");
+}
+
+TEST_F(LiveViewOfTheExample, ShowsWhatRestsForTenIntervals) {
+  view_.clear();
+  EXPECT_EQ(view_.screen(2, {}), R"(0 events/s, 0 callbacks/s, 0 messages/s
+none lost
+
+Nodes       callbacks    load  longest  missed
+  /display       0 Hz  0.00 %        -       -
+  /filter        0 Hz  0.00 %        -       -
+  /sensor        0 Hz  0.00 %        -       -
+
+Messages, publish to callback  rate  p50  p99  max  dropped
+  /scan  to /filter            0 Hz    -    -    -        -
+  /points  to /display         0 Hz    -    -    -        1
+
+Callbacks                        rate  p50  p99  max  missed
+  /sensor timer 10 ms            0 Hz    -    -    -       -
+  /filter subscription /scan     0 Hz    -    -    -       -
+  /display subscription /points  0 Hz    -    -    -       -
+)");
+  for (int i = 0; i < 9; ++i) view_.clear();
   EXPECT_EQ(view_.screen(2, {}), "0 events/s, 0 callbacks/s, 0 messages/s\nnone lost\n");
 }
 

@@ -67,9 +67,11 @@ function overviewView(data) {
 // What tracing took of the processors, as the verdict of the recording estimates it.
 function costPanel({cost: {ns_per_event: each, processes}, overview, duration, whole}) {
   const span = whole ? whole.end - whole.begin : duration;
-  const all = each * overview.events;
+  // The cost of events of the kernel is not measured; their names have no provider.
+  const userspace = overview.event_counts.reduce((sum, event) => sum + (event.name.includes(':') ? event.total : 0), 0);
+  const all = each * userspace;
   const rate = span > 0 ? `, ${formatPercent(all / span)} of a processor` : '';
-  return panel('Cost of tracing', element('p', {}, `${formatDuration(all)}${rate}: ${formatDuration(each)} for each event.`),
+  return panel('Cost of tracing', element('p', {}, `${formatDuration(all)}${rate}: ${formatDuration(each)} for each event${userspace < overview.events ? ', without the events of the kernel' : ''}.`),
     processes.length === 0 ? null : dataTable(processes, [
       {title: 'Process', value: row => row.name, wide: true}, {title: 'Id', value: row => row.vpid},
       {title: 'Events', value: row => row.events, show: row => formatCount(row.events)},

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// How busy the threads of executors are.
+#pragma once
+
+#include <cstdint>
+
+#include "tracing/execution/execution_sink.hpp"
+#include "tracing/execution/thread_map.hpp"
+
+namespace tracing {
+
+struct ExecutorRecord {
+  std::int64_t first_ns = 0;  // of what is known about the thread
+  std::int64_t last_ns = 0;
+  std::uint64_t waits = 0;  // 0: the executor records none, such as an EventsExecutor
+  std::int64_t waited_ns = 0;
+  std::uint64_t callbacks = 0;  // those that ran within another one don't count here
+  std::int64_t callback_ns = 0;
+  // The longest time without a look for work: no other callback of the thread could begin.
+  std::int64_t longest_busy_ns = 0;
+  std::int64_t longest_busy_begin_ns = 0;
+  ObjectId longest_callback = kNoObject;  // of all callbacks in that time
+  std::int64_t busy_since_ns = 0;
+  ObjectId candidate = kNoObject;  // the longest callback since then
+  std::int64_t candidate_ns = 0;
+};
+
+class ExecutorLoad : public ExecutionSink {
+ public:
+  void on_callback(const CallbackInstance& instance) override;
+  void on_executor_wait(const ExecutorWait& wait) override;
+
+  const ThreadMap<ExecutorRecord>& records() const { return records_; }
+
+ private:
+  ThreadMap<ExecutorRecord> records_;
+};
+
+}  // namespace tracing

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A live session that records all nodes, for one program, with the relay daemon that gets it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+
+#include "launcher/base/unique_fd.hpp"
+#include "tracing/reader/live_reader.hpp"
+#include "tracing/watch/private_relay.hpp"
+
+namespace tracing {
+
+// The session ends with this object, and with this process however that ends: `launch trace` holds it, which ends it
+// with its input. To be made while the process has one thread.
+class TracedNodes {
+ public:
+  // Throws std::runtime_error or TraceReadError, whose text may have a second line that says what to do.
+  TracedNodes();
+  ~TracedNodes();
+  TracedNodes(const TracedNodes&) = delete;
+  TracedNodes& operator=(const TracedNodes&) = delete;
+
+  // Gives what is recorded. Nodes that are there already tell of their objects again.
+  LiveReader& reader() { return reader_; }
+  // Returns when all is recorded.
+  void end();
+
+ private:
+  void start();
+  void attach();
+  bool is_recorded_for(std::chrono::milliseconds time) const;
+
+  PrivateRelay relay_;
+  std::string session_;
+  pid_t recorder_ = -1;
+  launch::UniqueFd alive_;     // the recorder's input
+  launch::UniqueFd problems_;  // its errors
+  LiveReader reader_;
+};
+
+}  // namespace tracing
