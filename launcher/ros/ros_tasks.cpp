@@ -165,6 +165,7 @@ bool RosTasks::report(const LoadRequest& request, std::size_t step, const RosAns
     context_.message(LogLevel::kError, kLoadLogger,
                      fmt::format("Failed to load node '{}' of type '{}' in container '{}': {} ({})", node.name,
                                  node.plugin, request.target, without_line_end(answer.error), to_string(node.origin)));
+    note_failure(fmt::format("component '{}' of type '{}' was not loaded", node.name, node.plugin), node.origin);
     return true;  // a component that can't be loaded doesn't prevent the loading of the others
   }
   context_.message(LogLevel::kInfo, kLoadLogger,
@@ -185,6 +186,12 @@ bool RosTasks::report(const TransitionRequest& request, std::size_t step, const 
       fmt::format("Failed to make transition '{}' for LifecycleNode '{}'{} ({})", request.transitions[step],
                   request.node, answer.error.empty() ? std::string() : ": " + answer.error, to_string(request.origin)));
   return false;
+}
+
+void RosTasks::note_failure(const std::string& what, const SourceRange& where) const {
+  if (failure_observer_) {
+    failure_observer_(what, where);
+  }
 }
 
 void RosTasks::on_process_event(const ProcessEvent& event) {

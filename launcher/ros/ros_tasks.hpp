@@ -32,6 +32,10 @@ class RosTasks {
   RosTasks(LaunchContext& context, EventLoop& loop, std::function<void()> idle,
            std::function<void(const LaunchError&)> failed);
 
+  // Called for each component that could not be loaded.
+  using FailureObserver = std::function<void(const std::string& what, const SourceRange& where)>;
+  void observe_failures(FailureObserver observer) { failure_observer_ = std::move(observer); }
+
   void start(std::vector<LoadRequest> loads, std::vector<TransitionRequest> transitions);
 
   // Gives the names of a process. A fully qualified name is the name of its node.
@@ -46,6 +50,7 @@ class RosTasks {
   bool idle() const { return tasks_.empty(); }
 
  private:
+  void note_failure(const std::string& what, const SourceRange& where) const;
   using Request = std::variant<LoadRequest, TransitionRequest>;
   struct Task {
     Request request;
@@ -70,6 +75,7 @@ class RosTasks {
   LaunchContext& context_;
   EventLoop& loop_;
   std::function<void()> idle_;
+  FailureObserver failure_observer_;
   std::function<void(const LaunchError&)> failed_;
 
   std::list<Task> tasks_;

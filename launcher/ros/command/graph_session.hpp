@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hidden node of one command, from which it looks at the ROS graph and takes part in it.
+#pragma once
+
+#include <rcl/client.h>
+#include <rcl/subscription.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <optional>
+#include <rclcpp/rclcpp.hpp>
+#include <string>
+#include <vector>
+
+namespace launch {
+
+using SessionClock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+// One at a time. All functions are called on one thread.
+class GraphSession {
+ public:
+  // `name` is that of the node; empty: a hidden one. SIGINT and SIGTERM end waiting from now on.
+  explicit GraphSession(const std::string& name = {});
+  ~GraphSession();
+  GraphSession(const GraphSession&) = delete;
+  GraphSession& operator=(const GraphSession&) = delete;
+
+  rclcpp::Node& node() { return *node_; }
+  rcl_node_t& rcl_node();
+
+  // Whether the user has asked to stop.
+  static bool is_stopped();
+  // So that what must be done before the end can wait. Only the next signal stops it.
+  static void forget_stop();
+
+  // Waits until nothing has been found for a moment. With `time`: exactly so long.
+  void discover(std::optional<Seconds> time);
+  // Looks again after each change until `holds` is true. False when `time` is over or the user has asked to stop.
+  bool wait_until(const std::function<bool()>& holds, std::optional<Seconds> time = std::nullopt);
+
+  struct WakeUps {
+    std::vector<const rcl_subscription_t*> subscriptions = {};
+    std::vector<const rcl_client_t*> clients = {};
+  };
+  // Waits for one of these, for a change of the graph, for the signal or for the time.
+  void wait(const WakeUps& wake_ups, SessionClock::time_point until);
+
+ private:
+  std::shared_ptr<rclcpp::Node> node_;
+  SessionClock::time_point last_change_;
+};
+
+}  // namespace launch

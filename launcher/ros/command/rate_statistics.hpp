@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `launch topic hz`, `delay` and `bw` compute of the last messages, and how they print it. Times are seconds.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace launch {
+
+class RateStatistics {
+ public:
+  struct Summary {
+    double mean = 0.0, least = 0.0, most = 0.0, deviation = 0.0;
+    std::size_t count = 0;
+  };
+
+  explicit RateStatistics(std::size_t window) : window_(window) {}
+
+  void add(double value);
+  // Adds the time since the arrival before, if there was one and the clock has not gone back.
+  void add_arrival(double now);
+  // None if nothing was added since the last call.
+  std::optional<Summary> take_summary();
+
+ private:
+  std::size_t window_;
+  std::deque<double> values_;
+  std::optional<double> last_arrival_;
+  bool is_new_ = false;
+};
+
+class BandwidthStatistics {
+ public:
+  explicit BandwidthStatistics(std::size_t window) : window_(window) {}
+
+  void add(double now, std::size_t size);
+  // Empty before the second message.
+  std::string text(double now) const;
+
+ private:
+  std::size_t window_;
+  std::deque<std::pair<double, std::size_t>> messages_;
+};
+
+std::string rate_text(const RateStatistics::Summary& periods);
+std::string delay_text(const RateStatistics::Summary& delays);
+// Empty without rows.
+std::string rate_table(const std::vector<std::pair<std::string, RateStatistics::Summary>>& rows);
+
+}  // namespace launch
