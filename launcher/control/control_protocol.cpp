@@ -125,7 +125,8 @@ Json describe(const LaunchFacts& facts, bool ending) {
           {"command", facts.command},
           {"directory", facts.directory},
           {"started", facts.started},
-          {"log_directory", facts.log_directory}};
+          {"log_directory", facts.log_directory},
+          {"log_file", facts.log_file}};
 }
 
 struct EventWriter {
@@ -157,6 +158,10 @@ struct EventWriter {
   void operator()(const ProcessLeft& left) const {
     json["event"] = "left_running";
     json["pid"] = left.pid;
+  }
+  void operator()(const RespawnSlowed& slowed) const {
+    json["event"] = "respawn_slowed";
+    json["runs"] = slowed.runs;
   }
   void operator()(const ProcessDone&) const { json["event"] = "done"; }
 };

@@ -25,7 +25,8 @@ struct LaunchFacts {
   std::vector<std::string> files;    // launch files
   std::string directory;             // in which it was started
   std::string log_directory;
-  double started = 0;  // seconds since 1970
+  std::string log_file;  // its path
+  double started = 0;    // seconds since 1970
 };
 
 struct ControlRequest {

@@ -150,7 +150,7 @@ void LaunchControl::watch_output() {
 
 std::size_t LaunchControl::log_size() const {
   std::error_code unreadable;
-  const std::uintmax_t size = std::filesystem::file_size(facts_.log_directory + "/launch.log", unreadable);
+  const std::uintmax_t size = std::filesystem::file_size(facts_.log_file, unreadable);
   return unreadable ? 0 : static_cast<std::size_t>(size);
 }
 

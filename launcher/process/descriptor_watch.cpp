@@ -15,6 +15,7 @@ namespace {
 constexpr int kBatch = 64;
 // An exit is reported once. EPOLLONESHOT keeps the registration, so that it can be armed again.
 constexpr std::uint32_t kReadable = EPOLLIN;
+constexpr std::uint32_t kWritable = EPOLLOUT;
 constexpr std::uint32_t kExit = EPOLLIN | EPOLLONESHOT;
 
 [[noreturn]] void fail_to_watch(const char* what) {
@@ -74,6 +75,10 @@ DescriptorWatch::DescriptorWatch() : epoll_(std::make_shared<UniqueFd>(::epoll_c
 
 EventLoop::SourcePtr DescriptorWatch::on_readable(int fd, EventLoop::Callback callback) {
   return add(fd, kReadable, std::move(callback));
+}
+
+EventLoop::SourcePtr DescriptorWatch::on_writable(int fd, EventLoop::Callback callback) {
+  return add(fd, kWritable, std::move(callback));
 }
 
 EventLoop::SourcePtr DescriptorWatch::on_exit(int pidfd, EventLoop::Callback callback) {

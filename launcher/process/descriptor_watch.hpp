@@ -23,8 +23,9 @@ class DescriptorWatch {
   // Readable whenever run_batch() has something to do.
   int fd() const { return epoll_->get(); }
 
-  // As EventLoop::on_readable() and EventLoop::on_exit(). A descriptor can have one of the two at a time.
+  // As the functions of EventLoop with these names.
   EventLoop::SourcePtr on_readable(int fd, EventLoop::Callback callback);
+  EventLoop::SourcePtr on_writable(int fd, EventLoop::Callback callback);
   EventLoop::SourcePtr on_exit(int pidfd, EventLoop::Callback callback);
 
   // Calls back for a bounded number of ready descriptors, and stops when `stop` returns true after a callback. The next

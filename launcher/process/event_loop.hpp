@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <memory>
+#include <vector>
 
 namespace launch {
 
@@ -27,6 +27,8 @@ class EventLoop {
 
   // Calls back whenever `fd` is readable, at end of file and on errors too. Does not own the descriptor.
   [[nodiscard]] virtual SourcePtr on_readable(int fd, Callback callback) = 0;
+  // Calls back whenever `fd` takes bytes, and on errors too. A descriptor can't be watched in two ways at a time.
+  [[nodiscard]] virtual SourcePtr on_writable(int fd, Callback callback) = 0;
   // Calls back once, when the process behind a pidfd has exited and can be reaped. Exits are delivered after output
   // that is already readable.
   [[nodiscard]] virtual SourcePtr on_exit(int pidfd, Callback callback) = 0;
@@ -34,7 +36,7 @@ class EventLoop {
   [[nodiscard]] virtual SourcePtr after(Duration delay, Callback callback) = 0;
   // Calls back on each delivery of one of the signals, before other pending work. The signals are blocked for the
   // process from now on; children get them unblocked (process_runner.hpp).
-  [[nodiscard]] virtual SourcePtr on_signal(std::initializer_list<int> signals, std::function<void(int)> callback) = 0;
+  [[nodiscard]] virtual SourcePtr on_signal(const std::vector<int>& signals, std::function<void(int)> callback) = 0;
 
   // Runs the callback in a later turn of the loop. The only function that other threads may call.
   virtual void post(Callback callback) = 0;

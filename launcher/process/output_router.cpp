@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/output_router.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -12,12 +11,13 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "launcher/base/unique_fd.hpp"
 #include "launcher/base/utf8.hpp"
+#include "launcher/process/log_file.hpp"
 
 namespace launch {
 namespace {
@@ -53,32 +53,23 @@ std::string time_stamp() {
   return fmt::format("{}.{:07} ", now.tv_sec, now.tv_nsec / 100);
 }
 
-// Writes everything, even if the descriptor is non-blocking: other programs share the terminal and may have made it so.
-// Returns 0 or the error number.
-int write_all(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-    if (written >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno == EAGAIN) {
-      pollfd writable{fd, POLLOUT, 0};
-      ::poll(&writable, 1, -1);
-    } else if (errno != EINTR) {
-      return errno;
-    }
-  }
-  return 0;
+double seconds_since_1970() {
+  timespec now{};
+  ::clock_gettime(CLOCK_REALTIME, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+// Whether lines of both would get mixed up if each had a queue of its own.
+bool is_same_file(int one, int other) {
+  struct stat first {};
+  struct stat second {};
+  return ::fstat(one, &first) == 0 && ::fstat(other, &second) == 0 && first.st_dev == second.st_dev &&
+         first.st_ino == second.st_ino && !S_ISREG(first.st_mode);
 }
 
 }  // namespace
 
 struct OutputRouter::Impl {
-  // One log file. Only its first error is reported; later lines are tried again, since a full disk may get room.
-  struct LogFile {
-    std::string path;
-    UniqueFd fd;
-    bool failure_told = false;
-  };
   struct Stream {
     std::string prefix;  // "[LABEL] "
     std::string rest;    // bytes of a line that has not ended yet
@@ -89,7 +80,7 @@ struct OutputRouter::Impl {
     LogFile both;  // LABEL.log
   };
 
-  explicit Impl(Options given) : options(std::move(given)) {}
+  explicit Impl(Options given);
 
   Child& child(ProcessId process) {
     if (children.size() <= process) {
@@ -97,6 +88,10 @@ struct OutputRouter::Impl {
     }
     if (!children[process]) {
       children[process] = std::make_unique<Child>();
+      Child& created = *children[process];
+      for (LogFile* const file : {&created.streams[0].own, &created.streams[1].own, &created.both}) {
+        file->set_limits({options.rotation.size, options.rotation.files});
+      }
     }
     return *children[process];
   }
@@ -104,14 +99,19 @@ struct OutputRouter::Impl {
   void write_lines(ProcessId process, Child& owner, Stream& stream, const std::string& label, OutputStream which,
                    const OutputTargets& targets, std::string_view text);
   void observe(ProcessId process, OutputStream which, std::string_view text);
-  void to_screen(std::string_view text);
+  // False: the lines are not shown. `logged`: they are in launch.log.
+  bool to_screen(std::string_view text, bool logged);
+  void finish_screens();
+  // Takes whole lines as they would stand on the screen.
+  void to_launch_log(std::string_view lines);
   void to_file(LogFile& file, std::string_view text);
 
   Options options;
   LineObserver line_observer;
-  bool screen_gone = false;
   LogFile launch_log;
   std::vector<std::unique_ptr<Child>> children;  // by ProcessId
+  Screen screen;
+  std::optional<Screen> error_screen;  // unless errors go where the other lines go
   // Kept between calls for their memory.
   std::string repaired;
   std::string plain_lines;
@@ -126,16 +126,32 @@ OutputRouter::OutputRouter(Options options) : impl_(std::make_unique<Impl>(std::
     ::sigaction(SIGPIPE, &action, nullptr);
   }
   if (!impl_->options.log_directory.empty()) {
-    Impl::LogFile& log = impl_->launch_log;
-    log.path = impl_->options.log_directory + "/launch.log";
-    log.fd.reset(::open(log.path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (!log.fd) {
-      throw std::system_error(errno, std::system_category(), fmt::format("cannot create '{}'", log.path));
+    LogFile& log = impl_->launch_log;
+    log.set_path(impl_->options.log_directory + "/" + impl_->options.log_name);
+    if (!log.open()) {
+      throw std::system_error(errno, std::system_category(), fmt::format("cannot create '{}'", log.path()));
     }
   }
 }
 
-OutputRouter::~OutputRouter() = default;
+OutputRouter::~OutputRouter() {
+  impl_->finish_screens();
+}
+
+OutputRouter::Impl::Impl(Options given)
+    : options(std::move(given)), screen(options.screen_fd, options.loop, options.screen_limits) {
+  const Screen::Notice notice = [this](std::size_t lines) {
+    const std::string place = launch_log.is_open() ? fmt::format(", all are in {}", launch_log.path()) : std::string();
+    return fmt::format("[WARNING] [launch]: {} {} dropped on the screen{}\n", lines, lines == 1 ? "line" : "lines",
+                       place);
+  };
+  launch_log.set_limits({options.rotation.size, options.rotation.files});
+  screen.tell_of_dropped(notice);
+  if (options.error_fd >= 0 && !is_same_file(options.screen_fd, options.error_fd)) {
+    error_screen.emplace(options.error_fd, options.loop, options.screen_limits);
+    error_screen->tell_of_dropped(notice);
+  }
+}
 
 void OutputRouter::write(ProcessId process, const std::string& label, OutputStream which, const OutputTargets& targets,
                          std::string_view bytes) {
@@ -170,9 +186,9 @@ void OutputRouter::close_stream(ProcessId process, const std::string& label, Out
     const std::string last = std::exchange(stream.rest, {});
     impl_->write_lines(process, child, stream, label, which, targets, last);
   }
-  stream.own.fd.reset();
-  if (!child.streams[0].own.fd && !child.streams[1].own.fd) {
-    child.both.fd.reset();
+  stream.own.close();
+  if (!child.streams[0].own.is_open() && !child.streams[1].own.is_open()) {
+    child.both.close();
   }
 }
 
@@ -184,13 +200,26 @@ void OutputRouter::message(LogLevel level, std::string_view logger, std::string_
   const LevelStyle look = style(level);
   std::string repaired;
   append_as_utf8(repaired, text);
-  if (level >= impl_->options.screen_level) {
-    const bool colour = impl_->options.colour && *look.colour != '\0';
-    impl_->to_screen(fmt::format("{}[{}] [{}]: {}{}\n", colour ? look.colour : "", look.name, logger, repaired,
-                                 colour ? "\033[0m" : ""));
+  const FormattedMessage message{seconds_since_1970(), (static_cast<int>(level) + 1) * 10, look.name, logger, repaired};
+  const std::string usual = fmt::format("[{}] [{}]: {}", look.name, logger, repaired);
+  const Options& options = impl_->options;
+  if (level >= options.screen_level) {
+    const bool colour = options.colour && *look.colour != '\0';
+    const std::string line = options.screen_format ? options.screen_format->line(message)
+                             : options.timestamps  ? time_stamp() + usual
+                                                   : usual;
+    impl_->to_screen(fmt::format("{}{}{}\n", colour ? look.colour : "", line, colour ? "\033[0m" : ""), true);
   }
-  if (impl_->launch_log.fd) {
-    impl_->to_file(impl_->launch_log, fmt::format("{}[{}] [{}]: {}\n", time_stamp(), look.name, logger, repaired));
+  if (impl_->launch_log.is_open()) {
+    const std::string line = options.log_format ? options.log_format->line(message) : time_stamp() + usual;
+    impl_->to_file(impl_->launch_log, line + "\n");
+  }
+}
+
+void OutputRouter::error(std::string_view text) {
+  Screen& screen = impl_->error_screen ? *impl_->error_screen : impl_->screen;
+  if (!screen.print(text, false)) {
+    impl_->to_launch_log(text);
   }
 }
 
@@ -215,7 +244,8 @@ void OutputRouter::Impl::write_lines(ProcessId process, Child& owner, Stream& st
   if (stream.prefix.empty()) {
     stream.prefix = fmt::format("[{}] ", label);
   }
-  const std::string stamp = stamped ? time_stamp() : std::string();
+  const bool stamps_screen = targets.screen && options.timestamps;
+  const std::string stamp = stamped || stamps_screen ? time_stamp() : std::string();
   plain_lines.clear();
   stamped_lines.clear();
   for (bool more = true; more;) {
@@ -225,23 +255,23 @@ void OutputRouter::Impl::write_lines(ProcessId process, Child& owner, Stream& st
     if (plain) {
       plain_lines.append(stream.prefix).append(line).push_back('\n');
     }
-    if (stamped) {
+    if (stamped || stamps_screen) {
       stamped_lines.append(stamp).append(stream.prefix).append(line).push_back('\n');
     }
     text.remove_prefix(more ? end + 1 : text.size());
   }
-  if (targets.screen) {
-    to_screen(plain_lines);
-  }
+  const bool shown = !targets.screen || to_screen(stamps_screen ? stamped_lines : plain_lines, stamped);
   if (stamped) {
     to_file(launch_log, stamped_lines);
+  } else if (!shown) {
+    to_launch_log(plain_lines);
   }
   if (own_log) {
     std::string name = label;
     std::replace(name.begin(), name.end(), '/', '_');
     const std::string base = options.log_directory + "/" + name;
-    stream.own.path = base + (which == OutputStream::kOut ? "-stdout.log" : "-stderr.log");
-    owner.both.path = base + ".log";
+    stream.own.set_path(base + (which == OutputStream::kOut ? "-stdout.log" : "-stderr.log"));
+    owner.both.set_path(base + ".log");
     to_file(stream.own, plain_lines);
     to_file(owner.both, plain_lines);
   }
@@ -260,21 +290,50 @@ void OutputRouter::Impl::observe(ProcessId process, OutputStream which, std::str
   }
 }
 
-void OutputRouter::Impl::to_screen(std::string_view text) {
-  // A screen that has gone (a closed terminal, the end of a pipe) does not come back. The logs go on.
-  if (!screen_gone) {
-    screen_gone = write_all(options.screen_fd, text) != 0;
+bool OutputRouter::Impl::to_screen(std::string_view text, bool logged) {
+  const bool was_gone = screen.is_gone();
+  const bool shown = screen.print(text, logged);
+  if (!was_gone && screen.is_gone()) {
+    // A closed terminal or the end of a pipe. It does not come back, and the logs go on.
+    to_launch_log("[WARNING] [launch]: the screen is gone, its lines follow here\n");
+  }
+  return shown;
+}
+
+void OutputRouter::Impl::finish_screens() {
+  for (Screen* const each : {&screen, error_screen ? &*error_screen : nullptr}) {
+    if (each == nullptr || each->is_gone()) {
+      continue;
+    }
+    const Screen::Rest rest = each->finish();
+    if (!options.timestamps) {
+      to_launch_log(rest.unlogged);
+    } else if (launch_log.is_open()) {
+      to_file(launch_log, rest.unlogged);
+    }
+    if (rest.lines > 0) {
+      to_launch_log(fmt::format("[WARNING] [launch]: the screen has not taken the last {} lines\n", rest.lines));
+    }
   }
 }
 
-void OutputRouter::Impl::to_file(LogFile& file, std::string_view text) {
-  if (!file.fd) {
-    file.fd.reset(::open(file.path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+void OutputRouter::Impl::to_launch_log(std::string_view lines) {
+  if (!launch_log.is_open() || lines.empty()) {
+    return;
   }
-  const int error = file.fd ? write_all(file.fd.get(), text) : errno;
-  if (error != 0 && !file.failure_told) {
-    file.failure_told = true;
-    to_screen(fmt::format("[WARNING] [launch]: cannot write '{}': {}\n", file.path, std::strerror(error)));
+  const std::string stamp = time_stamp();
+  std::string stamped;
+  while (!lines.empty()) {
+    const std::size_t size = std::min(lines.find('\n'), lines.size() - 1) + 1;
+    stamped.append(stamp).append(lines.substr(0, size));
+    lines.remove_prefix(size);
+  }
+  to_file(launch_log, stamped);
+}
+
+void OutputRouter::Impl::to_file(LogFile& file, std::string_view text) {
+  if (const int error = file.append(text); error != 0) {
+    screen.print(fmt::format("[WARNING] [launch]: cannot write '{}': {}\n", file.path(), std::strerror(error)), true);
   }
 }
 

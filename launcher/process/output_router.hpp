@@ -2,14 +2,18 @@
 // Takes whole lines of children and of the launcher to the screen and to log files.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "launcher/process/message_format.hpp"
 #include "launcher/process/process_spec.hpp"
+#include "launcher/process/screen.hpp"
 
 namespace launch {
 
@@ -28,22 +32,35 @@ struct LogDirectory {
 };
 
 // Single-threaded. Lines are handed to the kernel before a call returns, all lines of one write() with one system call
-// for each destination. A screen that blocks (a paused terminal) blocks the caller. A screen that is gone gets no more
-// lines, while the logs go on. Ignores SIGPIPE in this process unless a handler is installed.
+// for each destination. A screen that takes no lines, because nobody reads it, holds up nothing (screen.hpp); lines
+// that it does not show are in launch.log, whatever their targets. Ignores SIGPIPE in this process unless a handler is
+// installed.
 class OutputRouter {
  public:
+  struct Rotation {
+    std::uint64_t size = 0;  // bytes of a log file; 0: no limit
+    int files = 5;           // of each log, the current one included: launch.log, launch.log.1, …
+  };
   struct Options {
     int screen_fd = 1;            // children's lines and launcher messages, as ROS 2 does
     std::string log_directory{};  // empty: no files are written
     LogLevel screen_level = LogLevel::kInfo;
     bool colour = false;
+    bool timestamps = false;                       // in front of each line of the screen, as in launch.log
+    std::optional<MessageFormat> screen_format{};  // of messages; none: "[INFO] [logger]: text"
+    std::optional<MessageFormat> log_format{};     // none: the same behind a time stamp
+    std::string log_name = "launch.log";
+    Rotation rotation{};
+    int error_fd = -1;          // for error(); negative: the screen
+    EventLoop* loop = nullptr;  // writes what a screen has not taken at once; must outlive the router
+    Screen::Limits screen_limits{};
   };
 
   explicit OutputRouter(Options options);
-  ~OutputRouter();
+  ~OutputRouter();  // waits for a screen that has lines left to take, but not long
 
   // Takes bytes read from a child. Complete lines are written at once; a rest waits for its end or for close_stream().
-  // Invalid UTF-8 becomes U+FFFD. A slow screen blocks the caller only as long as the write itself takes.
+  // Invalid UTF-8 becomes U+FFFD.
   void write(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets,
              std::string_view bytes);
   // The stream has ended: writes the rest as a line.
@@ -56,6 +73,9 @@ class OutputRouter {
 
   // A launcher message: "[INFO] [logger]: text" on the screen, with a time stamp in front in launch.log.
   void message(LogLevel level, std::string_view logger, std::string_view text);
+
+  // Shows lines on standard error as they are.
+  void error(std::string_view text);
 
  private:
   struct Impl;

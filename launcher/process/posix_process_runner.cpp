@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/pipe.hpp"
 #include "launcher/base/process_mark.hpp"
@@ -218,7 +219,7 @@ bool PosixProcessRunner::signal_group(const Process& process, int signal) {
     }
     return errno != EPERM;
   }
-  if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGQUIT) {
+  if (asks_to_end(signal)) {
     // A stopped group (reading the terminal from the background stops it) would not see the signal.
     ::kill(-process.pid, SIGCONT);
   }
@@ -235,6 +236,7 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
     }
   }
   exit.code = info.si_code == CLD_EXITED ? info.si_status : -info.si_status;
+  exit.core_dumped = info.si_code == CLD_DUMPED;
   return exit;
 }
 

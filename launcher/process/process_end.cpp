@@ -4,18 +4,11 @@
 
 #include <utility>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/process/supervised_process.hpp"
 
 namespace launch {
-
-namespace {
-
-bool asks_to_end(int signal) {
-  return signal == SIGINT || signal == SIGTERM || signal == SIGKILL || signal == SIGQUIT || signal == SIGHUP;
-}
-
-}  // namespace
 
 void Supervision::interrupt(Supervised& process) {
   process.state = ProcessState::kInterrupting;
@@ -151,7 +144,7 @@ void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_r
 }
 
 void Supervision::send(Supervised& process, int signal, int escalated_from, Duration waited) {
-  process.signalled = process.signalled || asks_to_end(signal);
+  process.signalled = process.signalled || asks_to_end(signal) || signal == SIGKILL;
   process.refused = !runner.signal_group(process.process, signal);
   notify(process, SignalSent{signal, escalated_from, waited});
 }

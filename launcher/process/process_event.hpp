@@ -42,6 +42,10 @@ struct ProcessLeft {
   pid_t pid;
   bool foreign;  // it belongs to another user; else it hangs in the kernel, or its leader belongs to another user
 };
+// It has ended so often at once that it is started again more and more slowly. Told once for each such series.
+struct RespawnSlowed {
+  int runs;
+};
 struct ProcessDone {};  // will not run again
 
 // `spec` and `label` stay valid as long as the supervisor.
@@ -49,7 +53,8 @@ struct ProcessEvent {
   ProcessId id;
   const std::string& label;
   const ProcessSpec& spec;
-  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, ProcessDone> what;
+  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, RespawnSlowed, ProcessDone>
+      what;
 };
 
 using ProcessOutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,

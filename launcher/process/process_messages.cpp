@@ -42,6 +42,9 @@ class Messages {
   void operator()(const ProcessExited& exited) const {
     if (exited.exit.code == 0) {
       say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", exited.pid));
+    } else if (event_.spec.allowed_exits.contains(exited.exit.code)) {
+      say(LogLevel::kInfo, fmt::format("process has finished with exit code {}, which is allowed [pid {}]",
+                                       exited.exit.code, exited.pid));
     } else {
       say(LogLevel::kError, fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", exited.pid,
                                         exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
@@ -62,6 +65,12 @@ class Messages {
     say(LogLevel::kError,
         fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, left.pid,
                     left.foreign ? "belongs to another user" : "has not ended after SIGKILL", place(event_.spec)));
+  }
+
+  void operator()(const RespawnSlowed& slowed) const {
+    say(LogLevel::kWarning, fmt::format("process has ended {} times in a row less than a second after its start; it is "
+                                        "started again more slowly, at last every 5 seconds{}",
+                                        slowed.runs, place(event_.spec)));
   }
 
   void operator()(const ProcessDone&) const {}

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/types.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -50,6 +51,16 @@ struct RespawnPolicy {
   Duration max_delay = std::chrono::seconds(60);
 };
 
+// Ends of a process that are no failures, beside exit code 0.
+struct AllowedExits {
+  bool any = false;
+  std::vector<int> codes;  // -N: ended by signal N
+
+  bool contains(int code) const {
+    return any || code == 0 || std::find(codes.begin(), codes.end(), code) != codes.end();
+  }
+};
+
 // Text that the process reads from a file of its own. The file is written before the first spawn into the run's private
 // directory, its path is put in place of argv[argument], and it is removed when the launch ends.
 struct GeneratedFile {
@@ -73,6 +84,8 @@ struct ProcessSpec {
   RespawnPolicy respawn;
   bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
   bool required = false;          // for observers: the launch ends as this process did
+  AllowedExits allowed_exits;
+  std::string crash_directory;  // for observers: where a bundle of each crash is made; empty: nowhere
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
@@ -98,6 +111,7 @@ struct ProcessExit {
   int code = 0;  // exit code; -N when ended by signal N, 127 when it could not be started
   Duration ran_for{0};
   rusage usage{};
+  bool core_dumped = false;
 };
 
 }  // namespace launch

@@ -181,6 +181,9 @@ void Supervision::conclude(Supervised& process) {
     wait_for_respawn(process, Duration{0});
   } else {
     wait_for_respawn(process, process.respawn_delay.next(process.spec.respawn, process.ran_for));
+    if (process.respawn_delay.slows_down()) {
+      notify(process, RespawnSlowed{RespawnDelay::kShortRuns});
+    }
   }
 }
 

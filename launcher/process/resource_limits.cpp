@@ -102,6 +102,9 @@ std::vector<std::string> describe(const ResourceLimits& limits) {
   if (limits.open_files) {
     lines.push_back(fmt::format("{} open files", *limits.open_files));
   }
+  if (limits.core_files) {
+    lines.push_back("core files");
+  }
   return lines;
 }
 
@@ -115,6 +118,9 @@ std::vector<std::string> launch_exec_arguments(const ResourceLimits& limits) {
   }
   if (limits.open_files) {
     arguments.push_back(fmt::format("{}{}", kStepOpenFiles, *limits.open_files));
+  }
+  if (limits.core_files) {
+    arguments.emplace_back(1, kStepCoreFiles);
   }
   if (limits.niceness) {
     arguments.push_back(fmt::format("{}{}", kStepNice, *limits.niceness));
@@ -146,6 +152,8 @@ std::string limit_failure(char step, int error, const ResourceLimits& limits) {
           "cannot allow {} open files (the hard limit is {}; raise it with the line `YOUR_USER - nofile "
           "{}` in a file in /etc/security/limits.d)",
           *limits.open_files, hard_limit(RLIMIT_NOFILE), *limits.open_files);
+    case kStepCoreFiles:
+      return "cannot allow core files";
     default:
       return fmt::format("launch-exec failed at step '{}'", step);
   }

@@ -16,11 +16,13 @@ struct ResourceLimits {
   std::vector<int> cpus;                    // that it may run on; empty: all those of the launcher
   std::optional<std::uint64_t> memory;      // bytes of private memory (RLIMIT_DATA)
   std::optional<std::uint64_t> open_files;  // descriptors (RLIMIT_NOFILE)
+  bool core_files = false;                  // of any size that the hard limit allows (RLIMIT_CORE)
 
-  bool any() const { return niceness || policy || !cpus.empty() || memory || open_files; }
+  bool any() const { return niceness || policy || !cpus.empty() || memory || open_files || core_files; }
 };
 
-// "nice -5", "policy fifo 80", "cpus 0,2-3", "memory 1048576 bytes", "64 open files": for --dry-run.
+// "nice -5", "policy fifo 80", "cpus 0,2-3", "memory 1048576 bytes", "64 open files", "core
+// files": for --dry-run.
 std::vector<std::string> describe(const ResourceLimits& limits);
 
 // "other", "batch", "idle", "fifo", "rr", by the number of the policy, and back (nothing for another word).

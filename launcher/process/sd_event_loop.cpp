@@ -53,9 +53,10 @@ class SdEventLoop final : public EventLoop {
   ~SdEventLoop() override;
 
   SourcePtr on_readable(int fd, Callback callback) override { return watch_.on_readable(fd, std::move(callback)); }
+  SourcePtr on_writable(int fd, Callback callback) override { return watch_.on_writable(fd, std::move(callback)); }
   SourcePtr on_exit(int pidfd, Callback callback) override { return watch_.on_exit(pidfd, std::move(callback)); }
   SourcePtr after(Duration delay, Callback callback) override;
-  SourcePtr on_signal(std::initializer_list<int> signals, std::function<void(int)> callback) override;
+  SourcePtr on_signal(const std::vector<int>& signals, std::function<void(int)> callback) override;
   void post(Callback callback) override;
   Duration now() const override;
   void run() override;
@@ -165,7 +166,7 @@ int SdEventLoop::expired(sd_event_source*, std::uint64_t, void* data) {
   return 0;
 }
 
-EventLoop::SourcePtr SdEventLoop::on_signal(std::initializer_list<int> signals, std::function<void(int)> callback) {
+EventLoop::SourcePtr SdEventLoop::on_signal(const std::vector<int>& signals, std::function<void(int)> callback) {
   auto registration = std::make_shared<Registration>(*this);
   registration->signal_callback = std::move(callback);
   sigset_t mask;

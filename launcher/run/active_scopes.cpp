@@ -28,6 +28,7 @@ ActiveScopes::ActiveScopes(EventLoop& loop, RunScope::Tell tell, std::vector<Tim
 
 void ActiveScopes::begin(std::unique_ptr<RunScope> scope, const std::vector<ProcessSpec>& processes, Begun done) {
   beginning_ = std::move(scope);
+  beginning_->observe_snapshots(snapshot_observer_);
   guard(*beginning_);
   beginning_->expect(processes);
   beginning_->begin(loop_, tell_,

@@ -29,6 +29,9 @@ class ActiveScopes {
   // Makes the guardian run the scopes' clean-up commands when the launcher is killed. It must outlive this object.
   void use_guardian(Guardian& guardian) { guardian_ = &guardian; }
 
+  // For the snapshots of every scope (run_scope.hpp).
+  void observe_snapshots(RunScope::SnapshotObserver observer) { snapshot_observer_ = std::move(observer); }
+
   // Begins one scope, for the processes that will start after it. The next one may begin when `done` is called. A scope
   // that can't begin is forgotten.
   void begin(std::unique_ptr<RunScope> scope, const std::vector<ProcessSpec>& processes, Begun done);
@@ -60,6 +63,7 @@ class ActiveScopes {
   std::unique_ptr<RunScope> beginning_;
   std::vector<std::unique_ptr<RunScope>> active_;
   bool hurried_ = false;
+  RunScope::SnapshotObserver snapshot_observer_;
   std::function<void(const LaunchError&)> failed_;  // of end()
   std::function<void()> done_;
 };

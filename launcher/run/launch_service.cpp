@@ -2,18 +2,15 @@
 #include "launcher/run/launch_service.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <string.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "launcher/base/monotonic_clock.hpp"
+#include "launcher/base/name_list.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/visit/farewell_check.hpp"
 
@@ -22,42 +19,7 @@ namespace launch {
 namespace {
 
 constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
-
-// Signals that follow sooner are the same wish: a terminal that is closed sends SIGHUP twice, timeout(1) signals its
-// command and then the group of the command.
-constexpr Duration kSameSignal = std::chrono::seconds(1);
-
-bool is_ignored(int signal) {
-  struct sigaction action {};
-  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-// Stops this process as Ctrl-Z stops a program that does not handle SIGTSTP. Returns after SIGCONT.
-void stop_this_process() {
-  struct sigaction action {};
-  struct sigaction before {};
-  action.sa_handler = SIG_DFL;
-  ::sigaction(SIGTSTP, &action, &before);
-  sigset_t stop;
-  sigemptyset(&stop);
-  sigaddset(&stop, SIGTSTP);
-  ::raise(SIGTSTP);
-  ::pthread_sigmask(SIG_UNBLOCK, &stop, nullptr);
-  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
-  ::sigaction(SIGTSTP, &before, nullptr);
-}
-
-// "a-1, b-2 and 3 more"
-std::string list(const std::vector<std::string>& labels) {
-  constexpr std::size_t kListed = 5;
-  const std::size_t listed = std::min(labels.size(), kListed);
-  std::string text =
-      fmt::format("{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(listed), ", "));
-  if (listed < labels.size()) {
-    text += fmt::format(" and {} more", labels.size() - listed);
-  }
-  return text;
-}
+constexpr int kExitCodeOfFailures = 3;
 
 }  // namespace
 
@@ -66,6 +28,14 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       loop_(loop),
       supervisor_(supervisor),
       errors_(std::move(errors)),
+      signals_(loop,
+               {[this] { return on_lost_guardian(); }, [this](const std::string& signal) { on_interrupt(signal); },
+                [this](int number, const std::string& signal) { on_interrupt_again(number, signal); },
+                [this] { suspend(); }}),
+      crashes_(loop,
+               [this](bool warning, const std::string& text) {
+                 context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch", text);
+               }),
       scopes_(
           loop,
           [this](bool warning, const std::string& text) {
@@ -110,6 +80,11 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                 {[this](const Invocation& invocation) { visit_farewell(invocation); }, [this] { stop_processes(); },
                  [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
+  scopes_.observe_snapshots([this](const std::vector<std::string>& reasons, const std::string& directory) {
+    crashes_.on_snapshot(reasons, directory);
+  });
+  ros_tasks_.observe_failures(
+      [this](const std::string& what, const SourceRange& where) { failures_.add(what, where); });
 }
 
 LaunchService::~LaunchService() {
@@ -122,12 +97,7 @@ void LaunchService::use_guardian(Guardian& guardian) {
 }
 
 int LaunchService::run(const LaunchDescription& description) {
-  const auto act = [this](int signal) { on_signal(signal); };
-  // `nohup launch` goes on when its terminal is closed.
-  const EventLoop::SourcePtr signals = is_ignored(SIGHUP) ? loop_.on_signal({SIGINT, SIGTERM, SIGQUIT}, act)
-                                                          : loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, act);
-  const EventLoop::SourcePtr stops =
-      is_ignored(SIGTSTP) ? nullptr : loop_.on_signal({SIGTSTP}, [this](int) { suspend(); });
+  signals_.listen();
   loop_.post([this, &description] {
     const Duration before = loop_.now();
     traverse({description.file, 0, 0}, [&] {
@@ -136,7 +106,24 @@ int LaunchService::run(const LaunchDescription& description) {
     });
   });
   loop_.run();
-  return exit_code_;
+  tell_failures();
+  return exit_code();
+}
+
+void LaunchService::tell_failures() {
+  for (const std::string& line : failures_.summary()) {
+    context_.message(LogLevel::kError, "launch", line);
+  }
+}
+
+int LaunchService::exit_code() const {
+  if (exit_code_ != 0) {
+    return exit_code_;
+  }
+  if (hurried_by_ != 0) {
+    return kExitCodeOfSignal + hurried_by_;
+  }
+  return failures_.empty() || ignore_failures_ ? 0 : kExitCodeOfFailures;
 }
 
 void LaunchService::end(const std::string& reason) {
@@ -145,20 +132,25 @@ void LaunchService::end(const std::string& reason) {
 
 // The events in the course of the launch.
 
-void LaunchService::on_signal(int signal) {
-  if (guardian_ != nullptr && !guardian_missed_ && !guardian_->is_alive()) {
-    on_lost_guardian();
-    return;
+bool LaunchService::on_lost_guardian() {
+  if (guardian_ == nullptr || guardian_missed_ || guardian_->is_alive()) {
+    return false;
   }
-  if (interrupted_at_ && loop_.now() - *interrupted_at_ < kSameSignal) {
-    return;
+  guardian_missed_ = true;
+  context_.message(LogLevel::kError, "launch", "launch-guardian was killed: ending the launch");
+  if (signals_.count_as_first()) {
+    shutdown("the end of launch-guardian");
   }
-  const std::string name = signal == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal));
-  if (!std::exchange(interrupted_at_, loop_.now())) {
-    context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {}", name));
-    shutdown(name);
-    return;
-  }
+  return true;
+}
+
+void LaunchService::on_interrupt(const std::string& name) {
+  context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {}", name));
+  shutdown(name);
+}
+
+void LaunchService::on_interrupt_again(int number, const std::string& name) {
+  hurried_by_ = number;
   const auto say = [&](const std::string& text) {
     context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {} again, {}", name, text));
   };
@@ -171,37 +163,32 @@ void LaunchService::on_signal(int signal) {
   } else if (const std::vector<std::string> left = supervisor_.alive(); left.empty()) {
     say("ending at once");
     scopes_.hurry();
+    crashes_.hurry();
   } else if (!std::exchange(terminated_, true)) {
     const Duration until_kill = supervisor_.terminate_all();
-    say(fmt::format("sent SIGTERM to {}; SIGKILL follows in {:g} s, or with a third signal", list(left),
+    say(fmt::format("sent SIGTERM to {}; SIGKILL follows in {:g} s, or with a third signal", list_some(left),
                     std::chrono::duration<double>(until_kill).count()));
   } else {
-    say("killing " + list(left));
+    say("killing " + list_some(left));
     supervisor_.kill_all();
     scopes_.hurry();
+    crashes_.hurry();
   }
   check_finished();
-}
-
-void LaunchService::on_lost_guardian() {
-  guardian_missed_ = true;
-  context_.message(LogLevel::kError, "launch", "launch-guardian was killed: ending the launch");
-  if (!interrupted_at_) {
-    interrupted_at_ = loop_.now();
-    shutdown("the end of launch-guardian");
-  }
 }
 
 void LaunchService::suspend() {
   context_.message(LogLevel::kInfo, "launch", "stopping the system, SIGCONT continues it");
   supervisor_.suspend();
-  stop_this_process();
+  UserSignals::stop_this_process();
   supervisor_.resume();
   context_.message(LogLevel::kInfo, "launch", "continuing the system");
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
   recording_.record(event);
+  failures_.on_process_event(event);
+  crashes_.on_process_event(event);
   processes_.on_event(event);
   steering_.on_event(event);
   handlers_.on_event(event);
@@ -216,7 +203,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
 void LaunchService::on_end_of_required(const ProcessEvent& event) {
   const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
   const auto* const exited = std::get_if<ProcessExited>(&event.what);
-  if (failed_to_start || std::holds_alternative<ProcessLeft>(event.what)) {
+  if (std::holds_alternative<ProcessLeft>(event.what)) {
     exit_code_ = 1;
   }
   // A process that is ended to be started again doesn't end the system.
@@ -227,7 +214,8 @@ void LaunchService::on_end_of_required(const ProcessEvent& event) {
   }
   context_.message(LogLevel::kInfo, "launch",
                    fmt::format("process[{}] was required: shutting down launched system", event.label));
-  if (event.spec.required && exited != nullptr && !exited->expected && exited->exit.code != 0) {
+  if (event.spec.required && exited != nullptr && !exited->expected && !ignore_failures_ &&
+      !event.spec.allowed_exits.contains(exited->exit.code)) {
     exit_code_ = exited->exit.code > 0 ? exited->exit.code : kExitCodeOfSignal - exited->exit.code;
   }
   shutdown(fmt::format("process[{}] was required", event.label));
@@ -311,6 +299,9 @@ void LaunchService::start(Round round) {
   for (TimerRequest& request : requests.timers) {
     timers_.start(std::move(request));
   }
+  for (const ProcessSpec& spec : requests.processes) {
+    crashes_.expect(spec);
+  }
   processes_.wait(round);
   observe_output();
   // Before the processes: a container that can't start drops what waits for it, and a shutdown drops everything.
@@ -328,13 +319,14 @@ void LaunchService::start(Round round) {
 }
 
 void LaunchService::observe_output() {
-  if (!handlers_.watch_output() && !processes_.watch_output() && !test_line_) {
+  if (!handlers_.watch_output() && !processes_.watch_output() && !crashes_.watch_output() && !test_line_) {
     return;
   }
   supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
                                     OutputStream stream, std::string_view line) {
     processes_.on_line(id, stream, line);
     handlers_.on_line(spec, label, stream, line);
+    crashes_.on_line(spec, id, line);
     if (test_line_) {
       test_line_(spec, label, stream, line);
     }
@@ -444,9 +436,11 @@ void LaunchService::end_scopes() {
         errors_(error);
       },
       [this, last_exit = loop_.now()] {
-        phase_ = Phase::kDone;
-        timing_.push_back({"end, from the last exit", loop_.now() - last_exit});
-        loop_.quit();
+        crashes_.finish([this, last_exit] {
+          phase_ = Phase::kDone;
+          timing_.push_back({"end, from the last exit", loop_.now() - last_exit});
+          loop_.quit();
+        });
       });
 }
 

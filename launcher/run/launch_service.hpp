@@ -10,17 +10,18 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/crash/crash_collector.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/python/coroutines.hpp"
 #include "launcher/ros/ros_tasks.hpp"
 #include "launcher/run/active_scopes.hpp"
+#include "launcher/run/failures.hpp"
 #include "launcher/run/farewell.hpp"
 #include "launcher/run/handlers.hpp"
 #include "launcher/run/processes.hpp"
@@ -28,6 +29,7 @@
 #include "launcher/run/rounds.hpp"
 #include "launcher/run/steering.hpp"
 #include "launcher/run/timers.hpp"
+#include "launcher/run/user_signals.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
@@ -70,9 +72,15 @@ class LaunchService {
   }
   void end(const std::string& reason);
 
-  // Visits the description and runs the loop until nothing is left. Returns the exit code: 1 after an error of the
-  // launch itself, such as a process that could not be started. Otherwise it is the exit code of the `required` process
-  // that has ended the launch, 128+N when signal N ended it, else 0. The exit codes of other processes don't count.
+  // Failures of processes and components don't change the exit code, as with ros2 launch.
+  void ignore_failures() { ignore_failures_ = true; }
+
+  // Visits the description, runs the loop until nothing is left, and tells what has failed. Returns the exit code:
+  // - 1 after an error of the launch itself, or if a process could not be ended;
+  // - the exit code of the `required` process that has ended the launch, 128+N when signal N ended it;
+  // - 128+N when a second signal N has cut the end short;
+  // - 3 when a process has failed that nobody had asked to end, or a component could not be loaded (failures.hpp);
+  // - else 0, also after a signal.
   // SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM to what is
   // left, a third one SIGKILL. A signal less than a second after another one does not count.
   int run(const LaunchDescription& description);
@@ -94,13 +102,17 @@ class LaunchService {
   };
 
   // The events in the course of the launch.
-  void on_signal(int signal);
-  // The guardian is the process that a user has started. To kill it is to ask for the end.
-  void on_lost_guardian();
-  // Ctrl-Z: stops the system, and returns when it shall go on.
+  // Tells whether the guardian has been killed since the last call. It is the process that a user has started, so to
+  // kill it is to ask for the end.
+  bool on_lost_guardian();
+  void on_interrupt(const std::string& signal);
+  void on_interrupt_again(int number, const std::string& signal);
+  // Stops the system, and returns when it shall go on.
   void suspend();
   void on_process_event(const ProcessEvent& event);
   void on_end_of_required(const ProcessEvent& event);
+  void tell_failures();
+  int exit_code() const;
   void on_coroutine_step();
 
   // A traversal: visits, then carries out the requests. An error of the visit carries out nothing and ends the launch.
@@ -135,11 +147,15 @@ class LaunchService {
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;
-  std::optional<Duration> interrupted_at_;  // the last signal that counted
-  bool terminated_ = false;                 // a second signal has sent SIGTERM
-  int exit_code_ = 0;
+  bool terminated_ = false;  // a second signal has sent SIGTERM
+  int exit_code_ = 0;        // of an error, or of a required process
+  int hurried_by_ = 0;       // the signal that has cut the end short
+  bool ignore_failures_ = false;
   bool check_posted_ = false;
 
+  UserSignals signals_;
+  Failures failures_;
+  CrashCollector crashes_;
   ActiveScopes scopes_;
   Rounds rounds_;
   Recording recording_;

@@ -147,18 +147,37 @@ TEST_F(Supervision, ACrashIsReportedWithItsLineAndTheRestGoesOn) {
   const std::string file = write(R"xml(<executable name="crasher" cmd="kill -SEGV $$" shell="true"/>
 <executable name="other" cmd="echo fine" output="screen"/>)xml");
   const CommandResult result = run_command({LAUNCH_PROGRAM, file});
-  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.out, HasSubstr("exit code -11"));
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex("\\[ERROR\\] \\[launch\\]: 1 process has failed:\n"
+                                     "\\[ERROR\\] \\[launch\\]:   crasher-1: SIGSEGV.* after [0-9.]+ s, with "
+                                     "[0-9.]+ s of processor time and [0-9.]+ MiB \\(.*:2:2\\)\n"));
   EXPECT_THAT(result.out, HasSubstr(file + ":2:2"));
   EXPECT_THAT(result.out, HasSubstr("[other-2] fine"));
 }
 
-TEST_F(Supervision, AMissingProgramIsReportedWithItsLineAndExitCodeOne) {
+TEST_F(Supervision, AMissingProgramIsReportedWithItsLineAndIsAFailure) {
   const std::string file = write(R"xml(<executable cmd="no-such-program-at-all"/>)xml");
   const CommandResult result = run_command({LAUNCH_PROGRAM, file});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.out, HasSubstr("no-such-program-at-all"));
   EXPECT_THAT(result.out, HasSubstr(file + ":2:2"));
+}
+
+TEST_F(Supervision, FailuresCanBeAllowedAndIgnored) {
+  const std::string file = write(R"xml(<arg name="allowed"/>
+<executable name="a" shell="true" cmd="exit 4" allowed-exit-codes="$(var allowed)"/>)xml");
+  const CommandResult allowed = run_command({LAUNCH_PROGRAM, file, "allowed:=4, SIGTERM"});
+  EXPECT_EQ(allowed.exit_code, 0);
+  EXPECT_THAT(allowed.out, HasSubstr("[INFO] [a-1]: process has finished with exit code 4, which is allowed [pid "));
+  EXPECT_THAT(allowed.out, Not(HasSubstr("ERROR")));
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, file, "allowed:=5"}).exit_code, 3);
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, "--ignore-failures", file, "allowed:=5"}).exit_code, 0);
+  const CommandResult ignored = run_command(
+      {.argv = {LAUNCH_PROGRAM, file, "allowed:=5"}, .environment = {{"OVERRIDE_LAUNCH_IGNORE_FAILURES", "1"}}});
+  EXPECT_EQ(ignored.exit_code, 0);
+  EXPECT_THAT(ignored.out, HasSubstr("[ERROR] [launch]: 1 process has failed:\n"));
 }
 
 TEST_F(Supervision, AMissingNodeStartsNothing) {

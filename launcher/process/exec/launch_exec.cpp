@@ -40,6 +40,14 @@ int set_limit(int resource, rlim_t value) {
   return ::setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
 }
 
+// The soft limit alone: as much as the process may have.
+int allow_core_files() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_CORE, &limit);
+  limit.rlim_cur = limit.rlim_max;
+  return ::setrlimit(RLIMIT_CORE, &limit);
+}
+
 int set_cpus(const char* text) {
   cpu_set_t cpus;
   CPU_ZERO(&cpus);
@@ -69,6 +77,8 @@ void apply(char step, const char* value) {
       return check(step, set_limit(RLIMIT_DATA, std::strtoull(value, nullptr, 10)));
     case kStepOpenFiles:
       return check(step, set_limit(RLIMIT_NOFILE, std::strtoull(value, nullptr, 10)));
+    case kStepCoreFiles:
+      return check(step, allow_core_files());
     default:
       fail(step, EINVAL);
   }

@@ -16,6 +16,7 @@ inline constexpr char kStepPolicy = 'p';     // POLICY,PRIORITY as numbers
 inline constexpr char kStepCpus = 'c';       // numbers with commas
 inline constexpr char kStepMemory = 'm';     // bytes
 inline constexpr char kStepOpenFiles = 'f';  // descriptors
+inline constexpr char kStepCoreFiles = 'd';  // no value: cores of any size that the hard limit allows
 inline constexpr char kStepExec = '-';       // the end of the steps, and the start of PROGRAM
 
 struct LaunchExecFailure {

@@ -41,6 +41,10 @@ EventLoop::SourcePtr FakeEventLoop::on_readable(int fd, Callback callback) {
   return watch(readable_, fd, std::move(callback));
 }
 
+EventLoop::SourcePtr FakeEventLoop::on_writable(int fd, Callback callback) {
+  return watch(writable_, fd, std::move(callback));
+}
+
 EventLoop::SourcePtr FakeEventLoop::on_exit(int pidfd, Callback callback) {
   return watch(exits_, pidfd, std::move(callback));
 }
@@ -53,9 +57,9 @@ EventLoop::SourcePtr FakeEventLoop::after(Duration delay, Callback callback) {
   return std::make_unique<Handle>(std::move(registration));
 }
 
-EventLoop::SourcePtr FakeEventLoop::on_signal(std::initializer_list<int> signals, std::function<void(int)> callback) {
+EventLoop::SourcePtr FakeEventLoop::on_signal(const std::vector<int>& signals, std::function<void(int)> callback) {
   auto registration = std::make_shared<Registration>();
-  registration->signals = signals;
+  registration->signals = std::set<int>(signals.begin(), signals.end());
   registration->signal_callback = std::move(callback);
   signals_.push_back(registration);
   return std::make_unique<Handle>(std::move(registration));
@@ -78,7 +82,8 @@ void FakeEventLoop::deliver_signal(int signal) {
 
 void FakeEventLoop::run_until_idle() {
   while (!quit_) {
-    const bool busy = run_signals() || run_descriptors(readable_, false) || run_descriptors(exits_, true) ||
+    const bool busy = run_signals() || run_descriptors(readable_, POLLIN, false) ||
+                      run_descriptors(writable_, POLLOUT, false) || run_descriptors(exits_, POLLIN, true) ||
                       run_due_timers() || run_posts();
     if (!busy) {
       return;
@@ -125,12 +130,12 @@ bool FakeEventLoop::run_signals() {
   return true;
 }
 
-bool FakeEventLoop::run_descriptors(std::vector<RegistrationPtr>& list, bool once) {
+bool FakeEventLoop::run_descriptors(std::vector<RegistrationPtr>& list, short events, bool once) {
   std::erase_if(list, [](const RegistrationPtr& registration) { return registration->cancelled; });
   std::vector<pollfd> descriptors;
   descriptors.reserve(list.size());
   for (const RegistrationPtr& registration : list) {
-    descriptors.push_back({registration->fd, POLLIN, 0});
+    descriptors.push_back({registration->fd, events, 0});
   }
   if (::poll(descriptors.data(), descriptors.size(), 0) <= 0) {
     return false;

@@ -17,7 +17,7 @@
 namespace launch {
 
 // Descriptors are real (a pipe, an eventfd) and are polled, timers run on virtual time that begins at zero, signals
-// come from deliver_signal(). In each turn: signals, readable descriptors, exits (only when nothing was readable), due
+// come from deliver_signal(). In each turn: signals, ready descriptors, exits (only when no descriptor was ready), due
 // timers, posts. Exceptions of callbacks leave the call that ran them.
 class FakeEventLoop final : public EventLoop {
  public:
@@ -38,9 +38,10 @@ class FakeEventLoop final : public EventLoop {
   void quit() override { quit_ = true; }
 
   SourcePtr on_readable(int fd, Callback callback) override;
+  SourcePtr on_writable(int fd, Callback callback) override;
   SourcePtr on_exit(int pidfd, Callback callback) override;
   SourcePtr after(Duration delay, Callback callback) override;
-  SourcePtr on_signal(std::initializer_list<int> signals, std::function<void(int)> callback) override;
+  SourcePtr on_signal(const std::vector<int>& signals, std::function<void(int)> callback) override;
   void post(Callback callback) override;
   Duration now() const override { return now_; }
 
@@ -52,7 +53,7 @@ class FakeEventLoop final : public EventLoop {
 
   SourcePtr watch(std::vector<RegistrationPtr>& list, int fd, Callback callback);
   bool run_signals();
-  bool run_descriptors(std::vector<RegistrationPtr>& list, bool once);
+  bool run_descriptors(std::vector<RegistrationPtr>& list, short events, bool once);
   bool run_due_timers();
   bool run_posts();
 
@@ -60,6 +61,7 @@ class FakeEventLoop final : public EventLoop {
   bool quit_ = false;
   std::uint64_t timer_count_ = 0;
   std::vector<RegistrationPtr> readable_;
+  std::vector<RegistrationPtr> writable_;
   std::vector<RegistrationPtr> exits_;
   std::map<TimerKey, RegistrationPtr> timers_;
   std::vector<RegistrationPtr> signals_;

@@ -13,6 +13,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "launcher/base/ending_signals.hpp"
+
 namespace launch {
 namespace {
 
@@ -240,11 +242,9 @@ void GentleEnd::read_signals(int signals) {
   signalfd_siginfo info{};
   while (signals >= 0 && ::read(signals, &info, sizeof info) == sizeof info) {
     const int number = static_cast<int>(info.ssi_signo);
-    if (number == SIGINT || number == SIGTERM || number == SIGHUP || number == SIGQUIT) {
-      if (Clock::now() - last_step_ >= kSameSignal) {
-        last_step_ = Clock::now();
-        ++steps_;
-      }
+    if (asks_to_end(number) && Clock::now() - last_step_ >= kSameSignal) {
+      last_step_ = Clock::now();
+      ++steps_;
     }
   }
   // Reaps what has been adopted. The numbers of the spare guardian and of strangers are not waited for by others.

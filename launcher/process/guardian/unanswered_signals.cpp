@@ -5,10 +5,10 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {
@@ -27,7 +27,7 @@ bool has_pending_request(pid_t process) {
     return false;
   }
   std::uint64_t requests = 0;
-  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) {
+  for (const int signal : kEndingSignals) {
     requests |= std::uint64_t{1} << (signal - 1);
   }
   const std::uint64_t pending = std::strtoull(value_of(status, "\nSigPnd:\t"), nullptr, 16) |

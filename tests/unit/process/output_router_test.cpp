@@ -10,11 +10,14 @@
 #include <filesystem>
 #include <thread>
 
+#include "launcher/base/pipe.hpp"
 #include "memory_screen.hpp"
 #include "temporary_directory.hpp"
 
 namespace launch {
 namespace {
+
+using namespace std::chrono_literals;
 
 class Router : public testing::Test {
  protected:
@@ -183,7 +186,50 @@ TEST_F(Router, GoesOnWithTheLogWhenTheScreenIsGone) {
   OutputRouter router({.screen_fd = in.get(), .log_directory = logs.path()});
   write(router, "one\n", "both");
   write(router, "two\n", "both");
-  EXPECT_THAT(logs.read("launch.log"), testing::MatchesRegex("[0-9.]+ \\[a-1\\] one\n[0-9.]+ \\[a-1\\] two\n"));
+  EXPECT_THAT(logs.read("launch.log"),
+              testing::MatchesRegex("[0-9.]+ \\[WARNING\\] \\[launch\\]: the screen is gone, its lines follow here\n"
+                                    "[0-9.]+ \\[a-1\\] one\n[0-9.]+ \\[a-1\\] two\n"));
+}
+
+TEST_F(Router, LogsWhatAScreenThatIsGoneDoesNotShow) {
+  Pipe pipe = make_pipe();
+  pipe.read.reset();
+  OutputRouter router({.screen_fd = pipe.write.get(), .log_directory = logs.path()});
+  write(router, "one\n");
+  write(router, "two\n");
+  EXPECT_THAT(logs.read("launch.log"),
+              testing::MatchesRegex("[0-9.]+ \\[WARNING\\] \\[launch\\]: the screen is gone, its lines follow here\n"
+                                    "[0-9.]+ \\[a-1\\] one\n[0-9.]+ \\[a-1\\] two\n"));
+}
+
+TEST_F(Router, LogsWhatAScreenThatIsNotReadDoesNotShow) {
+  const Pipe pipe = make_pipe();
+  const int size = ::fcntl(pipe.write.get(), F_SETPIPE_SZ, 4096);
+  ASSERT_GT(size, 0);
+  const Screen::Limits limits{.queue = 10, .wait_for_room = 1ms, .wait_at_the_end = 1ms};
+  {
+    OutputRouter router({.screen_fd = pipe.write.get(), .log_directory = logs.path(), .screen_limits = limits});
+    write(router, std::string(static_cast<std::size_t>(size), 'x') + "\n");
+    write(router, "one\n");
+    write(router, "two\nthree\n", "both");
+  }
+  EXPECT_THAT(logs.read("launch.log"),
+              testing::MatchesRegex("[0-9.]+ \\[a-1\\] one\n[0-9.]+ \\[a-1\\] two\n[0-9.]+ \\[a-1\\] three\n"
+                                    "[0-9.]+ xxxxxx\n[0-9.]+ \\[WARNING\\] \\[launch\\]: the screen has not taken "
+                                    "the last 4 lines\n"));
+}
+
+TEST_F(Router, ShowsErrorsInOrderWhereOutputAndErrorsAreOnePipe) {
+  const Pipe pipe = make_pipe();
+  {
+    OutputRouter router({.screen_fd = pipe.write.get(), .error_fd = pipe.write.get()});
+    write(router, "one\n");
+    router.error("error\n");
+    write(router, "two\n");
+  }
+  std::array<char, 100> text{};
+  EXPECT_EQ(::read(pipe.read.get(), text.data(), text.size()), 26);
+  EXPECT_STREQ(text.data(), "[a-1] one\nerror\n[a-1] two\n");
 }
 
 TEST_F(Router, LosesNothingOnASlowNonBlockingScreen) {
@@ -221,6 +267,38 @@ TEST_F(Router, TellsOnceThatALogCannotBeWritten) {
   write(router, "y\n", "own_log");
   EXPECT_EQ(screen.text(), "[WARNING] [launch]: cannot write '" + logs.path() + "/a-1.log': Is a directory\n");
   EXPECT_EQ(logs.read("a-1-stdout.log"), "[a-1] x\n[a-1] y\n");
+}
+
+TEST_F(Router, BeginsANewLogFileBeforeOneGetsTooLarge) {
+  const OutputRouter::Rotation rotation{.size = 20, .files = 3};
+  OutputRouter router({.screen_fd = screen.fd(), .log_directory = logs.path(), .rotation = rotation});
+  write(router, "1\n2\n3\n4\n5\n", "own_log");  // lines of eight bytes
+  EXPECT_EQ(logs.read("a-1.log"), "[a-1] 5\n");
+  EXPECT_EQ(logs.read("a-1.log.1"), "[a-1] 3\n[a-1] 4\n");
+  EXPECT_EQ(logs.read("a-1.log.2"), "[a-1] 1\n[a-1] 2\n");
+  write(router, "a line that is longer than a file\n6\n", "own_log");
+  EXPECT_EQ(logs.read("a-1.log"), "[a-1] 6\n");
+  EXPECT_EQ(logs.read("a-1.log.1"), "[a-1] a line that is longer than a file\n");
+  EXPECT_EQ(logs.read("a-1.log.2"), "[a-1] 5\n");
+  EXPECT_FALSE(has_log("a-1.log.3"));
+}
+
+TEST_F(Router, PutsTheTimeInFrontOfEachLineOfTheScreen) {
+  OutputRouter router({.screen_fd = screen.fd(), .timestamps = true});
+  write(router, "one\ntwo\n");
+  router.message(LogLevel::kInfo, "launch", "text");
+  EXPECT_THAT(screen.text(), testing::MatchesRegex("[0-9]{10}\\.[0-9]{7} \\[a-1\\] one\n[0-9]{10}\\.[0-9]{7} \\[a-1\\] "
+                                                   "two\n[0-9]{10}\\.[0-9]{7} \\[INFO\\] \\[launch\\]: text\n"));
+}
+
+TEST_F(Router, FormatsMessagesAsTheUserWants) {
+  OutputRouter router({.screen_fd = screen.fd(),
+                       .log_directory = logs.path(),
+                       .screen_format = MessageFormat("{levelno} {name}: {msg}"),
+                       .log_format = MessageFormat("{msg}")});
+  router.message(LogLevel::kError, "a-1", "text");
+  EXPECT_EQ(screen.text(), "40 a-1: text\n");
+  EXPECT_EQ(logs.read("launch.log"), "text\n");
 }
 
 TEST_F(Router, FailsClearlyWithoutItsDirectory) {

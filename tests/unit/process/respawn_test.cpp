@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
 #include "supervisor_fixture.hpp"
 
 namespace launch {
@@ -54,6 +58,39 @@ TEST_F(Respawn, CountsFailedStartsAsRetries) {
   loop.advance(60s);
   EXPECT_EQ(lines, (Lines{"0.0 a-1 failed: cannot start '/bin/a': No such file or directory, again",
                           "3.0 a-1 failed: cannot start '/bin/a': No such file or directory", "3.0 a-1 done"}));
+}
+
+TEST_F(Respawn, WithoutADelaySlowsDownAProgramThatEndsAtOnce) {
+  runner.script("a", {{.exits_after = 10ms, .exit_code = 1}});
+  supervisor->start(respawning(0s));
+  loop.advance(99ms);
+  EXPECT_EQ(runner.spawned().size(), 10U);
+  take_lines();
+  loop.advance(60s);
+  EXPECT_EQ(lines.at(1), "0.1 a-1 slowed after 10 runs");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), lines.at(1)), 1);
+  std::vector<double> waits;
+  for (std::size_t i = 10; i < 18; ++i) {
+    waits.push_back(std::chrono::duration<double>(runner.spawned().at(i).at - runner.spawned().at(i - 1).at).count());
+  }
+  EXPECT_THAT(waits, testing::Pointwise(testing::DoubleNear(1e-6), {0.11, 0.21, 0.41, 0.81, 1.61, 3.21, 5.01, 5.01}));
+}
+
+TEST_F(Respawn, ALongRunEndsTheSlowness) {
+  std::vector<FakeScript> runs(12, {.exits_after = 10ms});
+  runs.push_back({.exits_after = 1s});
+  runs.push_back({.exits_after = 10ms});
+  runner.script("a", runs);
+  supervisor->start(respawning(0s));
+  loop.advance(2100ms);
+  EXPECT_GE(runner.spawned().size(), 20U) << "the next short runs follow at once";
+}
+
+TEST_F(Respawn, ADelayOfTheFileIsKept) {
+  runner.script("a", {{.exits_after = 10ms}});
+  supervisor->start(respawning(10ms));
+  loop.advance(1s);
+  EXPECT_GE(runner.spawned().size(), 50U);
 }
 
 TEST_F(Respawn, ShutdownDropsAPendingRespawn) {

@@ -72,6 +72,23 @@ TEST_F(SdEventLoop, CallsBackAtTheEndOfAFile) {
   EXPECT_TRUE(ended);
 }
 
+TEST_F(SdEventLoop, CallsBackWhenADescriptorTakesBytesAgain) {
+  const Pipe pipe;
+  const std::string full(static_cast<std::size_t>(::fcntl(pipe.in.get(), F_GETPIPE_SZ)), '.');
+  pipe.write(full);
+  std::string order;
+  const auto writable = loop->on_writable(pipe.in.get(), [&] {
+    order += "writable";
+    loop->quit();
+  });
+  const auto timer = loop->after(2ms, [&] {
+    order += "read, ";
+    pipe.read(full.size());
+  });
+  loop->run();
+  EXPECT_EQ(order, "read, writable");
+}
+
 TEST_F(SdEventLoop, RefusesABadDescriptor) {
   EXPECT_THROW(static_cast<void>(loop->on_readable(-1, [] {})), std::system_error);
 }

@@ -43,6 +43,7 @@ class EventText {
                        std::chrono::duration<double>(sent.waited).count());
   }
   std::string operator()(const ProcessLeft& left) const { return left.foreign ? "left, foreign" : "left"; }
+  std::string operator()(const RespawnSlowed& slowed) const { return fmt::format("slowed after {} runs", slowed.runs); }
   std::string operator()(const ProcessDone&) const { return "done"; }
 
  private:

@@ -73,20 +73,15 @@ TEST_F(LaunchServiceTest, TimersAreCancelledByAShutdownUnlessTheyAskNotTo) {
 
 TEST_F(LaunchServiceTest, OnExitShutdownEndsTheSystem) {
   runner_.script("required", {{.exits_after = 2s, .exit_code = 3}});
-  EXPECT_EQ(run(R"xml(<executable cmd="other"/><executable cmd="required" on_exit="shutdown"/>)xml"), 0);
-  EXPECT_THAT(messages_, ElementsAre("[launch] process[required-2] was required: shutting down launched system"));
+  EXPECT_EQ(run(R"xml(<executable cmd="other"/><executable cmd="required" on_exit="shutdown"/>)xml"), 3);
+  EXPECT_EQ(messages_.at(0), "[launch] process[required-2] was required: shutting down launched system");
   EXPECT_THAT(journal_, ElementsAre("start other-1", "start required-2", "exit required-2", "exit other-1"));
 }
 
-TEST_F(LaunchServiceTest, AProcessThatCannotStartGivesExitCodeOneAndHonoursOnExit) {
+TEST_F(LaunchServiceTest, AProcessThatCannotStartIsAFailureAndHonoursOnExit) {
   runner_.script("missing", {{.spawn_error = ENOENT}});
-  EXPECT_EQ(run(R"xml(<executable cmd="missing" on_exit="shutdown"/><executable cmd="other"/>)xml"), 1);
+  EXPECT_EQ(run(R"xml(<executable cmd="missing" on_exit="shutdown"/><executable cmd="other"/>)xml"), 3);
   EXPECT_THAT(journal_, IsEmpty());
-}
-
-TEST_F(LaunchServiceTest, ExitCodesOfProcessesDontCount) {
-  runner_.default_script({.exits_after = 1s, .exit_code = 42});
-  EXPECT_EQ(run(R"xml(<executable cmd="a"/>)xml"), 0);
 }
 
 TEST_F(LaunchServiceTest, ASecondSignalTerminatesAndAThirdKillsAndHurries) {
@@ -94,7 +89,7 @@ TEST_F(LaunchServiceTest, ASecondSignalTerminatesAndAThirdKillsAndHurries) {
   const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
   const auto third = loop_.after(3s, [this] { loop_.deliver_signal(SIGTERM); });
-  EXPECT_EQ(run(R"xml(<scope name="x"/><executable cmd="stubborn"/>)xml"), 0);
+  EXPECT_EQ(run(R"xml(<scope name="x"/><executable cmd="stubborn"/>)xml"), 128 + SIGTERM);
   EXPECT_THAT(journal_,
               ElementsAre("begin x", "begun x", "start stubborn-1", "exit stubborn-1", "end x in a hurry", "ended x"));
   EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
@@ -124,7 +119,7 @@ TEST_F(LaunchServiceTest, ASecondSignalTerminatesOnlyProcessesThatAreLeft) {
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
   EXPECT_EQ(run(R"xml(<executable cmd="quick"/><executable cmd="a"/><executable cmd="b"/><executable cmd="c"/>
                    <executable cmd="d"/><executable cmd="e"/><executable cmd="f"/>)xml"),
-            0);
+            128 + SIGINT);
   EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
                                      "[launch] user interrupted with ctrl-c (SIGINT) again, sent SIGTERM to a-2, b-3, "
                                      "c-4, d-5, e-6 and 1 more; SIGKILL follows in 5 s, or with a third signal"));
@@ -135,7 +130,7 @@ TEST_F(LaunchServiceTest, ASecondSignalWaitsForNoTimer) {
   runner_.default_script({.exits_after = 1h});
   const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGINT); });
   const auto second = loop_.after(2s, [this] { loop_.deliver_signal(SIGINT); });
-  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="3600" cancel_on_shutdown="false"/>)xml"), 0);
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="3600" cancel_on_shutdown="false"/>)xml"), 128 + SIGINT);
   EXPECT_LT(loop_.now(), 3s);
   EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)",
                                      "[launch] user interrupted with ctrl-c (SIGINT) again, ending at once"));

@@ -118,7 +118,7 @@ TEST_F(SteeringTest, RestartsAreCountedAndTheLastEndIsKnown) {
     EXPECT_GT(supervisor_.view(1).pid, 0);
   });
   at(7s, [this](Steering&) { EXPECT_EQ(supervisor_.view(1).running_for, 2s); });
-  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="20.0"><log message="end"/></timer>)xml"), 0);
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="20.0"><log message="end"/></timer>)xml"), 3);
 }
 
 }  // namespace

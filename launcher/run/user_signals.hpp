@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The signals with which a user ends or stops a launch: which of them count, and whether it is the first.
+//
+// A signal that was ignored when the launcher started stays ignored if it is SIGHUP (`nohup launch`) or SIGTSTP. A
+// signal that follows another one within a second is the same wish: a terminal that is closed sends SIGHUP twice,
+// timeout(1) signals its command and then the group of the command.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "launcher/process/event_loop.hpp"
+
+namespace launch {
+
+class UserSignals {
+ public:
+  struct Acts {
+    std::function<bool()> intercept;  // true: the signal has told something else, and does not count
+    std::function<void(const std::string& signal)> first;  // "ctrl-c (SIGINT)", "SIGTERM"
+    std::function<void(int number, const std::string& signal)> again;
+    std::function<void()> stop;  // Ctrl-Z
+  };
+
+  // The loop must outlive this object. The acts are called in the loop.
+  UserSignals(EventLoop& loop, Acts acts);
+
+  // Calls the acts from now on, as long as this object lives.
+  void listen();
+
+  // The end is asked for without a signal: what comes next is no first one. Returns false if a first one has been
+  // there.
+  bool count_as_first();
+
+  // Stops this process as Ctrl-Z stops a program that does not handle SIGTSTP. Returns after SIGCONT.
+  static void stop_this_process();
+
+ private:
+  void on_signal(int signal);
+
+  EventLoop& loop_;
+  Acts acts_;
+  std::optional<Duration> counted_;  // when the last signal came that counted
+  EventLoop::SourcePtr ending_;
+  EventLoop::SourcePtr stopping_;
+};
+
+}  // namespace launch

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// How users set what a launch prints and logs (docs/logging.md).
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test_support;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+class OutputOptions : public testing::Test {
+ protected:
+  std::string write(const std::string& actions) const {
+    const std::string file = sandbox_.directory() / "system.launch.xml";
+    write_file(file, "<launch>\n" + actions + "\n</launch>\n");
+    return file;
+  }
+  fs::path log_directory(const CommandResult& result) const {
+    const std::size_t begin = result.out.find("below ") + 6;
+    return result.out.substr(begin, result.out.find('\n', begin) - begin);
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(OutputOptions, FormatsOfMessagesAreThoseOfRos2Launch) {
+  const std::string file = write(R"xml(<executable cmd="echo text" name="a" output="both"/>)xml");
+  const CommandResult result =
+      run_command({.argv = {LAUNCH_PROGRAM, file},
+                   .environment = {{"OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname:>8}|{name}|{msg}"},
+                                   {"OVERRIDE_LAUNCH_LOG_FORMAT", "log\\t{msg}"},
+                                   {"OVERRIDE_LAUNCH_LOG_FILE_NAME", "run.log"}}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\n    INFO|a-1|process started with pid ["));
+  EXPECT_THAT(result.out, HasSubstr("\n[a-1] text\n"));
+  const std::string log = read_file(log_directory(result) / "run.log");
+  EXPECT_THAT(log, HasSubstr("\nlog\tprocess started with pid ["));
+  EXPECT_THAT(log, ContainsRegex("\n[0-9.]+ \\[a-1\\] text\n"));
+}
+
+TEST_F(OutputOptions, AFormatWithAnErrorStartsNothing) {
+  const std::string file = write(R"xml(<executable cmd="echo text" output="screen"/>)xml");
+  const CommandResult result =
+      run_command({.argv = {LAUNCH_PROGRAM, file}, .environment = {{"OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levl} {msg}"}}});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err,
+            "launch: error: OVERRIDE_LAUNCH_SCREEN_FORMAT: there is no field 'levl'; the fields are created, asctime, "
+            "levelname, levelno, name, msg, process\n");
+  EXPECT_EQ(result.out, "");
+}
+
+TEST_F(OutputOptions, TimestampsStandInFrontOfEveryLine) {
+  const std::string file = write(R"xml(<executable cmd="echo text" name="a" output="screen"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "--timestamps", file});
+  EXPECT_THAT(result.out, ContainsRegex("\n[0-9]{10}\\.[0-9]{7} \\[a-1\\] text\n"));
+  EXPECT_THAT(result.out, Not(ContainsRegex("\n\\[")));
+}
+
+TEST_F(OutputOptions, ColoursCanBeForced) {
+  const std::string file = write(R"xml(<log message="text" level="error"/>)xml");
+  const auto output = [&](const std::string& wish) {
+    return run_command({.argv = {LAUNCH_PROGRAM, file}, .environment = {{"RCUTILS_COLORIZED_OUTPUT", wish}}}).out;
+  };
+  EXPECT_THAT(output("1"), HasSubstr("\033[31m[ERROR] [launch.user]: text\033[0m\n"));
+  EXPECT_THAT(output("0"), HasSubstr("\n[ERROR] [launch.user]: text\n"));
+}
+
+TEST_F(OutputOptions, LogLevelsAreForAllNodesOrForSome) {
+  const std::string file = write(R"xml(<node pkg="demo_nodes" exec="talker" name="a"/>
+<node pkg="demo_nodes" exec="listener" name="b" namespace="/left"/>
+<executable cmd="other"/>)xml");
+  const CommandResult all = run_command({LAUNCH_PROGRAM, "--dry-run", "--log-level", "debug", file});
+  EXPECT_THAT(all.out, ContainsRegex("/talker --ros-args .*--log-level debug\n"));
+  EXPECT_THAT(all.out, ContainsRegex("/listener --ros-args .*--log-level debug\n"));
+  EXPECT_THAT(all.out, Not(HasSubstr("other --")));
+  const CommandResult some =
+      run_command({LAUNCH_PROGRAM, "--dry-run", "--log-level", "/left/*:=warn", "--log-level", "talker:=fatal", file});
+  EXPECT_THAT(some.out, ContainsRegex("/talker --ros-args .*--log-level fatal\n"));
+  EXPECT_THAT(some.out, ContainsRegex("/listener --ros-args .*--log-level warn\n"));
+  const CommandResult wrong = run_command({LAUNCH_PROGRAM, "--log-level", "loud", file});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err,
+              HasSubstr("--log-level loud is unknown, expected debug, info, warn, error, fatal or NODE:=LEVEL"));
+}
+
+TEST_F(OutputOptions, LogFilesHaveALimitedSizeAndNumber) {
+  const std::string file = write(R"xml(<executable cmd="seq 10000" name="a" output="full"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "--log-size", "10K", "--log-files", "3", file});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const fs::path logs = log_directory(result);
+  for (const std::string name : {"launch.log", "a-1-stdout.log", "a-1.log"}) {
+    EXPECT_TRUE(fs::exists(logs / (name + ".1"))) << name;
+    EXPECT_TRUE(fs::exists(logs / (name + ".2"))) << name;
+    EXPECT_FALSE(fs::exists(logs / (name + ".3"))) << name;
+  }
+  EXPECT_THAT(read_file(logs / "launch.log"), HasSubstr("process has finished cleanly"));
+}
+
+}  // namespace

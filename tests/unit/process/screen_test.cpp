@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/process/screen.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+
+#include "launcher/base/pipe.hpp"
+#include "launcher/process/fake/fake_event_loop.hpp"
+
+namespace launch {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Screen::Limits kSmall{.queue = 1000, .wait_for_room = 1ms, .wait_at_the_end = 1ms};
+
+std::string lines(std::size_t count, std::size_t from = 0) {
+  std::string text;
+  for (std::size_t i = from; i < from + count; ++i) {
+    text += "line " + std::to_string(i) + "\n";
+  }
+  return text;
+}
+
+class ScreenTest : public testing::Test {
+ protected:
+  ScreenTest() { ::signal(SIGPIPE, SIG_IGN); }
+
+  // A reader that has not read: the pipe takes nothing more.
+  void fill() {
+    ASSERT_EQ(::fcntl(pipe.write.get(), F_SETPIPE_SZ, 4096), 4096);
+    const std::string full(4096, '.');
+    ASSERT_EQ(::write(pipe.write.get(), full.data(), full.size()), 4096);
+  }
+  std::string read() const {
+    std::string text;
+    std::array<char, 4096> buffer{};
+    pollfd readable{pipe.read.get(), POLLIN, 0};
+    while (::poll(&readable, 1, 0) == 1 && (readable.revents & POLLIN) != 0) {
+      text.append(buffer.data(), static_cast<std::size_t>(::read(pipe.read.get(), buffer.data(), buffer.size())));
+    }
+    return text;
+  }
+  // What is shown until nothing more waits.
+  std::string read_all() {
+    std::string text;
+    while (true) {
+      loop.run_until_idle();
+      const std::string more = read();
+      if (more.empty()) {
+        return text;
+      }
+      text += more;
+    }
+  }
+  static std::string after_fill(const std::string& text) {
+    return text.substr(std::min<std::size_t>(4096, text.size()));
+  }
+
+  Pipe pipe = make_pipe();
+  FakeEventLoop loop;
+};
+
+TEST_F(ScreenTest, ShowsLinesAtOnceWhenTheScreenTakesThem) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  EXPECT_TRUE(screen.print("one\n", false));
+  EXPECT_EQ(read(), "one\n");
+}
+
+TEST_F(ScreenTest, LeavesTheDescriptorBlockingForOthers) {
+  const Screen screen(pipe.write.get(), &loop, kSmall);
+  EXPECT_EQ(::fcntl(pipe.write.get(), F_GETFL) & O_NONBLOCK, 0);
+}
+
+TEST_F(ScreenTest, KeepsLinesInAQueueUntilTheyAreRead) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  fill();
+  EXPECT_TRUE(screen.print("one\n", false));
+  EXPECT_TRUE(screen.print("two\n", true));
+  EXPECT_EQ(after_fill(read_all()), "one\ntwo\n");
+}
+
+TEST_F(ScreenTest, WritesTheQueueWithoutALoop) {
+  Screen screen(pipe.write.get(), nullptr, kSmall);
+  fill();
+  EXPECT_TRUE(screen.print("one\n", false));
+  EXPECT_EQ(after_fill(read()), "");
+  EXPECT_TRUE(screen.print("two\n", false));
+  EXPECT_EQ(read(), "one\ntwo\n");
+}
+
+TEST_F(ScreenTest, DropsWholeLinesWhileNobodyReadsAndSaysHowMany) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  screen.tell_of_dropped([](std::size_t count) { return "dropped " + std::to_string(count) + "\n"; });
+  fill();
+  EXPECT_TRUE(screen.print(lines(100), false));  // 790 bytes
+  EXPECT_FALSE(screen.print(lines(50, 100), false));
+  EXPECT_FALSE(screen.print(lines(1, 150), false));
+  EXPECT_EQ(after_fill(read_all()), lines(100) + "dropped 51\n");
+  EXPECT_TRUE(screen.print("goes on\n", false));
+  EXPECT_EQ(read_all(), "goes on\n");
+}
+
+TEST_F(ScreenTest, TakesALineThatIsLongerThanTheQueue) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  const std::string line = std::string(100'000, 'x') + "\n";
+  EXPECT_TRUE(screen.print(line, false));
+  EXPECT_EQ(read_all(), line);
+}
+
+TEST_F(ScreenTest, IsGoneWhenItsReaderIsGone) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  pipe.read.reset();
+  EXPECT_FALSE(screen.print("one\n", false));
+  EXPECT_TRUE(screen.is_gone());
+  EXPECT_FALSE(screen.print("two\n", false));
+}
+
+TEST_F(ScreenTest, IsGoneWhenItsReaderGoesWhileLinesWait) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  fill();
+  EXPECT_TRUE(screen.print("one\n", false));
+  pipe.read.reset();
+  loop.run_until_idle();
+  EXPECT_TRUE(screen.is_gone());
+}
+
+TEST_F(ScreenTest, TellsAtTheEndWhatWasNotTaken) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  fill();
+  EXPECT_TRUE(screen.print("logged\n", true));
+  EXPECT_TRUE(screen.print("unlogged\n", false));
+  const Screen::Rest rest = screen.finish();
+  EXPECT_EQ(rest.unlogged, "unlogged\n");
+  EXPECT_EQ(rest.lines, 2U);
+  EXPECT_FALSE(screen.print("late\n", false));
+}
+
+TEST_F(ScreenTest, WritesTheQueueAtTheEnd) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  fill();
+  EXPECT_TRUE(screen.print("last\n", false));
+  const std::string before = read();
+  EXPECT_EQ(screen.finish().lines, 0U);
+  EXPECT_EQ(after_fill(before + read()), "last\n");
+}
+
+TEST_F(ScreenTest, NeverWaitsForATerminalThatIsStopped) {
+  const UniqueFd terminal(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
+  ASSERT_EQ(::grantpt(terminal.get()), 0);
+  ASSERT_EQ(::unlockpt(terminal.get()), 0);
+  const UniqueFd fd(::open(::ptsname(terminal.get()), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  ASSERT_TRUE(fd);
+  ASSERT_EQ(::tcflow(fd.get(), TCOOFF), 0);
+  Screen screen(fd.get(), &loop, kSmall);
+  EXPECT_TRUE(screen.print("one\n", false));
+  EXPECT_FALSE(screen.print(lines(1000), false));
+  EXPECT_FALSE(screen.is_gone());
+  ASSERT_EQ(::tcflow(fd.get(), TCOON), 0);
+  loop.run_until_idle();
+  std::array<char, 100> text{};
+  EXPECT_EQ(::read(terminal.get(), text.data(), text.size()), 5);
+  EXPECT_STREQ(text.data(), "one\r\n");
+}
+
+TEST_F(ScreenTest, NeverWaitsForTheReaderOfASocket) {
+  std::array<int, 2> fds{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds.data()), 0);
+  const UniqueFd one(fds[0]);
+  UniqueFd other(fds[1]);
+  Screen screen(one.get(), &loop, kSmall);
+  int taken = 0;
+  while (screen.print(lines(100), false)) {
+    ++taken;
+  }
+  EXPECT_GT(taken, 1);
+  EXPECT_FALSE(screen.is_gone());
+  EXPECT_EQ(::fcntl(one.get(), F_GETFL) & O_NONBLOCK, 0);
+  other.reset();
+  loop.run_until_idle();
+  EXPECT_TRUE(screen.is_gone());
+}
+
+}  // namespace
+}  // namespace launch
