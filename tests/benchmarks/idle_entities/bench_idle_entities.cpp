@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Usage: bench_idle_entities [FEW MANY...]
+//
 // Measures the time of a message from publish() to the end of its callback in a single-threaded executor: with few idle
 // subscriptions beside the one that gets it, with many, and with as many idle timers. The executors are in one process
 // and take turns, batch by batch, so that other work on the machine affects all of them.
@@ -11,7 +13,10 @@
 #include <rclcpp/rclcpp.hpp>
 #include <std_msgs/msg/u_int64.hpp>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tests/benchmarks/samples/samples_file.hpp"
 
 namespace {
 
@@ -80,32 +85,68 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+std::string subscriptions(std::size_t count) {
+  return fmt::format("{} subscription{}", count, count == 1 ? "" : "s");
+}
+
+// An executor with idle entities, and the times of a message in it.
+class Case {
+ public:
+  Case(std::string what, const std::string& name, std::size_t subscriptions, std::size_t timers = 0)
+      : what_(std::move(what)), idle_(subscriptions + timers), nodes_(name, subscriptions, timers) {}
+
+  void run() { times_.push_back(nodes_.time_of_a_message()); }
+  void print(const Case& few) const {
+    const double time = median(times_);
+    const double floor = median(few.times_);
+    fmt::print("{:<32}{:>16.1f}{:>10.2f}{:>16.1f}\n", what_, time, time / floor,
+               (time - floor) / static_cast<double>(idle_) * 1e3);
+    if (this == &few) {
+      benchmarks::report({"a message beside " + what_, "us", times_});
+    } else {
+      benchmarks::report({"a message beside " + what_, "us", times_, few.what_, few.times_});
+    }
+  }
+
+ private:
+  std::string what_;
+  std::size_t idle_;
+  Nodes nodes_;
+  std::vector<double> times_;  // microseconds, one for each batch
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
+  const std::vector<std::string> words(argv, argv + argc);
+  std::vector<std::size_t> counts;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    counts.push_back(std::stoul(words[i]));
+  }
+  if (counts.empty()) {
+    counts = {kFew, kMany};
+  }
   {
-    Nodes few("few", kFew);
-    // To find a reader in this process, Fast DDS goes through the readers that were made before it.
-    Nodes timers("timers", kFew, kMany);
-    Nodes many("many", kMany);
-    std::vector<double> with_few;
-    std::vector<double> with_many;
-    std::vector<double> with_timers;
-    for (int i = 0; i < kBatches; ++i) {
-      with_few.push_back(few.time_of_a_message());
-      with_many.push_back(many.time_of_a_message());
-      with_timers.push_back(timers.time_of_a_message());
+    // To find a reader in this process, Fast DDS goes through the readers that were made before it: the few come first.
+    Case few(subscriptions(counts.front()), "few", counts.front());
+    std::vector<std::unique_ptr<Case>> others;
+    others.push_back(
+        std::make_unique<Case>(fmt::format("{} timers", counts.back()), "timers", counts.front(), counts.back()));
+    for (std::size_t i = 1; i < counts.size(); ++i) {
+      others.push_back(std::make_unique<Case>(subscriptions(counts[i]), "many" + std::to_string(i), counts[i]));
     }
-    const double floor = median(with_few);
-    const auto print = [floor](const std::string& idle, const std::vector<double>& times) {
-      const double time = median(times);
-      fmt::print("{:<32}{:>16.1f}{:>10.2f}{:>16.1f}\n", idle, time, time / floor, (time - floor) / kMany * 1e3);
-    };
+    for (int i = 0; i < kBatches; ++i) {
+      few.run();
+      for (const auto& other : others) {
+        other->run();
+      }
+    }
     fmt::print("{:<32}{:>16}{:>10}{:>16}\n", "idle beside the subscription", "us per message", "of few", "ns for each");
-    print(fmt::format("{} subscriptions", kFew), with_few);
-    print(fmt::format("{} subscriptions", kMany), with_many);
-    print(fmt::format("{} timers", kMany), with_timers);
+    few.print(few);
+    for (const auto& other : others) {
+      other->print(few);
+    }
   }
   rclcpp::shutdown();
 }

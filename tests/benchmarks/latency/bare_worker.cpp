@@ -3,16 +3,11 @@
 //   latency_bare publisher|wait_set|listener
 // The subscriber `wait_set` has the threads of the stack: one waits in a wait set, and the one that receives wakes it.
 // The subscriber `listener` works in the thread that receives, which is the least that Fast DDS can do.
-#include <fastcdr/Cdr.h>
-
-#include <condition_variable>
 #include <cstdlib>
-#include <cstring>
 #include <fastdds/dds/core/condition/GuardCondition.hpp>
 #include <fastdds/dds/core/condition/StatusCondition.hpp>
 #include <fastdds/dds/core/condition/WaitSet.hpp>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
@@ -20,100 +15,24 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <memory>
-#include <mutex>
 #include <string_view>
 #include <vector>
 
+#include "bare_dds.hpp"
 #include "worker.hpp"
 
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastcdr::Cdr;
-using eprosima::fastcdr::FastBuffer;
 
-constexpr int kTopics = latency::kSizes.size();
+using latency::like_rmw;
+using latency::Matches;
+using latency::Message;
+using latency::MessageType;
 using Topics = std::vector<fdds::Topic*>;
 
-// Any of the message types; the size decides the length of `data`.
-struct Message {
-  std::int64_t sent;
-  std::int64_t remaining;
-  std::uint8_t data[latency::kSizes.back() - 2 * sizeof(std::int64_t)];
-};
-
-class MessageType final : public fdds::TopicDataType {
- public:
-  explicit MessageType(std::size_t size) : length_(size - 2 * sizeof(std::int64_t)) {
-    setName(("Bytes" + std::to_string(size)).c_str());
-    m_typeSize = static_cast<std::uint32_t>(size) + kEncapsulation;
-  }
-
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    const Message& message = *static_cast<const Message*>(data);
-    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
-    payload->encapsulation = CDR_LE;
-    cdr.serialize_encapsulation();
-    cdr << message.sent << message.remaining;
-    cdr.serializeArray(message.data, length_);
-    payload->length = static_cast<std::uint32_t>(cdr.getSerializedDataLength());
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    Message& message = *static_cast<Message*>(data);
-    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
-    cdr.read_encapsulation();
-    cdr >> message.sent >> message.remaining;
-    cdr.deserializeArray(message.data, length_);
-    return true;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
-    return [this] { return m_typeSize; };
-  }
-  void* createData() override { return new Message; }
-  void deleteData(void* data) override { delete static_cast<Message*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-  bool is_bounded() const override { return true; }
-
- private:
-  static constexpr std::uint32_t kEncapsulation = 4;
-  std::size_t length_;
-};
-
-template <typename Qos>
-Qos like_rmw(Qos qos) {
-  qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = latency::kDepth;
-  qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
-  qos.durability().kind = fdds::VOLATILE_DURABILITY_QOS;
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  qos.data_sharing().off();
-  return qos;
-}
-
-// Counts the endpoints that have found their other side.
-class Matches {
- public:
-  void add(int change) {
-    const std::lock_guard lock(mutex_);
-    count_ += change;
-    condition_.notify_all();
-  }
-  void wait_for_all() {
-    std::unique_lock lock(mutex_);
-    condition_.wait(lock, [&] { return count_ == kTopics; });
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable condition_;
-  int count_ = 0;
-};
+constexpr int kTopics = latency::kSizes.size();
 
 class WriterListener final : public fdds::DataWriterListener {
  public:
@@ -121,7 +40,7 @@ class WriterListener final : public fdds::DataWriterListener {
     matches.add(info.current_count_change);
   }
 
-  Matches matches;
+  Matches matches{kTopics};
 };
 
 class Receiver final : public fdds::DataReaderListener {
@@ -139,7 +58,7 @@ class Receiver final : public fdds::DataReaderListener {
     }
   }
 
-  Matches matches;
+  Matches matches{kTopics};
 
  private:
   std::unique_ptr<Message> message_ = std::make_unique<Message>();
@@ -201,10 +120,7 @@ void publish(fdds::DomainParticipant& participant, const Topics& topics) {
 
 int main(int argc, char** argv) {
   const std::string_view role = argc == 2 ? argv[1] : "";
-  const char* domain = std::getenv("ROS_DOMAIN_ID");
-  auto* factory = fdds::DomainParticipantFactory::get_instance();
-  auto* participant = factory->create_participant(static_cast<std::uint32_t>(domain == nullptr ? 0 : std::atoi(domain)),
-                                                  factory->get_default_participant_qos());
+  auto* participant = latency::create_participant();
   Topics topics;
   for (std::size_t i = 0; i < latency::kSizes.size(); ++i) {
     fdds::TypeSupport type(new MessageType(latency::kSizes[i]));

@@ -32,6 +32,19 @@ void tell_ready() {
   }
 }
 
+void tell(std::initializer_list<std::int64_t> times) {
+  const std::size_t bytes = times.size() * sizeof(std::int64_t);
+  if (write(STDOUT_FILENO, times.begin(), bytes) != static_cast<ssize_t>(bytes)) {
+    std::exit(EXIT_FAILURE);
+  }
+}
+
+void wait_for_end() {
+  char byte = 0;
+  while (read(STDIN_FILENO, &byte, 1) > 0) {
+  }
+}
+
 void at_pace(std::uint64_t steps, std::int64_t period, const std::function<void(std::uint64_t)>& step) {
   std::int64_t next = monotonic_now();
   while (steps-- > 0) {
@@ -41,16 +54,26 @@ void at_pace(std::uint64_t steps, std::int64_t period, const std::function<void(
   }
 }
 
-void publish_batches(const std::function<void(std::size_t, std::int64_t)>& publish) {
+void for_each_batch(const std::function<void(const Batch&)>& run) {
   Batch batch{};
   while (read(STDIN_FILENO, &batch, sizeof batch) == sizeof batch) {
-    at_pace(batch.messages, batch.period,
-            [&](std::uint64_t remaining) { publish(batch.size_index, static_cast<std::int64_t>(remaining)); });
+    run(batch);
   }
 }
 
+void publish_batches(const std::function<void(std::size_t, std::int64_t)>& publish) {
+  for_each_batch([&](const Batch& batch) {
+    at_pace(batch.messages, batch.period,
+            [&](std::uint64_t remaining) { publish(batch.size_index, static_cast<std::int64_t>(remaining)); });
+  });
+}
+
 void LatencyLog::received(std::int64_t sent, std::int64_t remaining) {
-  latencies_.push_back(monotonic_now() - sent);
+  add(monotonic_now() - sent, remaining);
+}
+
+void LatencyLog::add(std::int64_t latency, std::int64_t remaining) {
+  latencies_.push_back(latency);
   if (remaining != 0) {
     return;
   }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -39,13 +40,22 @@ struct PathCosts {
   double at_pace;
 };
 
+// Writes times to stdout, as they are in memory.
+void tell(std::initializer_list<std::int64_t> times);
+
+// Returns when stdin ends: the measuring program has what it wanted.
+void wait_for_end();
+
 // Tells bench_latency that every topic has found its other side. Call it once.
 void tell_ready();
+
+// Hands over the batches that are asked for until stdin ends.
+void for_each_batch(const std::function<void(const Batch&)>& run);
 
 // Calls `step` once a period (nanoseconds), with the number of steps that are left.
 void at_pace(std::uint64_t steps, std::int64_t period, const std::function<void(std::uint64_t remaining)>& step);
 
-// Sends the batches that are asked for until stdin ends.
+// Sends the batches that are asked for, each at its pace.
 void publish_batches(const std::function<void(std::size_t size_index, std::int64_t remaining)>& publish);
 
 // Collects latencies; after the last message of a batch they go to stdout: their number as uint64, then each as
@@ -53,6 +63,7 @@ void publish_batches(const std::function<void(std::size_t size_index, std::int64
 class LatencyLog {
  public:
   void received(std::int64_t sent, std::int64_t remaining);
+  void add(std::int64_t latency, std::int64_t remaining);
 
  private:
   std::vector<std::int64_t> latencies_;

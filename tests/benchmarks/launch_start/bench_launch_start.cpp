@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the time from the start of `launch FILE` until both of its processes run, and the memory that the launcher
-// then holds. The floor is a bare loop that starts the same two programs.
+// Usage: bench_launch_start [RUNS [PROCESSES...]]
+//
+// Measures the time from the start of `launch FILE` until all of its processes run, the memory that the launcher then
+// holds, and the time from SIGINT until everything has ended. The floor is a bare loop that starts and ends the same
+// programs. Default: 21 runs of two processes.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -14,10 +17,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "tests/benchmarks/samples/samples_file.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
 
@@ -25,8 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kRuns = 21;
-constexpr int kProcesses = 2;
+constexpr int kDefaultRuns = 21;
+constexpr int kDefaultProcesses = 2;
 
 std::int64_t now() {
   timespec time{};
@@ -53,9 +59,9 @@ pid_t start(const std::vector<std::string>& command) {
 }
 
 // The latest of the times that the started programs write.
-std::int64_t last_stamp(int pipe) {
+std::int64_t last_stamp(int pipe, int count) {
   std::int64_t last = 0;
-  for (int i = 0; i < kProcesses; ++i) {
+  for (int i = 0; i < count; ++i) {
     std::int64_t stamp = 0;
     if (read(pipe, &stamp, sizeof stamp) != sizeof stamp) {
       std::perror("read");
@@ -71,12 +77,12 @@ void end(pid_t pid) {
   waitpid(pid, nullptr, 0);
 }
 
-// The value in kilobytes of the line of this name in /proc/PID/status.
-long memory_of(pid_t pid, const std::string& line_name) {
+// The value of the line of this name in /proc/PID/status.
+double mebibytes_of(pid_t pid, const std::string& line_name) {
   std::ifstream status(fmt::format("/proc/{}/status", pid));
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with(line_name)) {
-      return std::stol(line.substr(line_name.size()));
+      return static_cast<double>(std::stol(line.substr(line_name.size()))) / 1024;
     }
   }
   return 0;
@@ -90,18 +96,95 @@ pid_t launcher_below(pid_t guardian) {
   return launcher;
 }
 
-double milliseconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) / 1e6;
-}
+using Values = std::vector<double>;
 
-std::int64_t median(std::vector<std::int64_t> values) {
+double median(Values values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
 
+double milliseconds_since(std::int64_t begin) {
+  return static_cast<double>(now() - begin) / 1e6;
+}
+
+void write_launch_file(const std::string& path, int count) {
+  std::ofstream file(path);
+  file << "<launch>\n";
+  for (int i = 0; i < count; ++i) {
+    file << "<executable cmd=\"" STAMP_PROGRAM "\"/>\n";
+  }
+  file << "</launch>\n";
+}
+
+// One value for each run: milliseconds, and mebibytes of memory.
+struct Measured {
+  Values launched, stopped;
+  Values bare_start, bare_stop;
+  Values resident, private_memory, guardian_memory;
+};
+
+void measure_launch(Measured& measured, const std::string& file, int count, int pipe) {
+  const std::int64_t begin = now();
+  const pid_t guardian = start({LAUNCH_PROGRAM, file});
+  measured.launched.push_back(static_cast<double>(last_stamp(pipe, count) - begin) / 1e6);
+  const pid_t launcher = launcher_below(guardian);
+  measured.guardian_memory.push_back(mebibytes_of(guardian, "VmRSS:"));
+  measured.resident.push_back(mebibytes_of(launcher, "VmRSS:"));
+  measured.private_memory.push_back(mebibytes_of(launcher, "RssAnon:"));
+  const std::int64_t stop = now();
+  end(guardian);
+  measured.stopped.push_back(milliseconds_since(stop));
+}
+
+void measure_bare(Measured& measured, int count, int pipe) {
+  const std::int64_t begin = now();
+  std::vector<pid_t> pids;
+  for (int i = 0; i < count; ++i) {
+    pids.push_back(start({STAMP_PROGRAM}));
+  }
+  measured.bare_start.push_back(static_cast<double>(last_stamp(pipe, count) - begin) / 1e6);
+  const std::int64_t stop = now();
+  for (const pid_t pid : pids) {
+    kill(pid, SIGINT);
+  }
+  for (const pid_t pid : pids) {
+    waitpid(pid, nullptr, 0);
+  }
+  measured.bare_stop.push_back(milliseconds_since(stop));
+}
+
+void print(const Measured& measured, int count, int runs) {
+  const double launched = median(measured.launched);
+  const double stopped = median(measured.stopped);
+  fmt::print("from the command to {} running processes, median of {} runs\n", count, runs);
+  fmt::print("  launch               {:8.2f} ms\n", launched);
+  fmt::print("  bare posix_spawn     {:8.2f} ms   ratio {:.1f}\n", median(measured.bare_start),
+             launched / median(measured.bare_start));
+  fmt::print("from SIGINT to the end\n");
+  fmt::print("  launch               {:8.2f} ms\n", stopped);
+  fmt::print("  bare kill, waitpid   {:8.2f} ms   ratio {:.1f}\n", median(measured.bare_stop),
+             stopped / median(measured.bare_stop));
+  fmt::print("  launcher resident    {:8.1f} MiB, of it private {:.1f} MiB\n", median(measured.resident),
+             median(measured.private_memory));
+  fmt::print("  guardian resident    {:8.1f} MiB\n", median(measured.guardian_memory));
+  std::fflush(stdout);
+  const std::string processes = fmt::format("{} process{}", count, count == 1 ? "" : "es");
+  benchmarks::report({processes + " started", "ms", measured.launched, "a posix_spawn loop", measured.bare_start});
+  benchmarks::report({processes + " stopped", "ms", measured.stopped, "kill and waitpid", measured.bare_stop});
+  benchmarks::report({processes + ", memory of the launcher", "MiB", measured.resident});
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : kDefaultRuns;
+  std::vector<int> counts;
+  for (int i = 2; i < argc; ++i) {
+    counts.push_back(std::max(1, std::atoi(argv[i])));
+  }
+  if (counts.empty()) {
+    counts.push_back(kDefaultProcesses);
+  }
   char pattern[] = "/tmp/bench-launch-start-XXXXXX";
   const fs::path directory = mkdtemp(pattern);
   const std::string pipe_path = directory / "stamps";
@@ -109,38 +192,15 @@ int main() {
   const int pipe = open(pipe_path.c_str(), O_RDWR | O_CLOEXEC);
   setenv("STAMP_PIPE", pipe_path.c_str(), 1);
   setenv("ROS_LOG_DIR", (directory / "log").c_str(), 1);
-  const std::string file = directory / "system.launch.xml";
-  std::ofstream(file) << "<launch>\n<executable cmd=\"" STAMP_PROGRAM "\"/>\n<executable cmd=\"" STAMP_PROGRAM
-                         "\"/>\n</launch>\n";
-
-  std::vector<std::int64_t> launched;
-  std::vector<std::int64_t> bare;
-  std::vector<std::int64_t> resident;
-  std::vector<std::int64_t> private_memory;
-  std::vector<std::int64_t> guardian_memory;
-  for (int run = 0; run < kRuns; ++run) {
-    std::int64_t begin = now();
-    const pid_t guardian = start({LAUNCH_PROGRAM, file});
-    launched.push_back(last_stamp(pipe) - begin);
-    const pid_t launcher = launcher_below(guardian);
-    guardian_memory.push_back(memory_of(guardian, "VmRSS:"));
-    resident.push_back(memory_of(launcher, "VmRSS:"));
-    private_memory.push_back(memory_of(launcher, "RssAnon:"));
-    end(guardian);
-
-    begin = now();
-    const pid_t first = start({STAMP_PROGRAM});
-    const pid_t second = start({STAMP_PROGRAM});
-    bare.push_back(last_stamp(pipe) - begin);
-    end(first);
-    end(second);
+  for (const int count : counts) {
+    const std::string file = directory / fmt::format("{}.launch.xml", count);
+    write_launch_file(file, count);
+    Measured measured;
+    for (int run = 0; run < runs; ++run) {
+      measure_launch(measured, file, count, pipe);
+      measure_bare(measured, count, pipe);
+    }
+    print(measured, count, runs);
   }
-  fmt::print("from the command to two running processes, median of {} runs\n", kRuns);
-  fmt::print("  launch               {:8.2f} ms\n", milliseconds(median(launched)));
-  fmt::print("  bare posix_spawn     {:8.2f} ms   ratio {:.1f}\n", milliseconds(median(bare)),
-             milliseconds(median(launched)) / milliseconds(median(bare)));
-  fmt::print("  launcher resident    {:8.1f} MiB, of it private {:.1f} MiB\n",
-             static_cast<double>(median(resident)) / 1024, static_cast<double>(median(private_memory)) / 1024);
-  fmt::print("  guardian resident    {:8.1f} MiB\n", static_cast<double>(median(guardian_memory)) / 1024);
   fs::remove_all(directory);
 }

@@ -14,12 +14,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "launch_trace/reader.hpp"
+#include "tests/benchmarks/samples/samples_file.hpp"
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
@@ -146,7 +146,8 @@ void compare(const std::string& self, std::size_t events) {
   struct Reader {
     std::string name;
     std::vector<std::string> command;
-    double seconds = std::numeric_limits<double>::max();
+    std::vector<double> seconds = {};  // of each round
+    double best() const { return *std::min_element(seconds.begin(), seconds.end()); }
   };
   std::vector<Reader> readers{
       {"babeltrace2 -o dummy", {"babeltrace2", "-o", "dummy", trace}},
@@ -158,12 +159,18 @@ void compare(const std::string& self, std::size_t events) {
       {"launch report --summary", {LAUNCH_REPORT, "--summary", trace}},
   };
   for (int round = 0; round < kRounds; ++round) {
-    for (Reader& reader : readers) reader.seconds = std::min(reader.seconds, cpu_seconds_of(reader.command));
+    for (Reader& reader : readers) reader.seconds.push_back(cpu_seconds_of(reader.command));
   }
   fmt::print("{} events in 2 streams, with vpid, vtid and procname; CPU time, best of {}\n", events, kRounds);
   for (const Reader& reader : readers) {
     fmt::print("{:<31} {:6.2f} M events/s   {:5.2f} of babeltrace2's speed\n", reader.name,
-               static_cast<double>(events) / reader.seconds / 1e6, readers[0].seconds / reader.seconds);
+               static_cast<double>(events) / reader.best() / 1e6, readers[0].best() / reader.best());
+    const auto speeds = [&](const Reader& of) {
+      std::vector<double> values;
+      for (const double seconds : of.seconds) values.push_back(static_cast<double>(events) / seconds / 1e6);
+      return values;
+    };
+    benchmarks::report({reader.name, "M events/s", speeds(reader), readers[0].name, speeds(readers[0]), true});
   }
   std::fflush(stdout);
 #ifdef PYTHON

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/benchmarks/samples/samples_file.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/plan/trace_error.hpp"
@@ -63,8 +64,9 @@ void isolate(const fs::path& directory) {
 pid_t process_named(const std::string& name) {
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
     std::string found;
+    std::error_code ended;  // the process may be gone meanwhile
     if (std::getline(std::ifstream(entry.path() / "comm"), found) && found == name &&
-        fs::read_symlink(entry.path() / "ns" / "mnt") == fs::read_symlink("/proc/self/ns/mnt")) {
+        fs::read_symlink(entry.path() / "ns" / "mnt", ended) == fs::read_symlink("/proc/self/ns/mnt")) {
       return std::stoi(entry.path().filename());
     }
   }
@@ -147,6 +149,14 @@ struct Bench {
     fmt::print("  lost                               {:8}\n", losses.discarded_events());
     fmt::print("  consumer, of one processor         {:8.1f} %\n", 100 * cpu / took);
     fmt::print("  end, after the last node           {:8.1f} ms\n", ended);
+    const std::string buffers = fmt::format("{} events/s, {} x {} KiB", load.events_per_second,
+                                            config.subbuffer_count_ust, config.subbuffer_size_ust / 1024);
+    if (seconds > 0) {
+      benchmarks::report({buffers + ", lost",
+                          "%",
+                          {100 * static_cast<double>(losses.discarded_events()) / static_cast<double>(fired)}});
+      benchmarks::report({buffers + ", consumer", "% of a processor", {100 * cpu / took}});
+    }
     fs::remove_all(config.trace_directory());
   }
 };

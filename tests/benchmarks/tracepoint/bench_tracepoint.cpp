@@ -2,12 +2,14 @@
 // Measures the cost of one tracepoint with two pointers (rcl_publish) for an instrumented line of a program.
 //
 // Without a session all cases are idle: `LibraryTracepoint` is the way of the stack, `EmptyCall` a function of another
-// library that does nothing, `InlineTracepoint` LTTng's bare macro without a function around it. To see the cost of
+// library that does nothing, `LibraryTracepointWithNumber` has another payload, `InlineTracepoint` is LTTng's bare
+// macro without a function around it, `InlineTracepointWithText` the same with 32 characters. To see the cost of
 // recording, first start a session with the event ros2:rcl_publish; the label tells whether it was recorded:
 //
 //   lttng create bench --snapshot && lttng enable-event -u 'ros2:*' && lttng start && bench_tracepoint
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
 #include <ctime>
 
 #include "tracetools/tracetools.h"
@@ -53,6 +55,11 @@ void LibraryTracepoint(benchmark::State& state) {
 }
 BENCHMARK(LibraryTracepoint);
 
+void LibraryTracepointWithNumber(benchmark::State& state) {
+  measure(state, [&] { TRACETOOLS_TRACEPOINT(rmw_publish, kHandle, &state, std::int64_t{1}); });
+}
+BENCHMARK(LibraryTracepointWithNumber);
+
 void EnabledCheck(benchmark::State& state) {
   measure(state, [] { benchmark::DoNotOptimize(TRACETOOLS_TRACEPOINT_ENABLED(rcl_publish)); });
 }
@@ -62,6 +69,14 @@ void InlineTracepoint(benchmark::State& state) {
   measure(state, [&] { lttng_ust_tracepoint(ros2, rcl_publish, kHandle, &state); });
 }
 BENCHMARK(InlineTracepoint);
+
+// The library's function of an event with text does more: it remembers the object for sessions that start later.
+void InlineTracepointWithText(benchmark::State& state) {
+  measure(state, [&] {
+    lttng_ust_tracepoint(ros2, rcl_lifecycle_transition, kHandle, "sixteen letters.", "sixteen letters.");
+  });
+}
+BENCHMARK(InlineTracepointWithText);
 
 }  // namespace
 
