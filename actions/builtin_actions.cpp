@@ -12,6 +12,8 @@ namespace launch {
   ACTION(append_env)                   \
   ACTION(arg)                          \
   ACTION(bool_arg)                     \
+  ACTION(call)                         \
+  ACTION(change_parameter)             \
   ACTION(executable)                   \
   ACTION(for)                          \
   ACTION(for_each)                     \
@@ -33,13 +35,16 @@ namespace launch {
   ACTION(on_process_start)             \
   ACTION(on_shutdown)                  \
   ACTION(on_state_transition)          \
+  ACTION(publish)                      \
   ACTION(push_ros_namespace)           \
   ACTION(push_ros_namespace_alias)     \
+  ACTION(receive)                      \
   ACTION(rep_env)                      \
   ACTION(reset)                        \
   ACTION(reset_env)                    \
   ACTION(restart)                      \
   ACTION(ros_timer)                    \
+  ACTION(send_goal)                    \
   ACTION(set_env)                      \
   ACTION(set_parameter)                \
   ACTION(set_parameters_from_file)     \

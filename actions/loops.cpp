@@ -15,6 +15,8 @@ namespace launch {
 namespace {
 
 constexpr char kSeparator = ';';
+// More than any launch has: a mistyped length must not fill the memory.
+constexpr std::int64_t kMostTurns = 100'000;
 
 using LoopVariables = std::map<std::string, std::string>;
 
@@ -47,6 +49,10 @@ class ForLoop : public Action {
     if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
       throw LaunchError(fmt::format("the length of a loop is a whole number, got '{}'", text), length_.where(),
                         "0 or more; $(index NAME) counts from 0");
+    }
+    if (length > kMostTurns) {
+      throw LaunchError(fmt::format("the loop has {} turns, more than {}", length, kMostTurns), length_.where(),
+                        fmt::format("0 to {}; $(index NAME) counts from 0", kMostTurns));
     }
     if (length <= 0 && context.scope().warn) {
       context.scope().warn(length_.where(), fmt::format("the loop has no turns: its length is {}", length));

@@ -2,7 +2,9 @@
 #include "actions/node_process.hpp"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "actions/parameter_file.hpp"
@@ -127,6 +129,14 @@ std::string NodeProcess::request(LaunchContext& context) const {
     const std::string after = to.perform(scope);
     find_invalid_remap(before, from.where(), after, to.where(), context);
     remap(before + ":=" + after);
+  }
+
+  for (const LaunchContext::NodeLogLevel& wish : context.log_levels()) {
+    const auto is_meant = [&](const std::string& name) { return ::fnmatch(wish.node.c_str(), name.c_str(), 0) == 0; };
+    if (wish.node.empty() || is_meant(node.executable) ||
+        std::any_of(spec.other_names.begin(), spec.other_names.end(), is_meant)) {
+      spec.argv.insert(spec.argv.end(), {"--log-level", wish.level});
+    }
   }
 
   if (exec_name_) {

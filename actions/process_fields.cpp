@@ -76,6 +76,11 @@ std::vector<AttributeSpec> ProcessFields::attributes() {
        true},
       {"required", AttributeType::kBoolean, false, "false",
        "true: when the process ends, the whole system ends with its exit code", true},
+      {"allowed-exit-codes", AttributeType::kText, false, "0",
+       "ends that are no failures: any, or codes and signals (2 or SIGTERM) separated by commas; 0 is always one",
+       true},
+      {"crash-dir", AttributeType::kText, false, "configuration crash-dir",
+       "directory for bundles: core, backtrace, last output and command of each crash of the process", true},
       {"on_exit", AttributeType::kLiteral, false, "", "shutdown: when the process ends, the whole system ends"},
       {"shell", AttributeType::kBoolean, false, "false", "run the words, joined by spaces, through /bin/sh -c"},
       {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
@@ -119,6 +124,8 @@ ProcessFields::ProcessFields(const Fields& fields)
       respawn_backoff_(not_negative(fields.number("respawn_backoff"))),
       respawn_max_delay_(not_negative(fields.number("respawn_max_delay"))),
       respawn_backoff_where_(fields.where("respawn_backoff")),
+      allowed_exits_(fields.optional_text("allowed-exit-codes")),
+      crash_directory_(fields.optional_text("crash-dir")),
       required_(fields.boolean("required", false)),
       required_where_(fields.where("required")),
       shell_(fields.boolean("shell", false)),
@@ -166,6 +173,12 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
   spec.output = output(context);
   spec.traced = traced_.perform(scope);
   spec.respawn = respawn(scope);
+  if (allowed_exits_) {
+    const ExitCodeFilter allowed(allowed_exits_->perform(scope), allowed_exits_->where());
+    spec.allowed_exits = {!allowed.is_listed(), allowed.codes()};
+  }
+  spec.crash_directory = crash_directory(scope);
+  spec.limits.core_files = !spec.crash_directory.empty();
   spec.required = required_.perform(scope);
   if (spec.required && spec.respawn.enabled) {
     throw LaunchError("a required process can't respawn: its end is the end of the system", required_where_,
@@ -181,6 +194,14 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
     dependency.request(context, context.requests().processes.size());
   }
   context.requests().processes.push_back(std::move(spec));
+}
+
+std::string ProcessFields::crash_directory(Scope& scope) const {
+  const std::string* const configured = find_configuration(scope, "crash-dir");
+  const std::string directory = crash_directory_        ? crash_directory_->perform(scope)
+                                : configured != nullptr ? *configured
+                                                        : "";
+  return directory.empty() ? "" : std::filesystem::absolute(directory).string();
 }
 
 Environment ProcessFields::environment(Scope& scope) const {

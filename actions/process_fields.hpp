@@ -29,6 +29,7 @@ class ProcessFields {
  private:
   std::vector<std::string> launch_prefix(Scope& scope, const std::string& program) const;
   RespawnPolicy respawn(Scope& scope) const;
+  std::string crash_directory(Scope& scope) const;  // empty: none
   Environment environment(Scope& scope) const;
   OutputRouting output(LaunchContext& context) const;
   bool emulate_tty(Scope& scope) const;
@@ -46,6 +47,8 @@ class ProcessFields {
   std::optional<NumberField> respawn_backoff_;
   std::optional<NumberField> respawn_max_delay_;
   SourceRange respawn_backoff_where_;
+  std::optional<Template> allowed_exits_;
+  std::optional<Template> crash_directory_;
   BooleanField required_;
   SourceRange required_where_;
   bool shutdown_on_exit_ = false;

@@ -205,11 +205,14 @@ void TraceScope::look_around_later(EventLoop& loop, const Tell& tell) {
 
 // Called on the thread of the loop. The session daemon takes a millisecond for these registrations.
 void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
-  flight_recorder_ =
-      std::make_unique<tracing::FlightRecorder>(config_, [&loop, tell](const tracing::TakenSnapshot& taken) {
-        loop.post([tell, taken] {
+  flight_recorder_ = std::make_unique<tracing::FlightRecorder>(
+      config_, [&loop, tell, observer = snapshot_observer_](const tracing::TakenSnapshot& taken) {
+        loop.post([tell, taken, observer] {
           const std::string reasons = fmt::format("{}", fmt::join(taken.reasons, ", "));
           if (taken.error.empty()) {
+            if (observer) {
+              observer(taken.reasons, taken.directory.string());
+            }
             tell(false, fmt::format("snapshot written to: {} ({})", taken.directory.string(), reasons));
           } else {
             tell(true, fmt::format("no snapshot ({}): {}", reasons, taken.error));

@@ -60,6 +60,7 @@ class TraceScope : public RunScope {
   void prepare(ProcessSpec& spec) const override;
   bool wants_records() const override { return tracing::records_launch_events(config_); }
   void record(const LaunchRecord& record) override;
+  void observe_snapshots(SnapshotObserver observer) override { snapshot_observer_ = std::move(observer); }
   std::string kind() const override { return "trace"; }
   std::vector<ScopeSetting> describe() const override;
   std::vector<TimedStep> timing() const override;
@@ -94,6 +95,7 @@ class TraceScope : public RunScope {
   std::string summary_;
   std::string report_;  // path of the page; empty: none could be made
   std::atomic<bool> hurry_ = false;
+  SnapshotObserver snapshot_observer_;
   EventLoop::SourcePtr signals_;
   EventLoop::SourcePtr look_around_;
   std::unique_ptr<tracing::FlightRecorder> flight_recorder_;

@@ -5,7 +5,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "actions/builtin_actions.hpp"
 #include "launcher/base/own_environment.hpp"
@@ -15,19 +18,22 @@
 #include "launcher/cli/command_line.hpp"
 #include "launcher/cli/completion.hpp"
 #include "launcher/cli/control/control_command.hpp"
+#include "launcher/cli/further_commands.hpp"
 #include "launcher/cli/graph/graph_command.hpp"
 #include "launcher/cli/reference.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/run_command.hpp"
+#include "launcher/cli/run_program.hpp"
 #include "launcher/cli/schema_command.hpp"
 #include "launcher/cli/subcommand.hpp"
+#include "launcher/cli/top/launch_in_top.hpp"
 #include "tracing/command/trace_command.hpp"
 #include "tracing/command/trace_completion.hpp"
 
 namespace {
 
 // Becomes another program, called `name`, with the arguments behind `last`. The launcher links no libraries for reading
-// traces, so other programs do that.
+// traces and no middleware, so other programs do what needs them.
 int become(const char* program_name, const char* name, char** last) {
   const std::string program = launch::own_library_file(program_name);
   *last = const_cast<char*>(name);
@@ -43,8 +49,15 @@ int main(int argc, char** argv) {
   if (command == "report") {
     return become("launch-report", "launch report", argv + 1);
   }
+  if (command == "build") {
+    return become("launch-build", "launch build", argv + 1);
+  }
   if (command == "test") {
     return become("launch-test", "launch test", argv + 1);
+  }
+  if (launch::is_ros_command(command) ||
+      (command == "complete" && argc > 3 && launch::is_ros_command(std::string_view(argv[2])))) {
+    return become("launch-ros-command", "launch", argv);
   }
   if (command == "trace" && argc > 2 && std::string_view(argv[2]) == "read") {
     return become("launch-trace-read", "launch trace read", argv + 2);
@@ -80,12 +93,20 @@ int main(int argc, char** argv) {
     fmt::print("{}", launch::reference_page(launch::builtin_actions()));
     return 0;
   }
+  if (command == "run") {
+    return launch::run_program_command({argv + 2, argv + argc}, launch::own_environment());
+  }
   if (launch::is_control_command(command)) {
     return launch::control_command(argv[1], {argv + 2, argv + argc}, launch::own_environment());
   }
   const auto parsed = launch::parse_command_line(argc, argv);
   if (const auto* const exit_now = std::get_if<launch::ExitNow>(&parsed)) {
     return exit_now->code;
+  }
+  if (std::get<launch::CommandLine>(parsed).top) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    std::erase(words, "--top");
+    return launch::launch_in_top(std::move(words), launch::own_environment());
   }
   return launch::run_command(std::get<launch::CommandLine>(parsed), launch::own_environment());
 }

@@ -2,9 +2,13 @@
 #include "launcher/cli/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
 
 #include "launcher/base/usage_error.hpp"
 #include "launcher/cli/further_commands.hpp"
@@ -14,6 +18,7 @@ namespace launch {
 namespace {
 
 constexpr int kUsageError = 2;
+constexpr std::array<std::string_view, 5> kLevels = {"debug", "info", "warn", "error", "fatal"};
 
 constexpr const char* kDescription =
     "Runs a ROS 2 launch file (XML, YAML or Python): starts its traces and processes, and supervises them to the end.";
@@ -41,6 +46,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   bool show_arguments = false;
   bool print = false;
   bool noninteractive = false;
+  std::vector<std::string> log_levels;
 
   CLI::App app(kDescription, "launch");
   app.footer(list_of_further_commands() + kExamples);
@@ -61,6 +67,27 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
                "show the output of every process on the screen and in launch.log");
   app.add_flag("--strict-args", command.strict_arguments,
                "arguments that the file does not declare, or that are given twice, are errors");
+  app.add_flag("--top", command.top, "begin in the full-screen view of launch top; q leaves it, the launch goes on");
+  app.add_flag("--ignore-failures", command.ignore_failures,
+               "exit with 0 also if processes have failed, as ros2 launch does");
+  app.add_flag("--timestamps", command.timestamps, "put the time in front of every line on the screen");
+  app.add_option("--log-level", log_levels,
+                 "debug, info, warn, error or fatal for the loggers of all nodes; NODE:=LEVEL for those of one")
+      ->type_name("[NODE:=]LEVEL")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  app.add_option("--log-size", command.log_size,
+                 "begin a new log file when one has this size: bytes, or with K, M or G")
+      ->type_name("SIZE")
+      ->transform(CLI::AsSizeValue(false));
+  app.add_option("--log-files", command.log_files, "how many files of each log are kept, 5 by default")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->needs("--log-size");
+  app.add_option("--crash-dir", command.crash_directory,
+                 "make a directory in DIR for each crash: core, backtrace, last output, command")
+      ->type_name("DIR");
   app.add_flag("-n,--noninteractive", noninteractive, "accepted for compatibility; signals are always passed on");
   app.add_option("--launch-prefix", command.launch_prefix, "command line put in front of every process, such as gdb");
   app.add_option("--launch-prefix-filter", command.launch_prefix_filter,
@@ -78,6 +105,15 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
     return ExitNow{kUsageError};
   }
 
+  for (const std::string& wish : log_levels) {
+    const std::size_t separator = wish.find(":=");
+    const std::string level = separator == std::string::npos ? wish : wish.substr(separator + 2);
+    if (std::find(kLevels.begin(), kLevels.end(), level) == kLevels.end() || separator == 0) {
+      return wrong_use(
+          fmt::format("--log-level {} is unknown, expected {} or NODE:=LEVEL", wish, fmt::join(kLevels, ", ")));
+    }
+    command.log_levels.emplace_back(separator == std::string::npos ? "" : wish.substr(0, separator), level);
+  }
   for (const std::string& word : words) {
     const std::size_t separator = word.find(":=");
     if (separator == std::string::npos && command.arguments.empty()) {

@@ -2,6 +2,7 @@
 // The command line of `launch FILE` and `launch PACKAGE FILE`.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
@@ -22,6 +23,13 @@ struct CommandLine {
   bool trace = false;   // record the launch also when its file has no <trace>
   bool strict_arguments = false;
   bool show_all_output = false;
+  bool top = false;  // show the launch in launch top
+  bool ignore_failures = false;
+  bool timestamps = false;
+  std::uint64_t log_size = 0;  // bytes; 0: no limit
+  int log_files = 5;
+  std::vector<std::pair<std::string, std::string>> log_levels;  // of nodes: name or "", level
+  std::string crash_directory;
   std::string launch_prefix;
   std::string launch_prefix_filter;
 };

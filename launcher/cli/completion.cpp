@@ -12,6 +12,7 @@
 #include "launcher/cli/control/control_command.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/further_commands.hpp"
+#include "launcher/cli/run_program.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 
@@ -23,24 +24,33 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
-const Words kOptions = {"--debug",  "--dry-run",       "--dry-run=json",         "--dry-run=shell",
-                        "--help",   "--launch-prefix", "--launch-prefix-filter", "--print",
-                        "--report", "--show-args",     "--strict-args",          "--timing",
-                        "--trace",  "--version"};
-const Words kCheckOptions = {"--disable", "--format", "--help", "--strict-ros2", "--werror"};
+const Words kOptions = {"--crash-dir",
+                        "--debug",
+                        "--dry-run",
+                        "--dry-run=json",
+                        "--dry-run=shell",
+                        "--help",
+                        "--ignore-failures",
+                        "--launch-prefix",
+                        "--launch-prefix-filter",
+                        "--log-files",
+                        "--log-level",
+                        "--log-size",
+                        "--print",
+                        "--report",
+                        "--show-args",
+                        "--strict-args",
+                        "--timestamps",
+                        "--timing",
+                        "--top",
+                        "--trace",
+                        "--version"};
+const Words kCheckOptions = {"--disable", "--format", "--from-trace", "--help", "--strict-ros2", "--werror"};
 const Words kGraphOptions = {"--format", "--from-trace", "--help", "--live", "--output", "--seconds"};
 
 const Words kTestOptions = {"--directory", "--engine",  "--github", "--help", "--jobs",
                             "--json",      "--junit",   "--keep",   "--list", "--name",
                             "--repeat",    "--retries", "--shard",  "--tap",  "--until-failure"};
-
-const Words kLaunchFileEnds = {"launch.xml", "launch.yaml", "launch.yml", "launch.py"};
-
-bool is_launch_file(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return std::any_of(kLaunchFileEnds.begin(), kLaunchFileEnds.end(),
-                     [&](const std::string& end) { return name.ends_with(end); });
-}
 
 class Completer {
  public:
@@ -69,7 +79,10 @@ class Completer {
     if (is_control_command(command)) {
       return control_completions(command, words.size() - 1, scope_.environment);
     }
-    if (command == "report" || command == "reference") {
+    if (command == "run") {
+      return run_program_completions({words.begin() + 1, words.end()}, scope_.environment);
+    }
+    if (command == "build" || command == "report" || command == "reference") {
       return {};
     }
     const bool is_run = command != "check" && command != "graph" && command != "test";

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -114,6 +115,13 @@ std::shared_ptr<const LaunchDescription> load_standard_input(const Registry& reg
 }
 
 }  // namespace
+
+bool is_launch_file(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const auto ends_name = [&](const char* end) { return name.ends_with(end); };
+  constexpr std::array kEnds = {"launch.xml", "launch.yaml", "launch.yml", "launch.py"};
+  return std::any_of(kEnds.begin(), kEnds.end(), ends_name);
+}
 
 std::vector<std::string> find_launch_files(const std::vector<std::string>& words, const Scope& scope) {
   const auto is_file = [](const std::string& word) {

@@ -2,6 +2,7 @@
 // Finds the launch files that the words of the command line mean.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {
+
+// Whether the name is that of a launch file: robot.launch.xml, robot_launch.py.
+bool is_launch_file(const std::filesystem::path& path);
 
 // The words are paths of files, with "-" for standard input. Or they are a package (a word that is no file) and the
 // base name of exactly one file anywhere below its share directory. Throws LaunchError without a place.

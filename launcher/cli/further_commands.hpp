@@ -16,6 +16,9 @@ struct CommandInfo {
 
 const std::vector<CommandInfo>& further_commands();
 
+// Whether launch-ros-command does it.
+bool is_ros_command(std::string_view command);
+
 std::vector<std::string> further_command_names();
 
 // "Other commands:" and a line for each.

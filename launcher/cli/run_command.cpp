@@ -9,6 +9,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +19,7 @@
 #include "launcher/base/monotonic_clock.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/process_mark.hpp"
+#include "launcher/base/terminal_colour.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
@@ -41,13 +43,54 @@ namespace launch {
 namespace {
 
 void print_error(const LaunchError& error) {
-  const bool colour = ::isatty(STDERR_FILENO) != 0;
+  const bool colour = shows_colour(STDERR_FILENO);
   fmt::print(stderr, "{}", render(error.diagnostics(), colour));
 }
 
-void set_arguments(const CommandLine& command, Scope& scope) {
+// Throws std::invalid_argument with a sentence.
+std::optional<MessageFormat> message_format(const Environment& environment, const char* variable) {
+  const auto found = environment.find(variable);
+  if (found == environment.end() || found->second.empty()) {
+    return std::nullopt;
+  }
+  try {
+    return MessageFormat(found->second);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", variable, error.what()));
+  }
+}
+
+OutputRouter::Options output_options(const CommandLine& command, const Environment& environment,
+                                     const std::string& log_directory, EventLoop& loop) {
+  OutputRouter::Options options;
+  options.log_directory = log_directory;
+  if (const auto name = environment.find("OVERRIDE_LAUNCH_LOG_FILE_NAME");
+      name != environment.end() && !name->second.empty()) {
+    options.log_name = std::filesystem::path(name->second).filename().string();
+  }
+  options.screen_level = command.debug ? LogLevel::kDebug : LogLevel::kInfo;
+  options.colour = shows_colour(STDOUT_FILENO);
+  options.timestamps = command.timestamps;
+  options.screen_format = message_format(environment, "OVERRIDE_LAUNCH_SCREEN_FORMAT");
+  options.log_format = message_format(environment, "OVERRIDE_LAUNCH_LOG_FORMAT");
+  options.rotation = {command.log_size, command.log_files};
+  options.error_fd = STDERR_FILENO;
+  options.loop = &loop;
+  return options;
+}
+
+void set_arguments(const CommandLine& command, LaunchContext& context) {
+  std::vector<LaunchContext::NodeLogLevel> levels;
+  for (const auto& [node, level] : command.log_levels) {
+    levels.push_back({node, level});
+  }
+  context.set_log_levels(std::move(levels));
+  Scope& scope = context.scope();
   for (const auto& [name, value] : command.arguments) {
     scope.configurations.insert_or_assign(name, value);
+  }
+  if (!command.crash_directory.empty()) {
+    scope.configurations.insert_or_assign("crash-dir", command.crash_directory);
   }
   if (!command.launch_prefix.empty()) {
     scope.configurations.insert_or_assign("launch-prefix", command.launch_prefix);
@@ -64,7 +107,7 @@ void report_arguments(const CommandLine& command, const LaunchDescription& descr
   if (command.strict_arguments && !found.empty()) {
     throw LaunchError(std::move(found));
   }
-  fmt::print(stderr, "{}", render(found, ::isatty(STDERR_FILENO) != 0));
+  fmt::print(stderr, "{}", render(found, shows_colour(STDERR_FILENO)));
 }
 
 void print_timing(const std::vector<TimedStep>& steps) {
@@ -76,7 +119,7 @@ void print_timing(const std::vector<TimedStep>& steps) {
 }
 
 LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::string>& files, const Guardian& guardian,
-                         const std::string& log_directory) {
+                         const std::string& log_directory, const std::string& log) {
   std::error_code unknown;
   std::vector<std::string> paths;
   for (const std::string& file : files) {
@@ -87,6 +130,7 @@ LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::stri
           .files = std::move(paths),
           .directory = std::filesystem::current_path(unknown).string(),
           .log_directory = log_directory,
+          .log_file = log,
           .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()};
 }
 
@@ -102,10 +146,9 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   ::signal(SIGPIPE, SIG_IGN);
 
   const LogDirectory log_directory = LogDirectory::create(environment);
-  OutputRouter::Options options;
-  options.log_directory = log_directory.path;
-  options.screen_level = command.debug ? LogLevel::kDebug : LogLevel::kInfo;
-  options.colour = ::isatty(STDOUT_FILENO) != 0;
+  const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
+  const OutputRouter::Options options = output_options(command, environment, log_directory.path, *loop);
+  const std::string log = log_directory.path + "/" + options.log_name;
   OutputRouter output(options);
   output.message(LogLevel::kInfo, "launch", fmt::format("All log files can be found below {}", log_directory.path));
   output.message(LogLevel::kInfo, "launch",
@@ -114,9 +157,8 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.message(LogLevel::kWarning, "launch", log_directory.warning);
   }
 
-  const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
-  guardian.set_log(log_directory.path + "/launch.log");
+  guardian.set_log(log);
   ProcessSupervisor supervisor(*loop, *runner, output);
   supervisor.use_guardian(guardian);
   supervisor.observe(process_messages(output));
@@ -127,12 +169,18 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
                           output.message(level, logger, text);
                         });
   context.scope().log_directory = log_directory.path;
-  set_arguments(command, context.scope());
+  set_arguments(command, context);
 
   LaunchTracepoints tracepoints(own_prefix());
-  LaunchService service(context, *loop, supervisor, print_error);
+  LaunchService service(context, *loop, supervisor, [&output](const LaunchError& error) {
+    output.error(render(error.diagnostics(), shows_colour(STDERR_FILENO)));
+  });
   service.use_ros_client(ros_client);
   service.use_guardian(guardian);
+  if (const auto variable = environment.find("OVERRIDE_LAUNCH_IGNORE_FAILURES");
+      command.ignore_failures || (variable != environment.end() && variable->second == "1")) {
+    service.ignore_failures();
+  }
   service.record_to(tracepoints);
   service.record(load_record);
   std::optional<ControlSocket> socket;
@@ -140,7 +188,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   try {
     socket.emplace(RuntimeDirectory::make(environment), guardian);
     control.emplace(*loop, socket->fd().get(), supervisor, service.steering(),
-                    launch_facts(command, files, guardian, log_directory.path));
+                    launch_facts(command, files, guardian, log_directory.path, log));
   } catch (const std::system_error& error) {
     output.message(LogLevel::kWarning, "launch",
                    fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));
@@ -175,7 +223,8 @@ std::string dry_run(const CommandLine& command, LaunchContext& context, const La
 
 }  // namespace
 
-int run_command(const CommandLine& command, Environment environment) {
+int run_command(const CommandLine& command, Environment environment,
+                std::shared_ptr<const LaunchDescription> description) {
   if (command.show_all_output) {
     environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
   }
@@ -204,11 +253,14 @@ int run_command(const CommandLine& command, Environment environment) {
                           [](LogLevel, std::string_view logger, std::string_view text) {
                             fmt::print(stderr, "[{}]: {}\n", logger, text);
                           });
-    set_arguments(command, context.scope());
+    set_arguments(command, context);
 
     const std::int64_t begin = monotonic_time();
-    const std::vector<std::string> files = find_launch_files(command.target, context.scope());
-    auto description = load_launch_files(files, registry, context.scope());
+    std::vector<std::string> files;
+    if (description == nullptr) {
+      files = find_launch_files(command.target, context.scope());
+      description = load_launch_files(files, registry, context.scope());
+    }
     if (!command.arguments.empty()) {
       report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
     }

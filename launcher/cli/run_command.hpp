@@ -2,12 +2,17 @@
 // `launch FILE`: loads a launch file, and runs it or prints its plan or arguments.
 #pragma once
 
+#include <memory>
+
 #include "launcher/cli/command_line.hpp"
+#include "launcher/language/launch_description.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {
 
-// Returns the exit code: 0, or 1 after an error of the launch itself. Errors go to standard error.
-int run_command(const CommandLine& command, Environment environment);
+// Runs the launch files that the command line names, or `description`. Returns the exit code: that of the launch
+// (LaunchService::run), else 0, or 1 after an error. Errors go to standard error.
+int run_command(const CommandLine& command, Environment environment,
+                std::shared_ptr<const LaunchDescription> description = nullptr);
 
 }  // namespace launch

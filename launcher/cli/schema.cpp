@@ -147,6 +147,19 @@ Json item_schema(const ItemSpec& item, const std::string& path, Json& definition
   return schema;
 }
 
+// What stands in a list of children: an action, or an item of the tag.
+Json child_schema(const std::string& tag, const std::vector<ItemSpec>& items) {
+  const Json action = {{"$ref", "#/definitions/action"}};
+  if (items.empty()) {
+    return action;
+  }
+  Json item = {{"type", "object"}, {"minProperties", 1}, {"maxProperties", 1}, {"additionalProperties", false}};
+  for (const ItemSpec& spec : items) {
+    item["properties"][spec.tag] = {{"$ref", "#/definitions/" + tag + "." + spec.tag}};
+  }
+  return {{"anyOf", Json::array({action, item})}};
+}
+
 }  // namespace
 
 std::string xml_schema(const Registry& registry) {
@@ -171,7 +184,7 @@ std::string json_schema(const Registry& registry) {
     }
     Json either = schema;
     if (type.holds_actions) {
-      const Json actions = {{"type", "array"}, {"items", {{"$ref", "#/definitions/action"}}}};
+      const Json actions = {{"type", "array"}, {"items", child_schema(tag, type.items)}};
       schema["properties"]["children"] = actions;
       either = {{"anyOf", Json::array({schema, actions})}};
     } else if (!schema.contains("required")) {

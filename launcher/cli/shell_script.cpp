@@ -64,18 +64,6 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
   return text + "\nwait\n";
 }
 
-std::string shell_quoted(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-    return word;
-  }
-  std::string quoted = "'";
-  for (const char character : word) {
-    quoted += character == '\'' ? std::string("'\\''") : std::string(1, character);
-  }
-  return quoted + "'";
-}
-
 std::map<std::string, std::optional<std::string>> environment_difference(const Environment& of, const Environment& to) {
   std::map<std::string, std::optional<std::string>> changes;
   for (const auto& [name, value] : of) {

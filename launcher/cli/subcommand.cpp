@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "launcher/base/terminal_colour.hpp"
 #include "launcher/base/usage_error.hpp"
 
 namespace launch {
@@ -77,7 +78,7 @@ std::optional<int> Subcommand::parse(std::vector<std::string> words) {
 }
 
 void print_errors(const LaunchError& error) {
-  fmt::print(stderr, "{}", render(error.diagnostics(), ::isatty(STDERR_FILENO) != 0));
+  fmt::print(stderr, "{}", render(error.diagnostics(), shows_colour(STDERR_FILENO)));
 }
 
 }  // namespace launch

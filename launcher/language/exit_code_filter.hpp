@@ -20,6 +20,9 @@ class ExitCodeFilter {
   bool matches(int code) const;
   // The text of the launch file; "any" when there was none.
   const std::string& text() const { return text_; }
+  // The codes that it lists; none if it accepts any code, or any but 0.
+  const std::vector<int>& codes() const { return codes_; }
+  bool is_listed() const { return kind_ == Kind::kListed; }
   // A code that it accepts.
   int example() const;
 

@@ -12,9 +12,9 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <initializer_list>
 #include <stdexcept>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/base/pipe.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
@@ -30,7 +30,7 @@ class HeldSignals {
   HeldSignals() {
     sigset_t asking;
     sigemptyset(&asking);
-    for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) {
+    for (const int signal : kEndingSignals) {
       struct sigaction action {};
       // Blocked, an ignored signal would arrive.
       if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {

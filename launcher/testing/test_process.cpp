@@ -48,8 +48,9 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   const LogDirectory log_directory = LogDirectory::create(environment);
   OutputRouter::Options options;
   options.log_directory = log_directory.path;
-  OutputRouter output(options);
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
+  options.loop = loop.get();
+  OutputRouter output(options);
   const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
   guardian.set_log(log_directory.path + "/launch.log");
 

@@ -22,6 +22,7 @@
 #include <map>
 #include <system_error>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/testing/check.hpp"
@@ -71,7 +72,7 @@ class Queue {
         observer_(observer),
         all_(options.rounds == 0 ? std::numeric_limits<std::size_t>::max() : options.rounds * tests.size()) {
     sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+    for (const int signal : kEndingSignals) {
       sigaddset(&signals_, signal);
     }
     ::sigprocmask(SIG_BLOCK, &signals_, &before_);

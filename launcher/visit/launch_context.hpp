@@ -41,6 +41,14 @@ class LaunchContext {
   const Environment& initial_environment() const { return initial_environment_; }
   const std::string& own_prefix() const { return own_prefix_; }
 
+  // Levels for the loggers of nodes, by `launch --log-level`; the node is a name or a shell pattern.
+  struct NodeLogLevel {
+    std::string node;  // empty: every node
+    std::string level;
+  };
+  void set_log_levels(std::vector<NodeLogLevel> levels) { log_levels_ = std::move(levels); }
+  const std::vector<NodeLogLevel>& log_levels() const { return log_levels_; }
+
   // From now on no request will be carried out.
   void plan_only() { plan_only_ = true; }
   bool is_plan_only() const { return plan_only_; }
@@ -117,6 +125,7 @@ class LaunchContext {
   MessageSink messages_;
   Scope scope_;
   Requests requests_;
+  std::vector<NodeLogLevel> log_levels_;
   bool plan_only_ = false;
   bool takes_tests_ = false;
   std::optional<std::size_t> chosen_test_;

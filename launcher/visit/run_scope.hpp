@@ -69,6 +69,11 @@ class RunScope {
   virtual bool wants_records() const { return false; }
   virtual void record(const LaunchRecord&) {}
 
+  // The observer is called on the loop's thread, before end() is completed, when the scope has written down what
+  // happened before something went wrong. A reason that is the end of a process begins with the label of the process.
+  using SnapshotObserver = std::function<void(const std::vector<std::string>& reasons, const std::string& directory)>;
+  virtual void observe_snapshots(SnapshotObserver) {}
+
   // "trace", and its evaluated settings.
   virtual std::string kind() const = 0;
   virtual std::vector<ScopeSetting> describe() const = 0;

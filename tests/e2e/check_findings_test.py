@@ -82,6 +82,23 @@ class CheckFindings(unittest.TestCase):
                          [rule['id'] for rule in sarif['runs'][0]['tool']['driver']['rules']])
         self.assertEqual({item['severity'] for item in found}, {item['level'] for item in results})
 
+    def test_a_directory_stands_for_all_launch_files_below_it(self):
+        below = Path(self.directory.name) / 'below/launch'
+        below.mkdir(parents=True)
+        for name in ('b_launch.py', 'a.launch.xml', 'c.launch.yaml', 'no.xml'):
+            (below / name).write_text('<')
+        text = self.check('below').stdout
+        self.assertEqual([Path(line.partition(':')[0]).name for line in text.splitlines() if 'error: ' in line],
+                         ['a.launch.xml', 'b_launch.py', 'c.launch.yaml'])
+        self.assertTrue(text.endswith('\n3 files: 3 errors, 0 warnings\n'), text)
+        (below.parent / 'empty').mkdir()
+        self.assertEqual(self.check('below/empty', str(FOLDER / 'remaps.launch.xml')).stdout.partition('\n')[0],
+                         "error: there are no launch files in 'below/empty' [LF0001]")
+        # A package and a file of it, in a directory that holds a directory of this name.
+        (Path(self.directory.name) / 'golden_parts').mkdir()
+        (Path(self.prefix) / 'share/golden_parts/x.launch.xml').write_text('<launch/>')
+        self.assertEqual(self.check('golden_parts', 'x.launch.xml').stdout, '1 file: 0 errors, 0 warnings\n')
+
 
 if __name__ == '__main__':
     unittest.main()

@@ -107,7 +107,7 @@ TEST_F(Composition, AContainerThatIsKilledGetsItsNodesAgain) {
     }
   }
   run.send_signal(SIGINT);
-  EXPECT_EQ(run.wait().exit_code, 0);
+  EXPECT_EQ(run.wait().exit_code, 3);
 }
 
 TEST_F(Composition, WhatCannotBeLoadedIsSaidAndTheLaunchGoesOn) {
@@ -124,7 +124,11 @@ TEST_F(Composition, WhatCannotBeLoadedIsSaidAndTheLaunchGoesOn) {
                                    "Could not find requested resource in ament index (" +
                                    file + ":4:2)"));
   run.send_signal(SIGINT);
-  EXPECT_EQ(run.wait().exit_code, 0);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.out,
+              HasSubstr("[ERROR] [launch]: component 'nobody' of type 'composition::Nobody' was not loaded (" + file +
+                        ":3:2)\n[ERROR] [launch]: component 'b' of type 'a::B' was not loaded ("));
 }
 
 TEST_F(Composition, AContainerOfSomebodyElseIsGivenNodes) {

@@ -102,7 +102,7 @@ TEST_F(Control, PsListsProcessesWithTheirStatesAndPlaces) {
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_EQ(unknown.err, "launch ps: error: no process is named 'talkr'\n  = help: did you mean 'talker'?\n");
   run.send_signal(SIGINT);
-  EXPECT_EQ(run.wait().exit_code, 0);
+  EXPECT_EQ(run.wait().exit_code, 3) << "one has failed";
 }
 
 TEST_F(Control, StopStartAndRestartWaitUntilItHasHappened) {

@@ -89,7 +89,7 @@ TEST_F(EventHandlers, LimitsAreAppliedAndARefusalIsAnErrorOfTheStart) {
  cmd="echo niceness `nice`; ulimit -n" open_files_limit="50" cpus="0"/>
 <executable name="refused" cmd="echo started" output="screen" cpus="1000"/>)xml");
   const CommandResult result = run_command({LAUNCH_PROGRAM, file});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.out, HasSubstr("[limited-1] niceness 3\n[limited-1] 50\n"));
   EXPECT_THAT(result.out, HasSubstr("cannot run on the CPUs 1000 (the launcher may use "));
   EXPECT_THAT(result.out, HasSubstr("Invalid argument (" + file + ":4:2)"));

@@ -90,7 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
                      "[IntersectionOutput]: ", "trace written to: "}},
             Example{"20_flight_recorder", {}, {"snapshot written to: ", "(unlucky-3 died of SIGSEGV)"}},
             Example{"21_trace_channels", {}, {"trace is complete: no events lost"}},
-            Example{"22_lost_events", {}, {"trace is incomplete: ", "lost in ust channel ros2"}},
+            Example{
+                "22_lost_events", {}, {"trace is incomplete: ", "lost in ust channel ros2", " would have held them"}},
             Example{"23_dual_session", {}, {"/dual/snapshot"}},
             Example{"26_trace_action",
                     {},
@@ -102,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
             Example{"29_ros2_tracing",
                     {},
                     {"[test_pong]: [output] are you there?", "[test_ping]: [output] yes, here I am",
-                     "trace written to: ", "/my-tracing-session (", "trace is complete: no events lost"}}),
+                     "trace written to: ", "/my-tracing-session (", "trace is complete: no events lost"}},
+            Example{"45_crash", {"--ignore-failures"}, {"crash bundle of unlucky-2: ", "(unlucky-2 died of SIGSEGV)"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -131,7 +131,7 @@ TEST_F(KernelModules, ASnapshotHoldsKernelAndUserspace) {
     </executable>)xml")}});
   ASSERT_TRUE(run.wait_for_output("snapshot written to: ", std::chrono::seconds(90))) << run.out() << run.err();
   run.send_signal(SIGINT);
-  EXPECT_EQ(run.wait(std::chrono::seconds(60)).exit_code, 0) << run.out() << run.err();
+  EXPECT_EQ(run.wait(std::chrono::seconds(60)).exit_code, 3) << run.out() << run.err();
   const std::string text = babeltrace(sandbox_.trace_directory() / "run");
   EXPECT_THAT(text, AllOf(HasSubstr("sched_switch: "), HasSubstr("ros2:")));
 }

@@ -221,7 +221,7 @@ TEST_F(KernelTrace, AFlightRecorderHoldsWhatTheKernelDidBeforeTheCrash) {
   const CommandResult result =
       launch("<trace session-name=\"" + session_ + "\" snapshot-on-crash=\"true\" events-kernel=\"sched_process_*\"/>" +
              "<executable cmd=\"" + unlucky.string() + " -c '" TRACED_APP " 3 10 &lt;/dev/null; kill -SEGV $$'\"/>");
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("snapshot written to: "));
   const std::vector<fs::path> snapshots = snapshots_of(session_);
   ASSERT_EQ(snapshots.size(), 1U);

@@ -155,7 +155,7 @@ def generate_launch_description():
         other,
     ])
 )py")});
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
   for (const char* const line :
        {"[launch.user]: started True\n", "[launch.user]: worker-1 said ready\n", "[launch.user]: on stderr: trouble\n",
         "[launch.user]: worker-1 ended with -15\n", "[launch.user]: other: 3\n", "[launch.user]: why: done\n"}) {

@@ -76,7 +76,7 @@ TEST_F(TraceControl, WhatTheLauncherDoesIsInTheTraceWithTheLineThatAskedForIt) {
 <executable name="lasting" cmd="sleep 1000"/>
 <on_process_exit process="first" once="true"><on_process_exit process="first"><shutdown/></on_process_exit></on_process_exit>)xml");
   const CommandResult result = run_command({.argv = {LAUNCH_PROGRAM, file}, .directory = sandbox_.directory()});
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
 
   const std::vector<std::string> lines = events(sandbox_.trace_directory() / "run", "launch:");
   const auto of = [&lines](const std::string& event) {
@@ -198,7 +198,7 @@ TEST_F(TraceControl, TheLastEventBeforeEachOfTwentyCrashesIsInASnapshot) {
                "\" cmd=\"" TRACED_APP " 1 " + std::to_string(i) + " abort\"/></timer>\n";
   }
   const CommandResult result = run_command({LAUNCH_PROGRAM, write("system.launch.xml", actions)});
-  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_EQ(result.exit_code, 3) << result.out;
   EXPECT_THAT(result.out, ContainsRegex("snapshot written to: .*/run/snapshot-.* \\(c[0-9]+-[0-9]+ died of SIGABRT"));
 
   std::set<std::size_t> seen;  // by the length of the text in the last event
@@ -234,7 +234,7 @@ TEST_F(TraceControl, AStoppedDaemonDoesNotHoldUpProcessesThatStartLater) {
   EXPECT_TRUE(run.wait_for_output("fired", std::chrono::seconds(8))) << run.out();
   kill(daemon, SIGCONT);
   run.send_signal(SIGINT);
-  EXPECT_EQ(run.wait().exit_code, 0);
+  EXPECT_EQ(run.wait().exit_code, 3);
 }
 
 TEST_F(TraceControl, NoMoreSnapshotsAreKeptThanAskedFor) {
@@ -243,7 +243,7 @@ TEST_F(TraceControl, NoMoreSnapshotsAreKeptThanAskedFor) {
     actions += "<timer period=\"" + std::to_string(0.2 + i * 0.2) +
                "\"><executable cmd=\"" TRACED_APP " 1 5 abort\"/></timer>\n";
   }
-  EXPECT_EQ(run_command({LAUNCH_PROGRAM, write("system.launch.xml", actions)}).exit_code, 0);
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, write("system.launch.xml", actions)}).exit_code, 3);
   EXPECT_THAT(snapshots("run"), SizeIs(2));
 }
 

@@ -13,6 +13,7 @@
 #include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -199,6 +200,10 @@ void Sandbox::enter_namespaces() {
   for (const char* folder : {"/run", "/dev/shm"}) {
     check(mount("tmpfs", folder, "tmpfs", MS_NOSUID | MS_NODEV, "mode=1777"), std::string("mount tmpfs on ") + folder);
   }
+  // The sockets of launches that run elsewhere, which `launch ps` would find.
+  const std::string launches = "/tmp/launch-" + std::to_string(geteuid());
+  check(mkdir(launches.c_str(), S_IRWXU) == 0 || errno == EEXIST ? 0 : -1, "make " + launches);
+  check(mount("tmpfs", launches.c_str(), "tmpfs", MS_NOSUID | MS_NODEV, "mode=0700"), "mount tmpfs on " + launches);
   bring_up_loopback();
 }
 

@@ -33,6 +33,38 @@ std::string counted(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+// The words, with the launch files below a directory in its place. A directory without any is a finding. A package and
+// the name of its launch file stay as they are, even if a directory has the name of the package.
+std::vector<std::string> expand_directories(const std::vector<std::string>& words, std::vector<Diagnostic>& found) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  std::error_code unreadable;
+  if (words.size() == 2 && !fs::exists(words.back(), unreadable)) {
+    return words;
+  }
+  for (const std::string& word : words) {
+    if (!fs::is_directory(word, unreadable)) {
+      files.push_back(word);
+      continue;
+    }
+    const auto first = static_cast<std::ptrdiff_t>(files.size());
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(word, unreadable)) {
+      if (is_launch_file(entry.path()) && entry.is_regular_file(unreadable)) {
+        files.push_back(entry.path().string());
+      }
+    }
+    if (static_cast<std::size_t>(first) == files.size()) {
+      found.push_back({Severity::kError,
+                       fmt::format("there are no launch files in '{}'", word),
+                       {},
+                       "their names end in launch.xml, launch.yaml, launch.yml or launch.py",
+                       Finding::kUnreadableFile});
+    }
+    std::sort(files.begin() + first, files.end());
+  }
+  return files;
+}
+
 // The files to check. A word that is none is a finding, and the others are checked all the same.
 std::vector<std::string> files_of(const std::vector<std::string>& words, const Scope& scope,
                                   std::vector<Diagnostic>& found) {
@@ -90,7 +122,8 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   Choice choice;
   Subcommand command(
       "launch check",
-      "Finds the errors of launch files without running anything: visits them, including actions that conditions leave "
+      "Finds the errors of launch files, or of all launch files below a directory, without running anything: visits "
+      "them, including actions that conditions leave "
       "out, and looks for the packages, programs, parameter files and included files that they name. Exit code 1 when "
       "there are errors.");
   command.take_target(target);
@@ -98,6 +131,9 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   command.take_flag("--strict-ros2", options.strict_ros2,
                     "tags and attributes that ros2 launch does not know are errors");
   command.take_flag("--werror", choice.warnings_are_errors, "warnings are errors");
+  std::string trace;
+  command.take_text("--from-trace", trace,
+                    "a trace of a run: also warn of remaps of names that the recorded nodes do not have");
   command.take_texts("--disable", choice.disabled,
                      "leave out the findings with this id; may be given several times (launch explain lists the ids)");
   if (const auto exit_code = command.parse(words)) {
@@ -110,9 +146,18 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
     print_errors(error);
     return kWrongCommandLine;
   }
+  if (!trace.empty()) {
+    std::optional<std::vector<RecordedNode>> recorded = read_recorded_nodes(trace);
+    if (!recorded) {
+      return 1;
+    }
+    options.recorded_nodes = std::move(*recorded);
+  }
   ResultOutput result;
   options.arguments = target.arguments;
-  const std::vector<std::string> files = files_of(target.words, scope_of(environment), found);
+  const std::vector<std::string> words_of_files = expand_directories(target.words, found);
+  const std::vector<std::string> files =
+      words_of_files.empty() ? words_of_files : files_of(words_of_files, scope_of(environment), found);
   for (const std::string& path : files) {
     const std::vector<Diagnostic> of_file = check_launch_file(path, registry, environment, options);
     found.insert(found.end(), of_file.begin(), of_file.end());

@@ -11,6 +11,7 @@
 #include "launcher/base/read_source_file.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/check/plan_findings.hpp"
+#include "launcher/cli/check/recorded_findings.hpp"
 #include "launcher/cli/check/stray_text.hpp"
 #include "launcher/cli/check/strict_ros2.hpp"
 #include "launcher/cli/find_launch_file.hpp"
@@ -111,7 +112,9 @@ class Checker {
                      .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); }});
     const LaunchPlan plan = plan_launch(context, description);
     check_unused(description, list, plan);
-    find_faults_of_plan(plan, left_out, [this](Diagnostic diagnostic) { add(std::move(diagnostic)); });
+    const auto report = [this](Diagnostic diagnostic) { add(std::move(diagnostic)); };
+    find_faults_of_plan(plan, left_out, report);
+    find_remaps_of_unknown_names(plan, options_.recorded_nodes, report);
   }
 
   // An argument that has no default and is not given has an unknown value in the visit; what follows from that value is

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/cli/check/recorded_nodes.hpp"
 #include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
 
@@ -15,6 +16,7 @@ namespace launch {
 struct CheckOptions {
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value
   bool strict_ros2 = false;                                    // what `ros2 launch` does not know is an error
+  std::vector<RecordedNode> recorded_nodes;                    // of a run, which tell the names that remaps may change
 };
 
 // Loads and visits the file, including what conditions leave out, and resolves what a run would resolve: packages,

@@ -235,7 +235,10 @@ def generate_launch_description():
 </launch>
 )x"},
     {Finding::kUselessRemap, "Remap without effect", Severity::kWarning,
-     "A remap renames something to the name that it has, or it is for a node of another name.",
+     "A remap renames something to the name that it has, or it is for a node of another name. A launch file does not "
+     "tell which topics a program has, but a recorded run does: with launch check --from-trace DIR, this is also a "
+     "remap "
+     "of a name that the recorded node does not have.",
      R"x(<launch>
   <node pkg="demo_nodes" exec="talker" name="talker">
     <remap from="chatter" to="chatter"/>

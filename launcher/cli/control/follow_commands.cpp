@@ -97,7 +97,7 @@ int logs_command(const std::string& name, const std::vector<std::string>& words,
   for (const Json& process : asked["processes"]) {
     labels.insert(process["name"].get<std::string>());
   }
-  const std::string log = asked["launch"]["log_directory"].get<std::string>() + "/launch.log";
+  const std::string log = asked["launch"]["log_file"].get<std::string>();
   std::size_t size = static_cast<std::size_t>(-1);
   if (follow) {
     size = launch.ask({{"do", "output"}, {"processes", names}})["log_size"].get<std::size_t>();

@@ -11,38 +11,11 @@
 #include <utility>
 #include <variant>
 
+#include "launcher/cli/node_names.hpp"
+
 namespace launch {
 
 namespace {
-
-std::string joined(const std::string& name_space, const std::string& name) {
-  const std::string base = name_space.empty() || name_space.front() != '/' ? "/" + name_space : name_space;
-  return base == "/" ? "/" + name : base + "/" + name;
-}
-
-// The remaps of names in the arguments of a node: `-r from:=to`, without those of its own name and namespace.
-std::vector<std::pair<std::string, std::string>> remaps_of(const std::vector<std::string>& argv) {
-  std::vector<std::pair<std::string, std::string>> remaps;
-  for (std::size_t i = 1; i < argv.size(); ++i) {
-    const std::size_t separator = argv[i].find(":=");
-    if ((argv[i - 1] == "-r" || argv[i - 1] == "--remap") && separator != std::string::npos &&
-        argv[i].find("__n") == std::string::npos) {
-      remaps.emplace_back(argv[i].substr(0, separator), argv[i].substr(separator + 2));
-    }
-  }
-  return remaps;
-}
-
-// A name of a topic or a service as the node means it: relative names are below its namespace, "~" stands for the node.
-std::string resolved(const std::string& name, const std::string& name_space, const std::string& full_name) {
-  if (name.starts_with('/')) {
-    return name;
-  }
-  if (name == "~" || name.starts_with("~/")) {
-    return full_name + name.substr(1);
-  }
-  return joined(name_space, name);
-}
 
 class GraphBuilder {
  public:
@@ -134,7 +107,7 @@ class GraphBuilder {
   }
 
   void add_load(const LoadRequest& request) {
-    const std::string target = joined("/", request.target.substr(request.target.starts_with('/') ? 1 : 0));
+    const std::string target = joined_name("/", request.target.substr(request.target.starts_with('/') ? 1 : 0));
     for (const ComposableNode& component : request.nodes) {
       std::vector<std::string> lines = {fmt::format("{} in {}", component.plugin, target)};
       if (component.name.empty()) {
@@ -172,7 +145,7 @@ class GraphBuilder {
       name_space = "/" + name_space;
     }
     // Several nodes of one name are drawn as several nodes, because a user wants to see that.
-    const std::string full_name = joined(name_space, name);
+    const std::string full_name = joined_name(name_space, name);
     std::string id = full_name;
     for (int again = 2; !ids_.insert(id).second; ++again) {
       id = fmt::format("{} ({})", full_name, again);
@@ -182,7 +155,7 @@ class GraphBuilder {
     graph_.nodes[name_space].push_back({id, std::move(lines), left_out_});
     asked_by(origin, id);
     for (const auto& [from, to] : remaps) {
-      const std::string topic = resolved(to, name_space, full_name);
+      const std::string topic = resolved_name(to, name_space, full_name);
       topics_.insert(topic);
       graph_.edges.push_back({id, "topic " + topic, Relation::kRemaps, from});
     }

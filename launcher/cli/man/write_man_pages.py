@@ -13,10 +13,14 @@ import sys
 from pathlib import Path
 
 EXIT_STATUS = {
-    'launch': '0 after a run without errors, 1 after an error of the launch, 2 after a wrong command line. If a process '
-              'with "required" ended the system, the status is that of the process, or 128+N if signal N ended it.',
+    'launch': '0 after a run in which nothing has failed, 1 after an error of the launch, 2 after a wrong command line, 3 '
+              'if a process has failed that nobody had asked to end, or a component could not be loaded; 128+N if a '
+              'second signal N has cut the end short. If a process with "required" ended the system, the status is that '
+              'of the process, or 128+N if signal N ended it.',
     'launch check': '0 without errors, 1 when a launch file has an error, 2 after a wrong command line. With --werror, '
                     'warnings are errors.',
+    'launch run': 'That of the program, or 128+N if signal N ended it; 1 if it could not be started, 2 after a wrong '
+                  'command line.',
     'launch report': None,  # its help tells
     'launch trace read': None,
 }
@@ -26,6 +30,14 @@ MORE = {'launch': [
         ('AMENT_PREFIX_PATH', 'Where packages are searched for, besides the prefix in which launch is installed.'),
         ('ROS_LOG_DIR, ROS_HOME', 'Where log directories are created.'),
         ('ROS_TRACE_DIR', 'Where traces are written. Default: ROS_HOME/tracing.'),
+        ('OVERRIDE_LAUNCH_IGNORE_FAILURES', '1: as --ignore-failures.'),
+        ('OVERRIDE_LAUNCH_PROCESS_OUTPUT', 'Replaces the attribute "output" of every process.'),
+        ('OVERRIDE_LAUNCH_SCREEN_FORMAT, OVERRIDE_LAUNCH_LOG_FORMAT',
+         'Formats of the messages of launch on the screen and in its log, such as "{created:.3f} [{levelname}] {name}: '
+         '{msg}", or the word default_with_timestamp.'),
+        ('OVERRIDE_LAUNCH_LOG_FILE_NAME', 'The name of the log file. Default: launch.log.'),
+        ('NO_COLOR', 'If it is not empty, output has no colours.'),
+        ('RCUTILS_COLORIZED_OUTPUT', '0 or 1: output has no colours, or always has.'),
         ('PYTHONPATH', 'Where modules that Python launch files import are searched for, and packages that add actions.')]),
     ('SIGNALS', [
         ('SIGINT, SIGTERM, SIGHUP, SIGQUIT',
