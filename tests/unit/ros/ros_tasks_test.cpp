@@ -82,7 +82,7 @@ TEST_F(RosTasksTest, ComponentsOfOneActionAreLoadedOneAfterAnother) {
 
 TEST_F(RosTasksTest, TheComponentsOfAContainerThatCannotStartAreGivenUp) {
   runner_.script("container", {{.spawn_error = ENOENT}});
-  EXPECT_EQ(run(kTwoInAContainer), 1);
+  EXPECT_EQ(run(kTwoInAContainer), 3);
   EXPECT_THAT(messages_, testing::Contains(HasSubstr("Failed to load node 'a' of type 'p::A' in container '/left/c': "
                                                      "its process does not run")));
   EXPECT_LT(loop_.now(), 1s);
@@ -91,7 +91,7 @@ TEST_F(RosTasksTest, TheComponentsOfAContainerThatCannotStartAreGivenUp) {
 TEST_F(RosTasksTest, NothingIsLoadedWhenARequiredProcessCannotStart) {
   runner_.default_script({.exits_after = 60s});
   runner_.script("missing", {{.spawn_error = ENOENT}});
-  EXPECT_EQ(run(std::string(R"xml(<executable cmd="missing" on_exit="shutdown"/>)xml") + kTwoInAContainer), 1);
+  EXPECT_EQ(run(std::string(R"xml(<executable cmd="missing" on_exit="shutdown"/>)xml") + kTwoInAContainer), 3);
   EXPECT_LT(loop_.now(), 10s);
 }
 
@@ -115,11 +115,13 @@ TEST_F(RosTasksTest, AComponentThatCannotBeLoadedIsAnErrorOfTheLogAndTheNextIsTr
   runner_.default_script({.exits_after = 60s});
   client_.script("load /left/c a", FakeRosClient::refused("Could not find requested resource in ament index\n"));
   client_.script("load /left/c b", FakeRosClient::loaded("/b"));
-  EXPECT_EQ(run(kTwoInAContainer), 0);
-  EXPECT_THAT(messages_, ElementsAre("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type "
-                                     "'p::A' in container '/left/c': Could not find requested resource in ament index "
-                                     "(/test/system.launch.xml:3:2)",
-                                     HasSubstr("Loaded node '/b'")));
+  EXPECT_EQ(run(kTwoInAContainer), 3);
+  EXPECT_THAT(messages_,
+              ElementsAre("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type "
+                          "'p::A' in container '/left/c': Could not find requested resource in ament index "
+                          "(/test/system.launch.xml:3:2)",
+                          HasSubstr("Loaded node '/b'"),
+                          "ERROR [launch] component 'a' of type 'p::A' was not loaded (/test/system.launch.xml:3:2)"));
 }
 
 TEST_F(RosTasksTest, AContainerThatStartsAgainGetsItsComponentsAgain) {
@@ -129,20 +131,25 @@ TEST_F(RosTasksTest, AContainerThatStartsAgainGetsItsComponentsAgain) {
   EXPECT_EQ(run(R"xml(<node_container exec="container" name="c" namespace="" respawn="true" respawn_max_retries="1">
 <composable_node pkg="p" plugin="A" name="a"/></node_container>
 <load_composable_node target="c"><composable_node pkg="p" plugin="B" name="b"/></load_composable_node>)xml"),
-            0);
+            3);  // its crash counts although it was started again
   EXPECT_THAT(client_.asked, ElementsAre("load /c a", "load /c b", "load /c a", "load /c b"));
 }
 
 TEST_F(RosTasksTest, WhatWaitsForAContainerThatHasEndedIsGivenUp) {
   runner_.default_script({.exits_after = 3s, .exit_code = 1});
-  EXPECT_EQ(run(kTwoInAContainer), 0);
+  EXPECT_EQ(run(kTwoInAContainer), 3);
   EXPECT_EQ(loop_.now(), 3s);
   EXPECT_THAT(client_.asked, ElementsAre("load /left/c a"));
   EXPECT_THAT(messages_,
               ElementsAre("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type 'p::A' in "
                           "container '/left/c': its process does not run (/test/system.launch.xml:3:2)",
                           "ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'b' of type 'p::B' in "
-                          "container '/left/c': its process does not run (/test/system.launch.xml:4:2)"));
+                          "container '/left/c': its process does not run (/test/system.launch.xml:4:2)",
+                          "ERROR [launch] 1 process has failed:",
+                          "ERROR [launch]   container-1: exit code 1 after 3.00 s, with 0.00 s of processor time and "
+                          "0.0 MiB (/test/system.launch.xml:2:2)",
+                          "ERROR [launch] component 'a' of type 'p::A' was not loaded (/test/system.launch.xml:3:2)",
+                          "ERROR [launch] component 'b' of type 'p::B' was not loaded (/test/system.launch.xml:4:2)"));
 }
 
 TEST_F(RosTasksTest, WhatWaitsForAContainerThatIsSkippedIsGivenUp) {
@@ -152,11 +159,12 @@ TEST_F(RosTasksTest, WhatWaitsForAContainerThatIsSkippedIsGivenUp) {
 <composable_node pkg="p" plugin="p::A" name="a"/>
 <depends_on process="calibrate" condition="exited" on_failure="skip"/>
 </node_container>)xml"),
-            0);
+            3);
   EXPECT_EQ(loop_.now(), 3s);
-  EXPECT_EQ(messages_.back(),
-            "ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of type 'p::A' in container "
-            "'/c': its process does not run (/test/system.launch.xml:4:2)");
+  EXPECT_THAT(messages_, testing::Contains("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of "
+                                           "type 'p::A' in container '/c': its process does not run "
+                                           "(/test/system.launch.xml:4:2)"));
+  EXPECT_EQ(messages_.back(), "ERROR [launch] component 'a' of type 'p::A' was not loaded (/test/system.launch.xml:4:2)");
 }
 
 TEST_F(RosTasksTest, ALongWaitIsToldAndAShutdownEndsIt) {
