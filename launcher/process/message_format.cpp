@@ -2,12 +2,12 @@
 #include "launcher/process/message_format.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <ctime>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
