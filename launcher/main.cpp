@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/own_environment.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/check/check_command.hpp"
@@ -38,7 +39,7 @@ int become(const char* program_name, const char* name, char** last) {
   const std::string program = launch::own_library_file(program_name);
   *last = const_cast<char*>(name);
   ::execv(program.c_str(), last);
-  fmt::print(stderr, "launch: error: can't run {}: {}\n", program, std::strerror(errno));
+  fmt::print(stderr, "{}", launch::command_error(name, fmt::format("can't run {}: {}", program, std::strerror(errno))));
   return 1;
 }
 

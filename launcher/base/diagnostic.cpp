@@ -130,6 +130,10 @@ Excerpt excerpt_of(std::string_view line, std::size_t begin, std::size_t end) {
   return excerpt;
 }
 
+std::string help_line(std::string_view help, const Style& style) {
+  return help.empty() ? "" : fmt::format("      {}= help:{} {}\n", style.help, style.reset, help);
+}
+
 std::string plain(const std::vector<Diagnostic>& diagnostics) {
   std::string text = render(diagnostics);
   if (!text.empty()) {
@@ -156,12 +160,14 @@ void LaunchError::classify(Finding finding) {
   }
 }
 
-std::string render(const Diagnostic& diagnostic, bool colour) {
+std::string render(const Diagnostic& diagnostic, bool colour, std::string_view command) {
   const Style style = style_of(diagnostic.severity, colour);
   const SourceRange& where = diagnostic.where;
   std::string result;
   if (where) {
     result += fmt::format("{}{}:{} ", style.place, to_string(where), style.reset);
+  } else if (!command.empty()) {
+    result += fmt::format("{}{}:{} ", style.place, command, style.reset);
   }
   result +=
       fmt::format("{}{}:{} {}{}{}\n", style.severity, diagnostic.severity == Severity::kError ? "error" : "warning",
@@ -178,9 +184,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
     result += fmt::format("{}      |{} {}{}{}{}\n", style.gutter, style.reset, excerpt.indent, style.caret,
                           excerpt.caret, style.reset);
   }
-  if (!diagnostic.help.empty()) {
-    result += fmt::format("      {}= help:{} {}\n", style.help, style.reset, diagnostic.help);
-  }
+  result += help_line(diagnostic.help, style);
   if (where) {
     int shown = 0;
     for (SourceRange from = where.file->included_from(); from; from = from.file->included_from()) {
@@ -195,12 +199,16 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   return result;
 }
 
-std::string render(const std::vector<Diagnostic>& diagnostics, bool colour) {
+std::string render(const std::vector<Diagnostic>& diagnostics, bool colour, std::string_view command) {
   std::string result;
   for (const Diagnostic& diagnostic : diagnostics) {
-    result += render(diagnostic, colour);
+    result += render(diagnostic, colour, command);
   }
   return result;
+}
+
+std::string help_line(std::string_view help) {
+  return help_line(help, Style());
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {

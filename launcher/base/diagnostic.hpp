@@ -48,9 +48,13 @@ class LaunchError : public std::runtime_error {
 //         = help: did you mean 'exec'?
 //         = included from main.launch.xml:3:3
 //
-// `colour` adds ANSI colours. Long lines are cut around the caret, tabs become spaces.
-std::string render(const Diagnostic& diagnostic, bool colour = false);
-std::string render(const std::vector<Diagnostic>& diagnostics, bool colour = false);
+// `colour` adds ANSI colours. Long lines are cut around the caret, tabs become spaces. A diagnostic without a place
+// begins with the name of the `command`, if there is one: "launch check: error: …".
+std::string render(const Diagnostic& diagnostic, bool colour = false, std::string_view command = {});
+std::string render(const std::vector<Diagnostic>& diagnostics, bool colour = false, std::string_view command = {});
+
+// The line with the help below an error, with its line end; "" when there is no help.
+std::string help_line(std::string_view help);
 
 // "did you mean 'exec'?" for the candidate nearest to `name`, or "" when none is near enough.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace launch {
@@ -14,6 +16,18 @@ namespace {
 
 bool is_continuation_byte(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+// The path from the working directory if it is below it.
+std::string_view shown_path(std::string_view path) {
+  std::error_code unknown;
+  const std::string here = std::filesystem::current_path(unknown).string() + "/";
+  return here != "//" && path.starts_with(here) ? path.substr(here.size()) : path;
+}
+
+std::string place(const SourceRange& range, std::string_view path) {
+  const SourceFile::Position position = range.file->position(range.begin);
+  return fmt::format("{}:{}:{}", path, position.line, position.column);
 }
 
 }  // namespace
@@ -51,11 +65,11 @@ std::string_view SourceFile::line(std::uint32_t number) const {
 }
 
 std::string to_string(const SourceRange& range) {
-  if (!range) {
-    return "command line";
-  }
-  const SourceFile::Position position = range.file->position(range.begin);
-  return fmt::format("{}:{}:{}", range.file->path(), position.line, position.column);
+  return range ? place(range, shown_path(range.file->path())) : "command line";
+}
+
+std::string place_with_path(const SourceRange& range) {
+  return range ? place(range, range.file->path()) : "command line";
 }
 
 }  // namespace launch

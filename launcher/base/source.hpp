@@ -54,8 +54,12 @@ class SourceFile {
   std::vector<std::uint32_t> line_starts_;
 };
 
-// "file:line:column" of the start of a range; "command line" when it has no file.
+// "file:line:column" of the start of a range, for a person: a file below the working directory is named from there.
+// "command line" when it has no file.
 std::string to_string(const SourceRange& range);
+
+// The same for another program, or for later: with the path as it is.
+std::string place_with_path(const SourceRange& range);
 
 // Text as the parser decoded it (entities and quoting resolved), able to say where each of its bytes came from.
 class LocatedText {

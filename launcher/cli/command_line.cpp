@@ -10,14 +10,13 @@
 #include <cstdio>
 #include <string_view>
 
-#include "launcher/base/usage_error.hpp"
+#include "launcher/base/command_error.hpp"
 #include "launcher/cli/further_commands.hpp"
 
 namespace launch {
 
 namespace {
 
-constexpr int kUsageError = 2;
 constexpr std::array<std::string_view, 5> kLevels = {"debug", "info", "warn", "error", "fatal"};
 
 constexpr const char* kDescription =
@@ -33,7 +32,7 @@ constexpr const char* kExamples =
 
 ExitNow wrong_use(const std::string& message) {
   fmt::print(stderr, "{}", usage_error("launch", message));
-  return {kUsageError};
+  return {kWrongCommandLine};
 }
 
 }  // namespace
@@ -102,7 +101,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
     return ExitNow{0};
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "{}", usage_error_of(app, error));
-    return ExitNow{kUsageError};
+    return ExitNow{kWrongCommandLine};
   }
 
   for (const std::string& wish : log_levels) {
@@ -125,7 +124,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
     }
   }
   if (command.target.empty()) {
-    return wrong_use("no launch file given, see launch --help");
+    return wrong_use("no launch file given");
   }
   if (int(!dry_run.empty()) + int(show_arguments) + int(print) > 1) {
     return wrong_use("--dry-run, --show-args and --print exclude each other");

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -12,6 +14,7 @@
 #include "launcher/cli/control/control_command.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/further_commands.hpp"
+#include "launcher/cli/help_options.hpp"
 #include "launcher/cli/run_program.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
@@ -24,33 +27,52 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
-const Words kOptions = {"--crash-dir",
-                        "--debug",
-                        "--dry-run",
-                        "--dry-run=json",
-                        "--dry-run=shell",
-                        "--help",
-                        "--ignore-failures",
-                        "--launch-prefix",
-                        "--launch-prefix-filter",
-                        "--log-files",
-                        "--log-level",
-                        "--log-size",
-                        "--print",
-                        "--report",
-                        "--show-args",
-                        "--strict-args",
-                        "--timestamps",
-                        "--timing",
-                        "--top",
-                        "--trace",
-                        "--version"};
-const Words kCheckOptions = {"--disable", "--format", "--from-trace", "--help", "--strict-ros2", "--werror"};
-const Words kGraphOptions = {"--format", "--from-trace", "--help", "--live", "--output", "--seconds"};
+// The commands that take launch files as `launch` itself does.
+bool takes_launch_files(const std::string& command) {
+  return command == "check" || command == "graph" || command == "test";
+}
 
-const Words kTestOptions = {"--directory", "--engine",  "--github", "--help", "--jobs",
-                            "--json",      "--junit",   "--keep",   "--list", "--name",
-                            "--repeat",    "--retries", "--shard",  "--tap",  "--until-failure"};
+// "demo/" and "demo/system.launch.xml": directories and launch files that begin with the word.
+Words paths(const std::string& word) {
+  const std::size_t end = word.rfind('/');
+  const std::string folder = end == std::string::npos ? "" : word.substr(0, end + 1);
+  Words found;
+  std::error_code unreadable;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, unreadable)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && !word.substr(folder.size()).starts_with('.')) {
+      continue;
+    }
+    if (entry.is_directory(unreadable)) {
+      found.push_back(folder + name + "/");
+    } else if (is_launch_file(entry.path())) {
+      found.push_back(folder + name);
+    }
+  }
+  return found;
+}
+
+// The names of options if the last word begins like one, or the values of the option before it if its help lists them.
+std::optional<Words> of_option(const Words& command, const Words& words) {
+  if (words.back().starts_with('-')) {
+    Words names = command.empty() ? Words{"--dry-run=json", "--dry-run=shell"} : Words{};
+    for (const HelpOption& option : options_of_command(command)) {
+      std::copy_if(option.names.begin(), option.names.end(), std::back_inserter(names),
+                   [](const std::string& name) { return name.starts_with("--"); });
+    }
+    return names;
+  }
+  if (words.size() < 2 || !words[words.size() - 2].starts_with("--")) {
+    return std::nullopt;
+  }
+  for (const HelpOption& option : options_of_command(command)) {
+    const auto& names = option.names;
+    if (!option.choices.empty() && std::find(names.begin(), names.end(), words[words.size() - 2]) != names.end()) {
+      return option.choices;
+    }
+  }
+  return std::nullopt;
+}
 
 class Completer {
  public:
@@ -62,9 +84,20 @@ class Completer {
 
   Words candidates(const Words& words) {
     const std::string& current = words.back();
-    const std::string command = words.size() > 1 ? words.front() : "";
-    if (command == "trace") {
+    const Words commands = further_command_names();
+    const bool is_run =
+        words.size() < 2 || std::find(commands.begin(), commands.end(), words.front()) == commands.end();
+    const std::string command = is_run ? "" : words.front();
+    const bool reads_trace = command == "trace" && words.size() > 2 && words[1] == "read";
+    if (command == "trace" && !reads_trace) {
       return trace_words_({words.begin() + 1, words.end()});
+    }
+    if (command == "run") {
+      return run_program_completions({words.begin() + 1, words.end()}, scope_.environment);
+    }
+    const Words named = is_run ? Words{} : reads_trace ? Words{"trace", "read"} : Words{command};
+    if (std::optional<Words> found = of_option(named, words)) {
+      return std::move(*found);
     }
     if (command == "schema") {
       return {"dry-run", "json", "xsd"};
@@ -79,15 +112,8 @@ class Completer {
     if (is_control_command(command)) {
       return control_completions(command, words.size() - 1, scope_.environment);
     }
-    if (command == "run") {
-      return run_program_completions({words.begin() + 1, words.end()}, scope_.environment);
-    }
-    if (command == "build" || command == "report" || command == "reference") {
-      return {};
-    }
-    const bool is_run = command != "check" && command != "graph" && command != "test";
-    if (current.starts_with("-")) {
-      return is_run ? kOptions : command == "check" ? kCheckOptions : command == "test" ? kTestOptions : kGraphOptions;
+    if (!is_run && !takes_launch_files(command)) {
+      return {};  // the shell offers files
     }
     Words target;  // the words before the current one that name launch files
     for (std::size_t i = is_run ? 0 : 1; i + 1 < words.size(); ++i) {
@@ -97,8 +123,9 @@ class Completer {
     }
     if (target.empty()) {
       Words all = scope_.packages->packages(scope_.environment);
-      if (is_run) {
-        const Words commands = further_command_names();
+      const Words files = paths(current);
+      all.insert(all.end(), files.begin(), files.end());
+      if (is_run && words.size() == 1) {
         all.insert(all.end(), commands.begin(), commands.end());
       }
       return all;

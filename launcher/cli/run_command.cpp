@@ -27,6 +27,7 @@
 #include "launcher/cli/print_description.hpp"
 #include "launcher/cli/result_output.hpp"
 #include "launcher/cli/shell_script.hpp"
+#include "launcher/cli/subcommand.hpp"
 #include "launcher/cli/trace_every_launch.hpp"
 #include "launcher/control/control_socket.hpp"
 #include "launcher/control/launch_control.hpp"
@@ -41,11 +42,6 @@
 namespace launch {
 
 namespace {
-
-void print_error(const LaunchError& error) {
-  const bool colour = shows_colour(STDERR_FILENO);
-  fmt::print(stderr, "{}", render(error.diagnostics(), colour));
-}
 
 // Throws std::invalid_argument with a sentence.
 std::optional<MessageFormat> message_format(const Environment& environment, const char* variable) {
@@ -107,7 +103,7 @@ void report_arguments(const CommandLine& command, const LaunchDescription& descr
   if (command.strict_arguments && !found.empty()) {
     throw LaunchError(std::move(found));
   }
-  fmt::print(stderr, "{}", render(found, shows_colour(STDERR_FILENO)));
+  fmt::print(stderr, "{}", render(found, shows_colour(STDERR_FILENO), "launch"));
 }
 
 void print_timing(const std::vector<TimedStep>& steps) {
@@ -173,7 +169,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
 
   LaunchTracepoints tracepoints(own_prefix());
   LaunchService service(context, *loop, supervisor, [&output](const LaunchError& error) {
-    output.error(render(error.diagnostics(), shows_colour(STDERR_FILENO)));
+    output.error(render(error.diagnostics(), shows_colour(STDERR_FILENO), "launch"));
   });
   service.use_ros_client(ros_client);
   service.use_guardian(guardian);
@@ -239,7 +235,7 @@ int run_command(const CommandLine& command, Environment environment,
     try {
       guardian = guard_this_process(command);
     } catch (const std::system_error& error) {
-      fmt::print(stderr, "launch: error: {}\n", error.what());
+      fmt::print(stderr, "{}", command_error("launch", error.what()));
       return 1;
     }
   }
@@ -290,9 +286,9 @@ int run_command(const CommandLine& command, Environment environment,
                     .duration = loading});
     }
   } catch (const LaunchError& error) {
-    print_error(error);
+    print_errors(error, "launch");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "launch: error: {}\n", error.what());
+    fmt::print(stderr, "{}", command_error("launch", error.what()));
   }
   return 1;
 }

@@ -189,7 +189,8 @@ int run_program_command(const std::vector<std::string>& words, const Environment
     return *exit_code;
   }
   if (names.size() < 2) {
-    fmt::print(stderr, "launch run: error: no program given\n  = help: launch run PACKAGE PROGRAM [ARGUMENT ...]\n");
+    fmt::print(stderr, "{}",
+               usage_error("launch run", "no program given", "launch run PACKAGE PROGRAM [ARGUMENT ...]"));
     return kWrongCommandLine;
   }
   try {
@@ -199,9 +200,9 @@ int run_program_command(const std::vector<std::string>& words, const Environment
     return trace ? run_traced(names[1], std::move(argv), environment)
                  : run_on_terminal(names[1], std::move(argv), environment);
   } catch (const LaunchError& error) {
-    print_errors(error);
+    print_errors(error, "launch run");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "launch run: error: {}\n", error.what());
+    fmt::print(stderr, "{}", command_error("launch run", error.what()));
   }
   return 1;
 }

@@ -9,7 +9,6 @@
 #include <cstdio>
 
 #include "launcher/base/terminal_colour.hpp"
-#include "launcher/base/usage_error.hpp"
 
 namespace launch {
 
@@ -22,8 +21,7 @@ void Subcommand::take_target(LaunchTarget& target, bool optional) {
   target_ = &target;
   optional_target_ = optional;
   app_->add_option("words", words_, "launch files, or a package and a file of it; then arguments, name:=value")
-      ->type_name("FILE ... | PACKAGE FILE  [NAME:=VALUE ...]")
-      ->required(!optional);
+      ->type_name("FILE ... | PACKAGE FILE  [NAME:=VALUE ...]");
 }
 
 void Subcommand::take_choice(const std::string& name, std::string& value, const std::vector<std::string>& values,
@@ -77,8 +75,13 @@ std::optional<int> Subcommand::parse(std::vector<std::string> words) {
   return std::nullopt;
 }
 
-void print_errors(const LaunchError& error) {
-  fmt::print(stderr, "{}", render(error.diagnostics(), shows_colour(STDERR_FILENO)));
+void print_errors(const LaunchError& error, const std::string& command) {
+  fmt::print(stderr, "{}", render(error.diagnostics(), shows_colour(STDERR_FILENO), command));
+}
+
+void print_usage_error(const LaunchError& error, const std::string& command) {
+  const Diagnostic& first = error.diagnostics().front();
+  fmt::print(stderr, "{}", usage_error(command, first.message, first.help));
 }
 
 }  // namespace launch

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/diagnostic.hpp"
 
 namespace CLI {
@@ -15,8 +16,6 @@ class App;
 }
 
 namespace launch {
-
-constexpr int kWrongCommandLine = 2;  // exit code
 
 // Files, or a package and a file; and arguments, name:=value.
 struct LaunchTarget {
@@ -55,6 +54,9 @@ class Subcommand {
   std::vector<std::string> words_;
 };
 
-void print_errors(const LaunchError& error);
+// To standard error. `command` is "launch check".
+void print_errors(const LaunchError& error, const std::string& command);
+// The same for an error in the command line.
+void print_usage_error(const LaunchError& error, const std::string& command);
 
 }  // namespace launch

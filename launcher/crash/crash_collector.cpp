@@ -61,7 +61,7 @@ void CrashCollector::collect(const ProcessEvent& event, const ProcessExited& exi
   crash.pid = exited.pid;
   crash.exit = exited.exit;
   crash.time = std::chrono::system_clock::now();
-  crash.place = event.spec.origin ? to_string(event.spec.origin) : "";
+  crash.place = event.spec.origin ? place_with_path(event.spec.origin) : "";
   crash.argv = event.spec.argv;
   crash.shell = event.spec.shell;
   crash.environment = event.spec.environment.variables();

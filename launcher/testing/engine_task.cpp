@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/own_environment.hpp"
 #include "launcher/testing/engine.hpp"
 #include "launcher/testing/test_queue.hpp"
@@ -43,7 +44,7 @@ int run_task(const std::string& word) {
     }
     return results.size() == 1 ? 0 : 1;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "launch test: error: {}\n", error.what());
+    fmt::print(stderr, "{}", command_error("launch test", error.what()));
     return 1;
   }
 }

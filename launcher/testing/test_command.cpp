@@ -177,7 +177,7 @@ bool write(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   if (!file) {
-    fmt::print(stderr, "launch test: error: can't write '{}'\n", path);
+    fmt::print(stderr, "{}", command_error("launch test", fmt::format("can't write '{}'", path)));
   }
   return static_cast<bool>(file);
 }
@@ -263,12 +263,12 @@ int test_command(std::vector<std::string> words) {
   try {
     return run(options);
   } catch (const UsageError& error) {
-    fmt::print(stderr, "launch test: error: {}\n", error.what());
+    fmt::print(stderr, "{}", usage_error("launch test", error.what()));
     return kWrongCommandLine;
   } catch (const LaunchError& error) {
-    print_errors(error);
+    print_errors(error, "launch test");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "launch test: error: {}\n", error.what());
+    fmt::print(stderr, "{}", command_error("launch test", error.what()));
   }
   return 1;
 }

@@ -28,6 +28,9 @@ class WithoutRunning : public testing::Test {
     return path.string();
   }
 
+  // How the launcher, which runs in the folder of the file, names it.
+  static std::string shown(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
   Sandbox sandbox_;
 };
 
@@ -45,36 +48,36 @@ TEST_F(WithoutRunning, CheckFindsAllErrorsOfAVisit) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.out,
-            path +
+            shown(path) +
                 ":3:32: error: executable 'talkr' not found on the libexec directory '" BUILD_DIRECTORY
                 "/prefix/lib/demo_nodes' [LF0302]\n"
                 "    3 |   <node pkg=\"demo_nodes\" exec=\"talkr\"/>\n"
                 "      |                                ^~~~~\n"
                 "      = help: did you mean 'talker'?\n" +
-                path +
+                shown(path) +
                 ":7:35: warning: launch configuration 'missing' does not exist [LF0201]\n"
                 "    7 |   <group if=\"false\"><log message=\"$(var missing)\"/></group>\n"
                 "      |                                   ^~~~~~~~~~~~~~\n"
                 "      = help: declare it with 'arg', set it with 'let', or give a default: $(var missing DEFAULT); a "
                 "condition leaves this out with the arguments given\n" +
-                path +
+                shown(path) +
                 ":2:4: warning: argument 'unread' is never read [LF0501]\n"
                 "    2 |   <arg name=\"unread\" default=\"1\"/>\n"
                 "      |    ^~~\n" +
-                path +
+                shown(path) +
                 ":6:4: warning: another node is named '/a' [LF0404]\n"
                 "    6 |   <node pkg=\"demo_nodes\" exec=\"talker\" name=\"a\"><remap from=\"b:x\" to=\"y\"/></node>\n"
                 "      |    ^~~~\n"
                 "      = help: the first is at " +
-                path + ":5:4\n" + path +
+                shown(path) + ":5:4\n" + shown(path) +
                 ":4:4: error: program 'no_such_program' can't be run: No such file or directory [LF0302]\n"
                 "    4 |   <executable cmd=\"no_such_program\"/>\n"
                 "      |    ^~~~~~~~~~\n" +
-                path +
+                shown(path) +
                 ":5:4: warning: remap 'x:=x' changes nothing [LF0403]\n"
                 "    5 |   <node pkg=\"demo_nodes\" exec=\"talker\" name=\"a\"><remap from=\"x\" to=\"x\"/></node>\n"
                 "      |    ^~~~\n" +
-                path +
+                shown(path) +
                 ":6:4: warning: remap 'b:x:=y' matches nothing: this node is named 'a' [LF0403]\n"
                 "    6 |   <node pkg=\"demo_nodes\" exec=\"talker\" name=\"a\"><remap from=\"b:x\" to=\"y\"/></node>\n"
                 "      |    ^~~~\n"
@@ -118,12 +121,12 @@ TEST_F(WithoutRunning, CheckSaysWhatAFileNeedsToBeChecked) {
   const CommandResult without = launch({"check", path});
   EXPECT_EQ(without.exit_code, 1);
   EXPECT_EQ(without.out,
-            path +
+            shown(path) +
                 ":1:10: warning: argument 'x' has no default, so what depends on it was not checked [LF0503]\n"
                 "    1 | <launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n"
                 "      |          ^~~\n"
                 "      = help: give x:=VALUE\n" +
-                path +
+                shown(path) +
                 ":1:47: error: launch configuration 'y' does not exist [LF0201]\n"
                 "    1 | <launch><arg name=\"x\"/><log message=\"$(var x) $(var y)\"/></launch>\n"
                 "      |                                               ^~~~~~~~\n"
@@ -139,7 +142,7 @@ TEST_F(WithoutRunning, StrictCheckRefusesExtensions) {
   EXPECT_EQ(launch({"check", path}).out, "1 file: 0 errors, 0 warnings\n");
   const CommandResult strict = launch({"check", "--strict-ros2", path});
   EXPECT_EQ(strict.exit_code, 1);
-  EXPECT_EQ(strict.out, path +
+  EXPECT_EQ(strict.out, shown(path) +
                             ":1:33: error: attribute 'fail-on-loss' of <trace> is not known to ros2 launch [LF0107]\n"
                             "    1 | <launch><trace session-name=\"s\" fail-on-loss=\"true\"/></launch>\n"
                             "      |                                 ^~~~~~~~~~~~\n"
@@ -148,7 +151,8 @@ TEST_F(WithoutRunning, StrictCheckRefusesExtensions) {
 
 TEST_F(WithoutRunning, CheckOfWrongUse) {
   EXPECT_EQ(launch({"check"}).exit_code, 2);
-  EXPECT_EQ(launch({"check", "x:=1"}).err, "launch check: error: no launch file given\n");
+  EXPECT_EQ(launch({"check", "x:=1"}).err,
+            "launch check: error: no launch file given\n      = help: see 'launch check --help'\n");
   EXPECT_EQ(launch({"check", "nowhere.launch.xml"}).exit_code, 1);
   EXPECT_EQ(launch({"check", "--format", "html", "x"}).exit_code, 2);
 }
@@ -161,7 +165,9 @@ TEST_F(WithoutRunning, CheckLeavesOutDisabledFindings) {
   const CommandResult wrong = launch({"check", "--disable", "LF0511", path});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_EQ(wrong.out, "");
-  EXPECT_EQ(wrong.err, "error: no finding has the id 'LF0511'\n      = help: did you mean 'LF0501'?\n");
+  EXPECT_EQ(wrong.err,
+            "launch check: error: no finding has the id 'LF0511'\n      = help: did you mean 'LF0501'?\n"
+            "      = help: see 'launch check --help'\n");
 }
 
 TEST_F(WithoutRunning, CheckTakesWarningsForErrors) {
@@ -169,7 +175,7 @@ TEST_F(WithoutRunning, CheckTakesWarningsForErrors) {
   EXPECT_EQ(launch({"check", path}).exit_code, 0);
   const CommandResult result = launch({"check", "--werror", path});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.out, path +
+  EXPECT_EQ(result.out, shown(path) +
                             ":1:10: error: argument 'x' is never read [LF0501]\n"
                             "    1 | <launch><arg name=\"x\" default=\"1\"/></launch>\n"
                             "      |          ^~~\n"
@@ -188,11 +194,11 @@ TEST_F(WithoutRunning, AMissingFileHidesNoFindingOfTheOthers) {
             "      = help: a file of a package is named by two words: launch PACKAGE FILE\n"
             "error: launch file 'there.launch.xml' does not exist [LF0001]\n"
             "      = help: a file of a package is named by two words: launch PACKAGE FILE\n" +
-                path +
+                shown(path) +
                 ":2:18: error: can't read launch file '/nowhere.launch.xml': No such file or directory [LF0001]\n"
                 "    2 |   <include file=\"/nowhere.launch.xml\"/>\n"
                 "      |                  ^~~~~~~~~~~~~~~~~~~\n" +
-                path +
+                shown(path) +
                 ":3:17: error: launch configuration 'y' does not exist [LF0201]\n"
                 "    3 |   <log message=\"$(var y)\"/>\n"
                 "      |                 ^~~~~~~~\n"
@@ -209,8 +215,8 @@ TEST_F(WithoutRunning, CheckSummarisesManyFindingsOfAKind) {
   }
   const std::string path = file("a.launch.xml", text + "</launch>\n");
   const CommandResult result = launch({"check", path});
-  EXPECT_THAT(result.out, HasSubstr(path + ":101:15: error"));
-  EXPECT_THAT(result.out, testing::Not(HasSubstr(path + ":102:15: error")));
+  EXPECT_THAT(result.out, HasSubstr(shown(path) + ":101:15: error"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr(shown(path) + ":102:15: error")));
   EXPECT_THAT(result.out, testing::EndsWith("50 more of LF0201 (Nothing has this name), --format json shows all\n"
                                             "1 file: 150 errors, 0 warnings\n"));
   EXPECT_EQ(Json::parse(launch({"check", "--format", "json", path}).out).size(), 150u);
@@ -244,8 +250,9 @@ TEST_F(WithoutRunning, PrintShowsTheTreeWithIncludedFiles) {
                             "│           └── node pkg=\"p\" exec=\"e\"\n"
                             "│               └── param name=\"n\" value=\"[1, 2]\"\n"
                             "└── shutdown\n");
-  EXPECT_EQ(launch({"--print", "--show-args", outer}).err,
-            "launch: error: --dry-run, --show-args and --print exclude each other\n");
+  EXPECT_EQ(
+      launch({"--print", "--show-args", outer}).err,
+      "launch: error: --dry-run, --show-args and --print exclude each other\n      = help: see 'launch --help'\n");
 }
 
 TEST_F(WithoutRunning, SeveralFilesAreOneLaunch) {
@@ -255,7 +262,7 @@ TEST_F(WithoutRunning, SeveralFilesAreOneLaunch) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("x is 1"));
   EXPECT_EQ(launch({first, "nowhere.launch.xml"}).err,
-            "error: malformed launch argument 'nowhere.launch.xml', expected format '<name>:=<value>'\n"
+            "launch: error: malformed launch argument 'nowhere.launch.xml', expected format '<name>:=<value>'\n"
             "      = help: nor is it a further launch file: no such file\n");
 }
 

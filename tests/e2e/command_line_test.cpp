@@ -45,14 +45,17 @@ TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
 }
 
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
-  EXPECT_EQ(launch({}).err, "launch: error: no launch file given, see launch --help\n");
+  EXPECT_EQ(launch({}).err, "launch: error: no launch file given\n      = help: see 'launch --help'\n");
   EXPECT_EQ(launch({}).exit_code, 2);
   EXPECT_EQ(launch({"file.xml", "x:="}).err,
-            "launch: error: malformed launch argument 'x:=', expected format '<name>:=<value>'\n");
+            "launch: error: malformed launch argument 'x:=', expected format '<name>:=<value>'\n"
+            "      = help: see 'launch --help'\n");
   EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err,
-            "launch: error: --dry-run=xml is unknown, expected text, json or shell\n");
+            "launch: error: --dry-run=xml is unknown, expected text, json or shell\n"
+            "      = help: see 'launch --help'\n");
   EXPECT_EQ(launch({"--no-such-option", "file.xml"}).exit_code, 2);
-  EXPECT_EQ(launch({"check", "--werror"}).err, "launch check: error: words is required\n");
+  EXPECT_EQ(launch({"check", "--werror"}).err,
+            "launch check: error: no launch file given\n      = help: see 'launch check --help'\n");
 }
 
 TEST_F(CommandLine, MistypedOptionsAndCommandsAreSuggested) {
@@ -62,22 +65,29 @@ TEST_F(CommandLine, MistypedOptionsAndCommandsAreSuggested) {
     EXPECT_EQ(result.err, error);
   };
   expect_error({"--dryrun", "file.xml"},
-               "launch: error: unknown option '--dryrun'\n      = help: did you mean '--dry-run'?\n");
+               "launch: error: unknown option '--dryrun'\n      = help: did you mean '--dry-run'?\n"
+               "      = help: see 'launch --help'\n");
   expect_error({"--frobnicate", "file.xml"},
-               "launch: error: unknown option '--frobnicate'\n      = help: see launch --help\n");
+               "launch: error: unknown option '--frobnicate'\n      = help: see 'launch --help'\n");
   expect_error({"check", "--formt=json", "file.xml"},
-               "launch check: error: unknown option '--formt'\n      = help: did you mean '--format'?\n");
+               "launch check: error: unknown option '--formt'\n      = help: did you mean '--format'?\n"
+               "      = help: see 'launch check --help'\n");
   expect_error({"graph", "--otput", "x", "file.xml"},
-               "launch graph: error: unknown option '--otput'\n      = help: did you mean '--output'?\n");
+               "launch graph: error: unknown option '--otput'\n      = help: did you mean '--output'?\n"
+               "      = help: see 'launch graph --help'\n");
   expect_error({"report", "--jsn", "directory"},
-               "launch report: error: unknown option '--jsn'\n      = help: did you mean '--json'?\n");
+               "launch report: error: unknown option '--jsn'\n      = help: did you mean '--json'?\n"
+               "      = help: see 'launch report --help'\n");
   expect_error({"trace", "read", "--evnt", "x", "directory"},
-               "launch trace read: error: unknown option '--evnt'\n      = help: did you mean '--event'?\n");
+               "launch trace read: error: unknown option '--evnt'\n      = help: did you mean '--event'?\n"
+               "      = help: see 'launch trace read --help'\n");
   expect_error({"trace", "strat", "session"},
-               "launch trace: error: unknown command 'strat'\n      = help: did you mean 'start'?\n");
+               "launch trace: error: unknown command 'strat'\n      = help: did you mean 'start'?\n"
+               "      = help: see 'launch trace --help'\n");
 
-  EXPECT_EQ(launch({"chek"}).err,
-            "error: launch file 'chek' does not exist\n      = help: did you mean the command 'launch check'?\n");
+  EXPECT_EQ(
+      launch({"chek"}).err,
+      "launch: error: launch file 'chek' does not exist\n      = help: did you mean the command 'launch check'?\n");
   EXPECT_THAT(launch({"chek", "system.launch.xml"}).err, HasSubstr("did you mean the command 'launch check'?"));
 }
 
@@ -103,14 +113,14 @@ TEST_F(CommandLine, StandardInputMayBeAPythonFile) {
 TEST_F(CommandLine, MissingFilesAndPackagesAreNamed) {
   const CommandResult file = launch({"nowhere.launch.xml"});
   EXPECT_EQ(file.exit_code, 1);
-  EXPECT_THAT(file.err, StartsWith("error: launch file 'nowhere.launch.xml' does not exist\n"));
+  EXPECT_THAT(file.err, StartsWith("launch: error: launch file 'nowhere.launch.xml' does not exist\n"));
   EXPECT_EQ(launch({EXAMPLES_DIRECTORY "/01_ping_pon.launch.xml"}).err,
-            "error: launch file '" EXAMPLES_DIRECTORY
+            "launch: error: launch file '" EXAMPLES_DIRECTORY
             "/01_ping_pon.launch.xml' does not exist\n"
             "      = help: did you mean '" EXAMPLES_DIRECTORY "/01_ping_pong.launch.xml'?\n");
   const CommandResult directory = launch({EXAMPLES_DIRECTORY});
   EXPECT_EQ(directory.exit_code, 1);
-  EXPECT_EQ(directory.err, "error: '" EXAMPLES_DIRECTORY
+  EXPECT_EQ(directory.err, "launch: error: '" EXAMPLES_DIRECTORY
                            "' is a directory, not a launch file\n"
                            "      = help: give one of its files\n");
   const CommandResult in_package = launch({"launch_examples", "01_ping_pon.launch.xml"});
@@ -142,9 +152,9 @@ TEST_F(CommandLine, UnknownAndRepeatedArgumentsAreReported) {
   const auto file = sandbox_.directory() / "args.launch.xml";
   write_file(file, "<launch><arg name=\"rate\" default=\"1\"/><log message=\"$(var read '')\"/></launch>\n");
   const std::string warning =
-      "warning: launch argument 'rat' is unknown to the launch file\n"
+      "launch: warning: launch argument 'rat' is unknown to the launch file\n"
       "      = help: did you mean 'rate'?\n"
-      "warning: launch argument 'rate' is given more than once\n"
+      "launch: warning: launch argument 'rate' is given more than once\n"
       "      = help: the last one counts\n"
       "[launch.user]: \n";
   const CommandResult tolerant = launch({"--dry-run", file.string(), "rat:=2", "rate:=3", "rate:=4"});
@@ -153,7 +163,7 @@ TEST_F(CommandLine, UnknownAndRepeatedArgumentsAreReported) {
   const CommandResult strict = launch({"--dry-run", "--strict-args", file.string(), "rat:=2"});
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_EQ(strict.err,
-            "error: launch argument 'rat' is unknown to the launch file\n"
+            "launch: error: launch argument 'rat' is unknown to the launch file\n"
             "      = help: did you mean 'rate'?\n");
   EXPECT_EQ(launch({"--dry-run", "--strict-args", file.string(), "rate:=2", "emulate_tty:=true", "read:=x"}).err,
             "[launch.user]: x\n");

@@ -100,7 +100,7 @@ TEST_F(Control, PsListsProcessesWithTheirStatesAndPlaces) {
   EXPECT_EQ(ask({"complete", "signal", "talker", "SIGUSR"}).out, "SIGUSR1\nSIGUSR2\n");
   const CommandResult unknown = ask({"ps", "talkr"});
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_EQ(unknown.err, "launch ps: error: no process is named 'talkr'\n  = help: did you mean 'talker'?\n");
+  EXPECT_EQ(unknown.err, "launch ps: error: no process is named 'talkr'\n      = help: did you mean 'talker'?\n");
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait().exit_code, 3) << "one has failed";
 }
@@ -157,7 +157,7 @@ TEST_F(Control, ASignalReachesTheProcess) {
   const CommandResult wrong = ask({"signal", "talker", "SIGUSR3"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err,
-              HasSubstr("launch signal: error: there is no signal 'SIGUSR3'\n  = help: did you mean 'SIGUSR"));
+              HasSubstr("launch signal: error: there is no signal 'SIGUSR3'\n      = help: did you mean 'SIGUSR"));
   EXPECT_EQ(ask({"signal", "talker"}).exit_code, 2);
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait().exit_code, 0);
@@ -265,7 +265,8 @@ TEST_F(Control, LogsShowWhatWasPrintedAndGoOn) {
   const CommandResult result = follower.wait(kPatience);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, Not(HasSubstr("unheard")));
-  EXPECT_EQ(ask({"logs", "-n", "many"}).err, "launch logs: error: --lines needs a number\n");
+  EXPECT_EQ(ask({"logs", "-n", "many"}).err,
+            "launch logs: error: --lines needs a number\n      = help: see 'launch logs --help'\n");
   run.wait();
 }
 

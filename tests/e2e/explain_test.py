@@ -73,9 +73,12 @@ Example:
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stdout, '')
         self.assertEqual(result.stderr,
-                         "error: no finding has the id 'LF0199'\n      = help: did you mean 'LF0101'?\n")
+                         "launch explain: error: no finding has the id 'LF0199'\n      = help: did you mean 'LF0101'?\n"
+                         "      = help: see 'launch explain --help'\n")
         self.assertEqual(launch('explain', 'talker').stderr,
-                         "error: no finding has the id 'talker'\n      = help: `launch explain` lists all findings\n")
+                         "launch explain: error: no finding has the id 'talker'\n"
+                         "      = help: `launch explain` lists all findings\n"
+                         "      = help: see 'launch explain --help'\n")
 
     def test_every_example_has_its_finding_and_no_other(self):
         sections = list(SECTION.finditer(launch('explain', '--markdown').stdout))

@@ -106,10 +106,18 @@ TEST(TopicCommand, ShowsThePlaceOfAMistake) {
   result = launch_command({"topic", "pub", "/x", "std_msgs/msg/Strin", "{}"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err,
-            "error: there is no interface 'std_msgs/msg/Strin'\n      = help: did you mean 'std_msgs/msg/String'?\n");
+            "launch topic pub: error: there is no interface 'std_msgs/msg/Strin'\n"
+            "      = help: did you mean 'std_msgs/msg/String'?\n");
   result = launch_command({"topic", "eco", "/x"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, "launch topic: error: there is no verb 'eco'\n      = help: did you mean 'echo'?\n");
+  EXPECT_EQ(result.err,
+            "launch topic: error: unknown command 'eco'\n      = help: did you mean 'echo'?\n"
+            "      = help: see 'launch topic --help'\n");
+  EXPECT_EQ(launch_command({"topic", "ehco"}).err, launch_command({"topic", "ehco", "/x"}).err);
+  EXPECT_THAT(launch_command({"topic", "ehco"}).err, HasSubstr("= help: did you mean 'echo'?\n"));
+  EXPECT_THAT(launch_command({"service", "lst"}).err, HasSubstr("= help: did you mean 'list'?\n"));
+  EXPECT_EQ(launch_command({"node", "--lsit"}).err,
+            "launch node: error: unknown option '--lsit'\n      = help: see 'launch node --help'\n");
   result = launch_command({"topic", "echo", "/nothing"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "launch topic echo: error: unknown topic '/nothing'\n");

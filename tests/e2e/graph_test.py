@@ -83,7 +83,7 @@ class Graph(unittest.TestCase):
                              (['--live', '--seconds', 'soon'], "'soon' is no number of seconds above 0"),
                              ([], 'no launch file given')):
             result = self.graph(*words)
-            self.assertEqual((result.returncode, result.stderr), (2, f'launch graph: error: {error}\n'))
+            self.assertEqual((result.returncode, result.stderr), (2, f"launch graph: error: {error}\n      = help: see 'launch graph --help'\n"))
 
 
 if __name__ == '__main__':

@@ -140,12 +140,12 @@ TEST_F(LiveReport, SaysWhatIsMissing) {
   EXPECT_EQ(
       no_daemon.err,
       "launch report: error: no relay daemon answers at net://localhost\n"
-      "    = help: a live session goes to a relay daemon: start 'lttng-relayd', and give the session a live-timer\n");
+      "      = help: a live session goes to a relay daemon: start 'lttng-relayd', and give the session a live-timer\n");
   const CommandResult no_address = run_command({LAUNCH_REPORT, "--live", "http://localhost/seen"});
   EXPECT_EQ(no_address.exit_code, 1);
   EXPECT_EQ(no_address.err,
             "launch report: error: 'http://localhost/seen' is no address of a live session\n"
-            "    = help: write net://RELAY[:PORT]/host/HOST/SESSION, or the name of a session of this machine\n");
+            "      = help: write net://RELAY[:PORT]/host/HOST/SESSION, or the name of a session of this machine\n");
   const CommandResult together = run_command({LAUNCH_REPORT, "--live", "seen", "--html", "page.html"});
   EXPECT_EQ(together.exit_code, 2);
   EXPECT_THAT(together.err, HasSubstr("--live excludes --html"));

@@ -28,6 +28,23 @@ class ManPages(unittest.TestCase):
                 self.assertIn('--help', options)
                 self.assertEqual([option for option in options if option not in page], [])
 
+    def test_a_page_describes_the_verbs_of_its_command_with_their_options(self):
+        pages_with_verbs = set()
+        for command in re.findall(r'^  launch ([a-z]+) .* {2}', help_of(), re.M):
+            page = (PAGES / f'launch-{command}.1').read_text().replace('\\-', '-')
+            for verb in re.findall(r'^  (\w+) ', help_of(command).partition('Subcommands:\n')[2], re.M):
+                if (command, verb) == ('trace', 'read'):
+                    continue  # has a page of its own
+                pages_with_verbs.add(command)
+                with self.subTest(command=command, verb=verb):
+                    self.assertIn(f'\n.SH {verb.upper()}\n', page)
+                    part = page.partition(f'\n.SH {verb.upper()}\n')[2].partition('\n.SH ')[0]
+                    options = re.findall(r'^  (?:-\w,)?(--[\w-]+)', help_of(command, verb), re.M)
+                    self.assertIn('--help', options)
+                    self.assertEqual([option for option in options if option not in part], [])
+        self.assertEqual(pages_with_verbs, {'action', 'component', 'interface', 'lifecycle', 'node', 'param', 'service',
+                                            'topic', 'trace'})
+
     def test_the_page_of_trace_describes_its_verbs(self):
         page = (PAGES / 'launch-trace.1').read_text().replace('\\-', '-')
         for part in ('.SH START\n', '.SH RECORD_SNAPSHOT\n', '--snapshot-mode'):

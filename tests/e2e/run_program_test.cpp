@@ -79,7 +79,7 @@ TEST_F(RunProgram, SuggestsNames) {
   write_program("");
   const CommandResult program = run_command(command({"tools", "tol"}));
   EXPECT_EQ(program.exit_code, 1);
-  EXPECT_EQ(program.err, "error: executable 'tol' not found on the libexec directory '" +
+  EXPECT_EQ(program.err, "launch run: error: executable 'tol' not found on the libexec directory '" +
                              (prefix_ / "lib/tools").string() + "'\n      = help: did you mean 'tool'?\n");
   const CommandResult package = run_command(command({"tolos", "tool"}));
   EXPECT_EQ(package.exit_code, 1);

@@ -378,7 +378,8 @@ TEST_F(TestCommand, ShardsHoldEachTestOnce) {
   EXPECT_EQ(plain(run({file, "--list", "--shard", "1/2"}).out),
             "a.launch.xml:4: t0\na.launch.xml:4: t2\na.launch.xml:4: t4\n");
   EXPECT_EQ(plain(run({file, "--list", "--shard", "2/2"}).out), "a.launch.xml:4: t1\na.launch.xml:4: t3\n");
-  EXPECT_EQ(run({file, "--list", "--shard", "3/2"}).err, "launch test: error: --shard 3/2: there are only 2 parts\n");
+  EXPECT_EQ(run({file, "--list", "--shard", "3/2"}).err,
+            "launch test: error: --shard 3/2: there are only 2 parts\n      = help: see 'launch test --help'\n");
 }
 
 TEST_F(TestCommand, AnEngineGetsEachTestAndGivesItsResult) {

@@ -272,7 +272,9 @@ TEST_F(TopTest, ALaunchThatCannotBeginInItSaysWhy) {
   EXPECT_THAT(terminal.everything(), HasSubstr("system.launch.xml:2:2: error: "));
   const CommandResult none = run_command({LAUNCH_PROGRAM, "--top", "any.launch.xml"});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_EQ(none.err, "launch: error: --top needs a terminal\n");
+  EXPECT_EQ(none.err,
+            "launch: error: --top needs a terminal\n      = help: 'launch ps' prints a table\n"
+            "      = help: see 'launch --help'\n");
 }
 
 TEST_F(TopTest, FiveHundredProcessesAreScrolledAndALargerTerminalShowsMore) {
@@ -366,7 +368,7 @@ TEST_F(TopTest, SaysWhyItCannotShowWhatTheNodesDo) {
   ASSERT_TRUE(top.shows("talker-1", "running")) << top.screen();
   top.type("t");
   EXPECT_TRUE(top.shows("there is no 'lttng-relayd' on this machine")) << top.screen();
-  EXPECT_TRUE(top.shows("hint: install the package lttng-tools")) << top.screen();
+  EXPECT_TRUE(top.shows("= help: install the package lttng-tools")) << top.screen();
   top.type("tq");
   EXPECT_EQ(top.wait(), 0);
   run.send_signal(SIGINT);
@@ -376,7 +378,7 @@ TEST_F(TopTest, SaysWhyItCannotShowWhatTheNodesDo) {
 TEST_F(TopTest, NeedsATerminal) {
   const CommandResult result = run_command({.argv = {LAUNCH_PROGRAM, "top"}, .environment = environment_});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.err, "launch top: error: needs a terminal\n  = help: 'launch ps' prints a table\n");
+  EXPECT_EQ(result.err, "launch top: error: needs a terminal\n      = help: 'launch ps' prints a table\n");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <optional>
 
+#include "launcher/base/command_error.hpp"
 #include "tracing/account/cost_measurement.hpp"
 #include "tracing/account/counter_directory.hpp"
 #include "tracing/account/event_cost.hpp"
@@ -29,7 +30,7 @@ namespace {
 
 constexpr int kSuccess = 0;
 constexpr int kFailure = 1;
-constexpr int kNoLttng = 2;
+constexpr int kNoLttng = 2;  // as ros2 trace
 
 // Lines that nobody can read any more are no error (fmt::print would throw).
 void print_line(const std::string& line) {
@@ -37,9 +38,8 @@ void print_line(const std::string& line) {
   std::fflush(stdout);
 }
 
-void print_error(const TraceError& error) {
-  fmt::print(stderr, "error: {}\n", error.what());
-  if (!error.remedy().empty()) fmt::print(stderr, "hint: {}\n", error.remedy());
+void print_error(const TraceOptions& options, const TraceError& error) {
+  fmt::print(stderr, "{}", launch::command_error(options.command, error.what(), error.remedy()));
 }
 
 void print_names(const std::string& heading, const std::vector<std::string>& names, bool list) {
@@ -80,15 +80,17 @@ void start(const TraceOptions& options, Tracer& tracer) {
   if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
   SetupReport report = tracer.start(options.config);
   for (std::string& warning : tracer.unreachable_processes()) report.warnings.push_back(std::move(warning));
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (!report.notes.empty()) fmt::print(stderr, "note: {}\n", report.notes);
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "{}: warning: {}\n", options.command, warning);
+  if (!report.notes.empty()) fmt::print(stderr, "{}: note: {}\n", options.command, report.notes);
 }
 
-void print_account(const LossAccount& losses) {
+void print_account(const TraceOptions& options, const LossAccount& losses) {
   if (!losses.directory.empty()) print_line("trace written to: " + losses.directory);
   print_line(fmt::format("trace is {}: {}", losses.complete() ? "complete" : "incomplete", describe_losses(losses)));
   if (const std::string cost = describe_cost(losses); !cost.empty()) print_line(cost);
-  if (!losses.unwritten_verdict.empty()) fmt::print(stderr, "warning: {}\n", losses.unwritten_verdict);
+  if (!losses.unwritten_verdict.empty()) {
+    fmt::print(stderr, "{}: warning: {}\n", options.command, losses.unwritten_verdict);
+  }
 }
 
 void record_snapshot(const std::string& session_name, Tracer& tracer) {
@@ -96,14 +98,15 @@ void record_snapshot(const std::string& session_name, Tracer& tracer) {
   if (!directory.empty()) print_line("snapshot written to: " + directory);
 }
 
-void finish(const TraceConfig& config, Tracer& tracer, const std::function<bool()>& give_up) {
+void finish(const TraceOptions& options, Tracer& tracer, const std::function<bool()>& give_up) {
+  const TraceConfig& config = options.config;
   print_line("stopping & destroying tracing session");
   const LossAccount losses = tracer.finish(config, give_up);
   if (losses.of_snapshots) {
     print_line(losses.directory.empty() ? "the session has ended" : "snapshots are in: " + losses.directory);
     return;
   }
-  print_account(losses);
+  print_account(options, losses);
   if (config.fail_on_loss && losses.has_losses()) {
     throw TraceError(fmt::format("the trace of session '{}' is incomplete", config.lttng_session_name()),
                      "use larger buffers, record fewer events, or leave out --fail-on-loss");
@@ -159,7 +162,7 @@ void run_interactively(const TraceOptions& options, Tracer& tracer) {
   const SessionGuard guard(ending(options.config, tracer));
   start(options, tracer);
   ask("press enter to stop...", input);  // whatever the answer is, it ends the session
-  finish(options.config, tracer, [&input] { return input.take_signal(); });
+  finish(options, tracer, [&input] { return input.take_signal(); });
 }
 
 void print_status(const std::string& session_name, Tracer& tracer) {
@@ -190,7 +193,7 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       return start_or_leave_nothing(options, tracer);
     case TraceVerb::kPause:
       print_line("pausing tracing session");
-      if (const std::optional<LossAccount> losses = tracer.pause(session_name)) print_account(*losses);
+      if (const std::optional<LossAccount> losses = tracer.pause(session_name)) print_account(options, *losses);
       return;
     case TraceVerb::kResume:
       print_line("resuming tracing session");
@@ -204,7 +207,7 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
         return;
       }
       EnterOrSignal signals;
-      return finish(options.config, tracer, [&signals] { return signals.take_signal(); });
+      return finish(options, tracer, [&signals] { return signals.take_signal(); });
     }
     case TraceVerb::kList:
       fmt::print("{}", sessions_as_text(tracer.sessions()));
@@ -244,14 +247,15 @@ int run_trace_command(const std::vector<std::string>& arguments, Tracer& tracer)
   }
   // Who reads the output may go at any time, which is no reason to leave a session half made.
   std::signal(SIGPIPE, SIG_IGN);
+  const auto& options = std::get<TraceOptions>(parsed);
   try {
-    run_verb(std::get<TraceOptions>(parsed), tracer);
+    run_verb(options, tracer);
     return kSuccess;
   } catch (const SessionDaemonMissing& error) {
-    print_error(error);
+    print_error(options, error);
     return kNoLttng;
   } catch (const TraceError& error) {
-    print_error(error);
+    print_error(options, error);
     return kFailure;
   }
 }

@@ -9,13 +9,11 @@
 #include <optional>
 #include <type_traits>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/own_environment.hpp"
-#include "launcher/base/usage_error.hpp"
 
 namespace tracing {
 namespace {
-
-constexpr int kUsageError = 2;
 
 // As typed; the defaults that depend on the environment are not filled in yet.
 struct SessionArguments {
@@ -208,10 +206,12 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
     const auto chosen = command.get_subcommands();
     return ParserMessage{0, chosen.empty() ? command.help() : chosen.front()->help("launch trace")};
   } catch (const CLI::ParseError& error) {
-    return ParserMessage{kUsageError, launch::usage_error_of(command, error)};
+    return ParserMessage{launch::kWrongCommandLine, launch::usage_error_of(command, error)};
   }
   for (const auto& [verb, value] : verbs) {
-    if (verb->parsed()) options.verb = value;
+    if (!verb->parsed()) continue;
+    options.verb = value;
+    options.command += " " + verb->get_name();
   }
   complete(options, session);
   return options;

@@ -29,6 +29,7 @@ enum class TraceVerb {
 
 struct TraceOptions {
   TraceVerb verb = TraceVerb::kInteractive;
+  std::string command = "launch trace";  // with the verb: "launch trace start"
   TraceConfig config;         // of the verbs without session options only the name is filled in; status: empty for all
   bool list_names = false;    // -l
   bool dual_session = false;  // -d

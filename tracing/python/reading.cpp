@@ -127,7 +127,7 @@ py::object make_iterator(const py::object& type, std::unique_ptr<Reading> readin
 
 void set_error(const TraceReadError& failure, py::handle error) {
   std::string text = failure.what();
-  if (!failure.remedy().empty()) text += "\n    = help: " + failure.remedy();
+  if (!failure.remedy().empty()) text += "\n      = help: " + failure.remedy();
   PyErr_SetString(error.ptr(), text.c_str());
 }
 

@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-#include "launcher/base/usage_error.hpp"
+#include "launcher/base/command_error.hpp"
 #include "tracing/read/event_filter.hpp"
 #include "tracing/read/event_printer.hpp"
 #include "tracing/reader/trace_reader.hpp"
@@ -101,9 +101,7 @@ class CountingSink : public tracing::TraceSink {
 
 // Does not throw where the standard error output is closed, unlike fmt::print.
 int print_error(const std::string& message, const std::string& remedy = "") {
-  std::string text = fmt::format("launch trace read: error: {}\n", message);
-  if (!remedy.empty()) text += fmt::format("    = help: {}\n", remedy);
-  std::fputs(text.c_str(), stderr);
+  std::fputs(launch::command_error("launch trace read", message, remedy).c_str(), stderr);
   return kFailure;
 }
 

@@ -17,7 +17,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "launcher/base/usage_error.hpp"
+#include "launcher/base/command_error.hpp"
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/live/live_report.hpp"
 #include "tracing/report/comparison_command.hpp"
@@ -44,12 +44,11 @@ struct Arguments {
 };
 
 void print_error(const std::string& error) {
-  fmt::print(stderr, "launch report: error: {}\n", error);
+  fmt::print(stderr, "{}", launch::command_error("launch report", error));
 }
 
 void print_error(const tracing::TraceReadError& error) {
-  fmt::print(stderr, "launch report: error: {}\n", error.what());
-  if (!error.remedy().empty()) fmt::print(stderr, "    = help: {}\n", error.remedy());
+  fmt::print(stderr, "{}", launch::command_error("launch report", error.what(), error.remedy()));
 }
 
 // Throws when the text can't be written.

@@ -125,7 +125,7 @@ int main() {
     Watch().run();
     return 0;
   } catch (const tracing::TraceReadError& error) {
-    tell("error", error.remedy().empty() ? error.what() : fmt::format("{}\nhint: {}", error.what(), error.remedy()));
+    tell("error", error.remedy().empty() ? error.what() : fmt::format("{}\n= help: {}", error.what(), error.remedy()));
   } catch (const std::exception& error) {
     tell("error", error.what());
   }

@@ -115,7 +115,7 @@ void PrivateRelay::start() {
     const int status = launch::wait_for(pid_);
     pid_ = -1;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != kMissing) return;
-    throw std::runtime_error("there is no 'lttng-relayd' on this machine\nhint: install the package lttng-tools");
+    throw std::runtime_error("there is no 'lttng-relayd' on this machine\n= help: install the package lttng-tools");
   }
 }
 

@@ -4,6 +4,7 @@
 import os
 import sys
 import time
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Dict, List, NoReturn, Tuple
 
@@ -44,7 +45,7 @@ FLAGS = ('--only', '--list', '--test', '--no-tests', '--merge-install', '--conti
 
 
 def usage_error(what: str) -> NoReturn:
-    print(f'launch build: error: {what}\nRun with --help for more information.', file=sys.stderr)
+    print(f"launch build: error: {what}\n      = help: see 'launch build --help'", file=sys.stderr)
     sys.exit(2)
 
 
@@ -73,7 +74,8 @@ def parse(words: List[str]) -> Tuple[List[str], Dict[str, List[str]]]:
         elif word in FLAGS and not value:
             options[word[2:]] = []
         elif word.startswith('-'):
-            usage_error(f"unknown option '{words[index - 1]}'")
+            near = get_close_matches(word, [*VALUES, *FLAGS, '--cmake-args', '--help'], 1)
+            usage_error(f"unknown option '{word}'" + (f"\n      = help: did you mean '{near[0]}'?" if near else ''))
         else:
             names.append(words[index - 1])
     return names, options

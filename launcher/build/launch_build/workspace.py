@@ -55,7 +55,7 @@ def choose(names: List[str], packages: Mapping[str, Package], only: bool) -> Dic
         if name not in packages:
             near = difflib.get_close_matches(name, packages, n=1)
             raise PackageError(f"error: there is no package '{name}' in the workspace"
-                               + (f"\n  = help: did you mean '{near[0]}'?" if near else ''))
+                               + (f"\n      = help: did you mean '{near[0]}'?" if near else ''))
         if not only:
             chosen |= all_needed(packages[name], packages)
     return {name: package for name, package in packages.items() if not names or name in chosen}

@@ -143,7 +143,7 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   try {
     choice.apply(found);
   } catch (const LaunchError& error) {
-    print_errors(error);
+    print_usage_error(error, "launch check");
     return kWrongCommandLine;
   }
   if (!trace.empty()) {

@@ -48,7 +48,7 @@ std::string diagnostics_as_json(const std::vector<Diagnostic>& diagnostics) {
     item["included_from"] = Json::array();
     for (SourceRange from = where ? where.file->included_from() : SourceRange{}; from;
          from = from.file->included_from()) {
-      item["included_from"].push_back(to_string(from));
+      item["included_from"].push_back(place_with_path(from));
     }
     list.push_back(std::move(item));
   }

@@ -106,7 +106,7 @@ int explain_command(const std::vector<std::string>& words) {
   } else if (const auto finding = find_finding(id)) {
     result.print(explanation(finding_info(*finding)));
   } else {
-    print_errors(unknown_finding(id));
+    print_usage_error(unknown_finding(id), "launch explain");
     return kWrongCommandLine;
   }
   return result.finish() ? 0 : 1;

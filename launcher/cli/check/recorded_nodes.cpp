@@ -13,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/pipe.hpp"
 #include "launcher/base/spawn.hpp"
@@ -92,8 +93,9 @@ std::optional<std::vector<RecordedNode>> read_recorded_nodes(const std::string& 
   }
   std::vector<RecordedNode> found = nodes_of(lines).take();
   if (found.empty()) {
-    fmt::print(stderr, "launch check: error: the trace '{}' has no nodes\n  = help: launch --trace FILE records one\n",
-               trace_directory);
+    fmt::print(stderr, "{}",
+               command_error("launch check", fmt::format("the trace '{}' has no nodes", trace_directory),
+                             "launch --trace FILE records one"));
     return std::nullopt;
   }
   return found;

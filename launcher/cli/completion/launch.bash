@@ -10,7 +10,7 @@ _launch() {
   # bash breaks words at ':' and '=', and wants only what comes after the last of them.
   prefix=${current%"${current##*[:=]}"}
   COMPREPLY=("${COMPREPLY[@]#"$prefix"}")
-  if [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *:= ]]; then
+  if [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *[=/] ]]; then
     compopt -o nospace 2>/dev/null
   fi
 }

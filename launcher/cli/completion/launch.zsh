@@ -3,6 +3,6 @@
 # Completion of launch(1) for zsh.
 local -a candidates
 candidates=("${(@f)$($words[1] complete "${(@)words[2,CURRENT]}" 2>/dev/null)}")
-compadd -S '' -- ${(M)candidates:#*:=}
-compadd -- ${candidates:#*:=}
-_files
+compadd -S '' -- ${(M)candidates:#*[=/]}
+compadd -- ${candidates:#*[=/]}
+(( ${#candidates:#} )) || _files

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/cli/control/commands.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/language/exit_code_filter.hpp"
@@ -65,23 +66,10 @@ bool is_control_command(std::string_view command) {
 
 std::vector<std::string> control_completions(const std::string& command, std::size_t word,
                                              const Environment& environment) {
-  std::vector<std::string> words = {"--help", "--launch"};
-  const auto add = [&words](const std::vector<std::string>& more) {
-    words.insert(words.end(), more.begin(), more.end());
-  };
-  if (command == "stop" || command == "start" || command == "restart") {
-    add({"--no-wait"});
-  } else if (command == "logs") {
-    add({"--follow", "--lines"});
-  } else if (command == "ps") {
-    add({"--json"});
-  }
   if (command == "signal" && word > 1) {
-    add(signal_names());
-  } else if (command != "shutdown" && command != "events" && command != "top") {
-    add(process_names(environment));
+    return signal_names();
   }
-  return words;
+  return command == "shutdown" || command == "events" ? std::vector<std::string>() : process_names(environment);
 }
 
 int control_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
@@ -90,12 +78,9 @@ int control_command(const std::string& name, const std::vector<std::string>& wor
   try {
     return find_command(name)->run(name, words, environment);
   } catch (const ControlError& error) {
-    fmt::print(stderr, "launch {}: error: {}\n", name, error.what());
-    if (!error.help().empty()) {
-      fmt::print(stderr, "  = help: {}\n", error.help());
-    }
+    fmt::print(stderr, "{}", command_error("launch " + name, error.what(), error.help()));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "launch {}: error: {}\n", name, error.what());
+    fmt::print(stderr, "{}", command_error("launch " + name, error.what()));
   }
   return 1;
 }

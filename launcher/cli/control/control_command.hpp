@@ -19,8 +19,8 @@ bool is_control_command(std::string_view command);
 // asked for, 2 for a wrong command line.
 int control_command(const std::string& command, const std::vector<std::string>& words, const Environment& environment);
 
-// What the shells' completion offers for the word of this number, 1 for the first one after the command: options, and
-// the names of the processes of the launches that run, or signals.
+// What the shells' completion offers for the word of this number, 1 for the first one after the command: the names of
+// the processes of the launches that run, or signals.
 std::vector<std::string> control_completions(const std::string& command, std::size_t word,
                                              const Environment& environment);
 

@@ -86,7 +86,7 @@ int logs_command(const std::string& name, const std::vector<std::string>& words,
     const bool is_number = !most.empty() && most.size() <= 9 &&
                            std::all_of(most.begin(), most.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!is_number) {
-      fmt::print(stderr, "launch {}: error: --lines needs a number\n", name);
+      fmt::print(stderr, "{}", usage_error("launch " + name, "--lines needs a number"));
       return kWrongCommandLine;
     }
     count = std::stoul(most);

@@ -116,7 +116,7 @@ int ps_command(const std::string& name, const std::vector<std::string>& words, c
         throw;
       }
       if (names.empty()) {
-        fmt::print(stderr, "launch ps: error: {}\n", error.what());
+        fmt::print(stderr, "{}", command_error("launch ps", error.what(), error.help()));
         exit_code = 1;
       }
     }

@@ -58,8 +58,8 @@ bool tell(const std::string& name, const std::string& process, const Json& event
     return true;
   }
   if (what == "start_failed" || what == "done") {
-    fmt::print(stderr, "launch {}: error: {} has not started{}\n", name, process,
-               event.contains("error") ? ": " + event["error"].get<std::string>() : "");
+    const std::string reason = event.contains("error") ? ": " + event["error"].get<std::string>() : "";
+    fmt::print(stderr, "{}", command_error("launch " + name, process + " has not started" + reason));
     failed = true;
     return true;
   }
@@ -115,14 +115,14 @@ int signal_command(const std::string& name, const std::vector<std::string>& word
     return *exit_code;
   }
   if (process.empty() || signal.empty()) {
-    fmt::print(stderr, "launch {}: error: NAME and SIGNAL are required\n", name);
+    fmt::print(stderr, "{}", usage_error("launch " + name, "NAME and SIGNAL are required"));
     return kWrongCommandLine;
   }
   const int number = signal_number(signal);
   if (number == 0) {
-    const std::string help = did_you_mean(signal, signal_names());
-    fmt::print(stderr, "launch {}: error: there is no signal '{}'\n{}", name, signal,
-               help.empty() ? "" : fmt::format("  = help: {}\n", help));
+    fmt::print(stderr, "{}",
+               usage_error("launch " + name, fmt::format("there is no signal '{}'", signal),
+                           did_you_mean(signal, signal_names())));
     return kWrongCommandLine;
   }
   ControlClient launch = choose_launch(environment, wanted);

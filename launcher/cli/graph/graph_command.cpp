@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "launcher/base/own_prefix.hpp"
-#include "launcher/base/usage_error.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/graph/graph.hpp"
 #include "launcher/cli/graph/trace_graph.hpp"
@@ -100,7 +99,7 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     }
     return result.finish() ? 0 : 1;
   } catch (const LaunchError& error) {
-    print_errors(error);
+    print_errors(error, "launch graph");
     return 1;
   }
 }

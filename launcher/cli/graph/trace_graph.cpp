@@ -14,6 +14,7 @@
 #include <system_error>
 #include <vector>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/cli/result_output.hpp"
@@ -87,7 +88,7 @@ int draw_trace(const TraceToDraw& trace) {
   try {
     return trace.directory.empty() ? draw_live(trace) : report(trace, trace.directory);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "launch graph: error: {}\n", error.what());
+    fmt::print(stderr, "{}", command_error("launch graph", error.what()));
     return 1;
   }
 }

@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/pipe.hpp"
 #include "launcher/base/spawn.hpp"
@@ -142,7 +143,7 @@ void show_top(pid_t pid, const Environment& environment) {
   try {
     top_command("top", {"--launch", fmt::format("{}", pid)}, environment);
   } catch (const ControlError& error) {
-    fmt::print(stderr, "launch --top: {}\n", error.what());
+    fmt::print(stderr, "{}", command_error("launch", error.what(), error.help()));
   }
 }
 
@@ -150,8 +151,8 @@ void show_top(pid_t pid, const Environment& environment) {
 
 int launch_in_top(std::vector<std::string> words, const Environment& environment) {
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0) {
-    fmt::print(stderr, "launch: error: --top needs a terminal\n");
-    return 2;
+    fmt::print(stderr, "{}", usage_error("launch", "--top needs a terminal", "'launch ps' prints a table"));
+    return kWrongCommandLine;
   }
   const std::string program = own_prefix() + "/bin/launch";
   words.insert(words.begin(), "launch");

@@ -11,16 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "launcher/base/command_error.hpp"
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/nearest_name.hpp"
-#include "launcher/base/usage_error.hpp"
+#include "launcher/base/terminal_colour.hpp"
 #include "launcher/ros/command/verb.hpp"
 
 namespace launch {
 namespace {
 
 constexpr int kFailed = 1;
-constexpr int kWrongCommandLine = 2;
 
 std::vector<const VerbInfo*> verbs_of(const std::string& command) {
   std::vector<const VerbInfo*> verbs;
@@ -92,11 +92,11 @@ int run_verb(const VerbInfo& info, std::vector<std::string> words) {
   try {
     return verb->run();
   } catch (const LaunchError& error) {
-    fmt::print(stderr, "{}", render(error.diagnostics(), ::isatty(STDERR_FILENO) != 0));
+    fmt::print(stderr, "{}", render(error.diagnostics(), shows_colour(STDERR_FILENO), name));
   } catch (const CommandError& error) {
-    fmt::print(stderr, "{}", usage_error(name, error.what(), error.help()));
+    fmt::print(stderr, "{}", command_error(name, error.what(), error.help()));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}", usage_error(name, error.what()));
+    fmt::print(stderr, "{}", command_error(name, error.what()));
   }
   return kFailed;
 }
@@ -104,6 +104,9 @@ int run_verb(const VerbInfo& info, std::vector<std::string> words) {
 // The candidates for the last word of `words`, which begin with "topic".
 int complete(const std::vector<std::string>& words) {
   std::vector<std::string> candidates;
+  if (words.size() == 2) {
+    candidates.emplace_back("--help");
+  }
   for (const VerbInfo* const verb : verbs_of(words.front())) {
     if (words.size() == 2) {
       candidates.push_back(verb->name);
@@ -124,16 +127,14 @@ int run(const CommandOfVerbs& command, std::vector<std::string> words) {
     fmt::print(words.empty() ? stderr : stdout, "{}", help_of(command));
     return words.empty() ? kWrongCommandLine : 0;
   }
-  std::vector<std::string> names;
+  KnownWords known{.options = {"-h", "--help"}, .commands = {}};
   for (const VerbInfo* const verb : verbs_of(command.name)) {
     if (verb->name == words.front()) {
       return run_verb(*verb, {words.begin() + 1, words.end()});
     }
-    names.push_back(verb->name);
+    known.commands.push_back(verb->name);
   }
-  fmt::print(stderr, "{}",
-             usage_error("launch " + command.name, fmt::format("there is no verb '{}'", words.front()),
-                         did_you_mean(words.front(), names)));
+  fmt::print(stderr, "{}", unexpected_word_error("launch " + command.name, words, known, "unexpected words"));
   return kWrongCommandLine;
 }
 

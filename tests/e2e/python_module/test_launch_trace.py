@@ -141,7 +141,7 @@ class Damage(unittest.TestCase):
         with self.assertRaises(launch_trace.TraceError) as caught:
             launch_trace.Trace('/nonexistent/trace')
         self.assertEqual(str(caught.exception), "cannot read the trace '/nonexistent/trace': no such directory\n"
-                         "    = help: give the directory that the launcher printed when it ended the session")
+                         "      = help: give the directory that the launcher printed when it ended the session")
 
     def test_the_end_of_a_damaged_trace_is_an_error(self):
         seen = []

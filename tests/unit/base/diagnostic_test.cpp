@@ -47,6 +47,9 @@ TEST(Diagnostic, WithoutAPlaceIsMessageAndHelp) {
   EXPECT_EQ(render(Diagnostic{Severity::kWarning, "nothing to do", {}, "name a file"}),
             "warning: nothing to do\n"
             "      = help: name a file\n");
+  EXPECT_EQ(render(Diagnostic{Severity::kWarning, "nothing to do", {}, "name a file"}, false, "launch check"),
+            "launch check: warning: nothing to do\n"
+            "      = help: name a file\n");
 }
 
 TEST(Diagnostic, ColoursSeverityMessageAndCaret) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -13,6 +14,17 @@
 
 namespace launch {
 namespace {
+
+TEST(SourceRange, ShowsPathsFromTheWorkingDirectoryOnlyToPersons) {
+  const std::string here = std::filesystem::current_path().string();
+  const SourceRange below{std::make_shared<const SourceFile>(here + "/demo/a.xml", "abc"), 1, 2};
+  EXPECT_EQ(to_string(below), "demo/a.xml:1:2");
+  EXPECT_EQ(place_with_path(below), here + "/demo/a.xml:1:2");
+  const SourceRange elsewhere{std::make_shared<const SourceFile>(here + "_demo/a.xml", "abc"), 0, 1};
+  EXPECT_EQ(to_string(elsewhere), here + "_demo/a.xml:1:1");
+  EXPECT_EQ(to_string({std::make_shared<const SourceFile>("../a.xml", "abc"), 0, 1}), "../a.xml:1:1");
+  EXPECT_EQ(to_string({}), "command line");
+}
 
 TEST(SourceFile, CountsLinesAndColumnsFromOne) {
   const SourceFile file("a.xml", "ab\ncd\n");

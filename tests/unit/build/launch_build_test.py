@@ -105,13 +105,13 @@ class CommandLine(InFolder):
         self.assertEqual(self.run_command('--list'), (0, 'msgs src/msgs\narm src/arm\n', ''))
 
     def test_wrong_words(self):
-        usage = 'Run with --help for more information.\n'
+        usage = "      = help: see 'launch build --help'\n"
         self.package('msgs')
-        self.assertEqual(self.run_command('--lst'), (2, '', f"launch build: error: unknown option '--lst'\n{usage}"))
+        self.assertEqual(self.run_command('--lst'), (2, '', f"launch build: error: unknown option '--lst'\n      = help: did you mean '--list'?\n{usage}"))
         self.assertEqual(self.run_command('-j', '0'), (2, '', f"launch build: error: --jobs must be a number above 0, and not '0'\n{usage}"))
         self.assertEqual(self.run_command('-C', 'nowhere'), (2, '', f"launch build: error: there is no folder 'nowhere'\n{usage}"))
         self.assertEqual(self.run_command('mgs'), (
-            1, '', "launch build: error: there is no package 'mgs' in the workspace\n  = help: did you mean 'msgs'?\n"))
+            1, '', "launch build: error: there is no package 'mgs' in the workspace\n      = help: did you mean 'msgs'?\n"))
 
     def test_no_packages(self):
         self.assertEqual(self.run_command(), (1, '', f"launch build: error: there is no package.xml below '{self.folder.resolve()}'\n"))

@@ -121,7 +121,7 @@ TEST_F(TraceCommandE2e, ASignalLeavesNoSessionHalfMade) {
     if (result.exit_code == 0) {
       EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
     } else if (result.signal == 0) {
-      EXPECT_EQ(result.err, "error: interrupted: session 'run' was ended again\n");
+      EXPECT_EQ(result.err, "launch trace start: error: interrupted: session 'run' was ended again\n");
     }
     EXPECT_THAT(listed_sessions(), testing::Not(testing::HasSubstr("run [")));
   }
@@ -181,8 +181,9 @@ TEST_F(TraceCommandE2e, NoVerbWaitsForAStoppedDaemon) {
     const CommandResult result = run_command(argv);
     EXPECT_FALSE(result.timed_out) << verb.front();
     EXPECT_EQ(result.exit_code, 1) << verb.front();
-    EXPECT_EQ(result.err, "error: the LTTng session daemon (process " + pid +
-                              ") is stopped and does not answer\nhint: continue it with `kill -CONT " + pid + "`\n")
+    EXPECT_EQ(result.err, "launch trace " + verb.front() + ": error: the LTTng session daemon (process " + pid +
+                              ") is stopped and does not answer\n      = help: continue it with `kill -CONT " + pid +
+                              "`\n")
         << verb.front();
   }
   kill(daemon, SIGCONT);
@@ -216,7 +217,8 @@ TEST_F(TraceCommandE2e, ListStatusAndEventsTellWhatTheDaemonKnows) {
   const CommandResult unknown = run_command({TRACE_COMMAND, "status", "walk"});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_EQ(unknown.err,
-            "error: there is no trace session 'walk'\nhint: `launch trace list` shows the sessions that exist\n");
+            "launch trace status: error: there is no trace session 'walk'\n"
+            "      = help: `launch trace list` shows the sessions that exist\n");
   EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
 }
 
@@ -225,8 +227,8 @@ TEST_F(TraceCommandE2e, VerbOnASessionThatDoesNotExistIsAnError) {
   const CommandResult result = run_command({TRACE_COMMAND, "pause", "run"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err,
-            "error: cannot pause trace session 'run': Session name not found\n"
-            "hint: `launch trace list` shows the sessions that exist\n");
+            "launch trace pause: error: cannot pause trace session 'run': Session name not found\n"
+            "      = help: `launch trace list` shows the sessions that exist\n");
 }
 
 TEST_F(TraceCommandE2e, WithoutLttngTheExitCodeIsTwo) {
@@ -234,8 +236,8 @@ TEST_F(TraceCommandE2e, WithoutLttngTheExitCodeIsTwo) {
       run_command({.argv = {TRACE_COMMAND, "start", "run"}, .environment = {{"PATH", "/nowhere"}}});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err,
-            "error: cannot trace: lttng-sessiond is not installed or not in PATH\n"
-            "hint: install LTTng: sudo apt-get install lttng-tools liblttng-ust-dev\n");
+            "launch trace start: error: cannot trace: lttng-sessiond is not installed or not in PATH\n"
+            "      = help: install LTTng: sudo apt-get install lttng-tools liblttng-ust-dev\n");
 }
 
 }  // namespace

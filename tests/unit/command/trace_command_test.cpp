@@ -65,9 +65,9 @@ TEST(TraceCommand, CreatesNothingWhenTheInputEndsBeforeTheFirstEnter) {
   FakeTracer tracer;
   const Outcome result = run({"-s", "run"}, tracer);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(
-      result.err,
-      "error: the input ended before tracing was started\nhint: without a terminal use `launch trace start NAME`\n");
+  EXPECT_EQ(result.err,
+            "launch trace: error: the input ended before tracing was started\n"
+            "      = help: without a terminal use `launch trace start NAME`\n");
   EXPECT_THAT(tracer.calls(), IsEmpty());
 }
 
@@ -120,7 +120,8 @@ TEST(TraceCommand, NegativeSizesAndTimesAreErrors) {
     const Outcome result = run({"start", "run", option, "-5"}, tracer);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.err, std::string("launch trace start: error: ") + option +
-                              ": expected a number that is not negative, got '-5'\n");
+                              ": expected a number that is not negative, got '-5'\n" +
+                              "      = help: see 'launch trace start --help'\n");
   }
   EXPECT_THAT(tracer.calls(), IsEmpty());
 }
@@ -158,14 +159,14 @@ TEST(TraceCommand, FailsOnLossWhenAskedTo) {
   const Outcome result = run({"stop", "run", "--fail-on-loss"}, tracer);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err,
-            "error: the trace of session 'run' is incomplete\n"
-            "hint: use larger buffers, record fewer events, or leave out --fail-on-loss\n");
+            "launch trace stop: error: the trace of session 'run' is incomplete\n"
+            "      = help: use larger buffers, record fewer events, or leave out --fail-on-loss\n");
 }
 
 TEST(TraceCommand, PrintsWarningsOfTheSetUp) {
   FakeTracer tracer;
   tracer.setup_report.warnings = {"rounded up"};
-  EXPECT_EQ(run({"start", "run"}, tracer).err, "warning: rounded up\n");
+  EXPECT_EQ(run({"start", "run"}, tracer).err, "launch trace start: warning: rounded up\n");
 }
 
 TEST(TraceCommand, ErrorIsOnStderrWithItsRemedyAndExitCodeOne) {
@@ -173,14 +174,18 @@ TEST(TraceCommand, ErrorIsOnStderrWithItsRemedyAndExitCodeOne) {
   tracer.start_error = TraceError("trace session 'run' exists already", "choose another");
   const Outcome result = run({"start", "run"}, tracer);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.err, "error: trace session 'run' exists already\nhint: choose another\n");
+  EXPECT_EQ(result.err,
+            "launch trace start: error: trace session 'run' exists already\n"
+            "      = help: choose another\n");
 }
 
 TEST(TraceCommand, WrongUsageIsExitCodeTwo) {
   FakeTracer tracer;
   const Outcome result = run({"start"}, tracer);
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, "launch trace start: error: session_name is required\n");
+  EXPECT_EQ(result.err,
+            "launch trace start: error: session_name is required\n"
+            "      = help: see 'launch trace start --help'\n");
   EXPECT_THAT(tracer.calls(), IsEmpty());
 }
 

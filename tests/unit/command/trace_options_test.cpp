@@ -135,12 +135,16 @@ TEST(TraceOptions, DualSessionActsOnTheRuntimeHalfOrTheSnapshotHalf) {
 
 TEST(TraceOptions, WrongUsageIsExitCodeTwo) {
   EXPECT_EQ(message_of({"start"}).exit_code, 2);
-  EXPECT_EQ(message_of({"start"}).text, "launch trace start: error: session_name is required\n");
+  EXPECT_EQ(message_of({"start"}).text,
+            "launch trace start: error: session_name is required\n"
+            "      = help: see 'launch trace start --help'\n");
   EXPECT_EQ(message_of({"strat", "run"}).text,
-            "launch trace: error: unknown command 'strat'\n      = help: did you mean 'start'?\n");
+            "launch trace: error: unknown command 'strat'\n      = help: did you mean 'start'?\n"
+            "      = help: see 'launch trace --help'\n");
   EXPECT_EQ(message_of({"start", "run", "--snapshot-moed"}).text,
             "launch trace start: error: unknown option '--snapshot-moed'\n"
-            "      = help: did you mean '--snapshot-mode'?\n");
+            "      = help: did you mean '--snapshot-mode'?\n"
+            "      = help: see 'launch trace start --help'\n");
   EXPECT_EQ(message_of({"--no-such-option"}).exit_code, 2);
   EXPECT_EQ(message_of({"stop", "run", "-u"}).exit_code, 2);
   EXPECT_EQ(message_of({"--subbuffer-size-ust", "many"}).exit_code, 2);

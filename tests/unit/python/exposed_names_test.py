@@ -15,7 +15,7 @@ PACKAGE = '''
 from typing import List
 
 from launch import Action, Substitution
-from launch.actions import ExecuteProcess, GroupAction
+from launch.actions import ExecuteProcess, GroupAction, OpaqueFunction
 from launch.frontend import Entity, expose_action, expose_substitution
 
 
@@ -60,6 +60,18 @@ def twice(entity, parser):
     return GroupAction, {'actions': [*children, *children]}
 
 
+@expose_action('later')
+class Later(OpaqueFunction):
+    """A class of the launcher that no element of ROS 2 stands for."""
+
+    @classmethod
+    def parse(cls, entity, parser):
+        _, kwargs = super().parse(entity, parser)
+        name = parser.parse_substitution(entity.get_attr('name'))
+        kwargs['function'] = lambda context: [ExecuteProcess(cmd=['later', name])]
+        return cls, kwargs
+
+
 @expose_substitution('upper')
 class Upper(Substitution):
 
@@ -81,6 +93,8 @@ XML = '''<launch>
   <arg name="robot" default="r2"/>
   <bridge name="$(var robot)" rate="7" if="true"><topic name="scan"/><topic name="$(upper $(var robot))"/></bridge>
   <bridge name="not" unless="true"/>
+  <later name="$(var robot)" if="true"/>
+  <later name="not" if="false"/>
   <verbose cmd="echo 'a b' --$(var robot)" level="$(upper 'x$(var robot)')"><env name="A" value="1"/></verbose>
   <group>
     <twice><let name="robot" value="c3"/><node exec="/bin/true" name="$(var robot)"><param name="n" value="10"/></node></twice>
@@ -92,6 +106,8 @@ YAML = '''launch:
 - arg: {name: robot, default: r2}
 - bridge: {name: $(var robot), rate: 7, if: "true", topic: [{name: scan}, {name: $(upper $(var robot))}]}
 - bridge: {name: "not", unless: "true"}
+- later: {name: $(var robot), if: "true"}
+- later: {name: "not", if: "false"}
 - verbose: {cmd: "echo 'a b' --$(var robot)", level: "$(upper 'x$(var robot)')", env: [{name: A, value: "1"}]}
 - group:
   - twice:
@@ -103,8 +119,8 @@ YAML = '''launch:
 # Derived classes that change nothing, each under the name of the launcher's own action with `own_` in front.
 DERIVED = """
 from launch.actions import (
-    AppendEnvironmentVariable, DeclareLaunchArgument, ExecuteProcess, GroupAction, IncludeLaunchDescription, Log, LogError,
-    LogInfo, ReplaceEnvironmentVariables, ResetEnvironment, ResetLaunchConfigurations, SetEnvironmentVariable,
+    AppendEnvironmentVariable, DeclareLaunchArgument, ExecuteProcess, ForEach, ForLoop, GroupAction, IncludeLaunchDescription,
+    Log, LogError, LogInfo, ReplaceEnvironmentVariables, ResetEnvironment, ResetLaunchConfigurations, SetEnvironmentVariable,
     SetLaunchConfiguration, Shutdown, TimerAction, UnsetEnvironmentVariable, UnsetLaunchConfiguration)
 from launch.frontend import expose_action
 from launch_ros.actions import (
@@ -114,7 +130,7 @@ from tracetools_launch.action import Trace
 
 for name, base in {
         'append_env': AppendEnvironmentVariable, 'arg': DeclareLaunchArgument, 'executable': ExecuteProcess,
-        'group': GroupAction, 'include': IncludeLaunchDescription, 'lifecycle_node': LifecycleNode,
+        'for': ForLoop, 'for_each': ForEach, 'group': GroupAction, 'include': IncludeLaunchDescription, 'lifecycle_node': LifecycleNode,
         'load_composable_node': LoadComposableNodes, 'log': Log, 'log_error': LogError, 'log_info': LogInfo, 'node': Node,
         'node_container': ComposableNodeContainer, 'push_ros_namespace': PushROSNamespace, 'rep_env':
         ReplaceEnvironmentVariables, 'reset': ResetLaunchConfigurations, 'reset_env': ResetEnvironment, 'ros_timer': RosTimer,
@@ -131,6 +147,7 @@ OF_ALL = """<launch>
   <ACTIONset_env name="A" value="$(var robot)"/>
   <ACTIONappend_env name="A" value="more" prepend="true" separator=","/>
   <ACTIONlet name="speed" value="7"/>
+  <ACTIONlet name="turns" value="2"/>
   <ACTIONlog level="warning" message="a $(var speed)"/>
   <ACTIONlog_info message="b $(var speed)"/>
   <ACTIONlog_error message="c"/>
@@ -162,6 +179,14 @@ OF_ALL = """<launch>
   <ACTIONunset_env name="A"/>
   <ACTIONtimer period="1.5"><ACTIONexecutable cmd="echo timer"/></ACTIONtimer>
   <ACTIONros_timer period="2"><ACTIONexecutable cmd="echo ros"/></ACTIONros_timer>
+  <ACTIONfor len="$(var turns)" name="i">
+    <ACTIONexecutable cmd="echo turn $(index i)"/>
+    <ACTIONfor_each values="{name: 'a b', id: $(index i)};{name: c, parts: [1, x]};{}">
+      <executable cmd="echo $(index i) $(for-var name none) $(for-var id 7) $(for-var parts '')"/>
+    </ACTIONfor_each>
+  </ACTIONfor>
+  <ACTIONfor len="0" name="none"><ACTIONexecutable cmd="echo never"/></ACTIONfor>
+  <ACTIONfor_each values="" if="true"><ACTIONexecutable cmd="echo never"/></ACTIONfor_each>
   <ACTIONinclude file="$(dirname)/inner.launch.xml"><arg name="given" value="$(var robot)"/></ACTIONinclude>
   <ACTIONreset><keep name="robot" value="kept"/></ACTIONreset>
   <ACTIONexecutable cmd="echo $(var robot)" if="$(eval 'True')"/>
@@ -212,9 +237,9 @@ class ExposedNames(unittest.TestCase):
             with self.subTest(name):
                 commands = self.commands(name, text)
                 self.assertEqual([argv for argv, _, _ in commands],
-                                 [['bridge', 'r2', '7', 'scan', 'R2'], ['echo', 'a b', '--r2', 'XR2'], node, node])
-                self.assertEqual(commands[1][1], {'A': '1'})
-                self.assertEqual(list(commands[2][2][0].values()), list(parameters[0].values()))
+                                 [['bridge', 'r2', '7', 'scan', 'R2'], ['later', 'r2'], ['echo', 'a b', '--r2', 'XR2'], node, node])
+                self.assertEqual(commands[2][1], {'A': '1'})
+                self.assertEqual(list(commands[3][2][0].values()), list(parameters[0].values()))
 
     def test_classes_derived_from_the_launchers_take_the_arguments_of_its_own_actions(self):
         self.add_package(self.directory / 'derived', 'derived_actions', DERIVED)
@@ -228,7 +253,7 @@ class ExposedNames(unittest.TestCase):
             # The two sessions are named at two times.
             plans.append(json.loads(re.sub(r'own-\d{14}', 'own-TIME', result.stdout)))
         self.assertIn('own-TIME', str(plans[0]))
-        self.assertEqual(len(plans[0]['processes']), 10)
+        self.assertEqual(len(plans[0]['processes']), 18)
         for plan in plans:
             plan.pop('includes', None)
             for found in plan['processes']:

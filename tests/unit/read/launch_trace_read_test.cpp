@@ -186,7 +186,7 @@ TEST_F(LaunchTraceRead, SaysWhatIsNoTrace) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err,
             "launch trace read: error: cannot read the trace '/nonexistent': no such directory\n"
-            "    = help: give the directory that the launcher printed when it ended the session\n");
+            "      = help: give the directory that the launcher printed when it ended the session\n");
 }
 
 TEST_F(LaunchTraceRead, SaysThatTheOutputCannotBeWritten) {

@@ -325,7 +325,7 @@ TEST_F(LaunchReport, FailsWithoutATrace) {
     EXPECT_EQ(outcome.out, "") << option;
     EXPECT_EQ(outcome.err, "launch report: error: '" + path_ +
                                "' is not a trace: neither it nor a directory below it has a file 'metadata'\n"
-                               "    = help: LTTng writes no trace when no traced process ran during the session, and "
+                               "      = help: LTTng writes no trace when no traced process ran during the session, and "
                                "none before 'snapshot record'\n")
         << option;
   }

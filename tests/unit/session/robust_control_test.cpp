@@ -34,6 +34,7 @@ namespace fs = std::filesystem;
 
 using test_support::run_command;
 using testing::HasSubstr;
+using testing::StartsWith;
 using trace_test::listed_sessions;
 using trace_test::read_trace;
 using trace_test::TracedApp;
@@ -327,8 +328,8 @@ TEST_F(RobustControl, AWrongUserIsToldWhoseSessionItIs) {
   const auto result = test_support::run_command(
       {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", TRACE_COMMAND, "stop", "run"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("error: "));
-  EXPECT_THAT(result.err, HasSubstr("hint: "));
+  EXPECT_THAT(result.err, StartsWith("launch trace stop: error: "));
+  EXPECT_THAT(result.err, HasSubstr("\n      = help: "));
   EXPECT_TRUE(trace_test::list_session("run").active) << "it is as it was";
   tracer->finish(config(), never);
 }
@@ -358,7 +359,7 @@ TEST_F(RobustControl, ProcessesWithSharedMemoryOfTheirOwnAreRecordedOrToldOf) {
   const auto started = test_support::run_command({TRACE_COMMAND, "start", "run", "-p", sandbox.trace_directory()});
   EXPECT_EQ(started.exit_code, 0);
   EXPECT_EQ(started.err,
-            "warning: process " + std::to_string(before.pid()) +
+            "launch trace start: warning: process " + std::to_string(before.pid()) +
                 " (traced_app) is not recorded: it has a /dev/shm of its own and started before the session "
                 "daemon; share /dev/shm (docker run --ipc=host), or start it again\n");
   test_support::RunningCommand after({.argv = {"unshare", "-m", "sh", "-c", apart}});

@@ -116,6 +116,20 @@ class OpaqueCoroutine(Action):
 _MOST_TURNS = 100_000
 
 
+class Turn(Action):
+    """One turn of a loop of an XML or YAML file: its actions, and the values that they get by their names."""
+
+    def __init__(self, values, actions, place):
+        super().__init__()
+        self._values, self._actions, self._place_of_loop = values, actions, place
+
+    def _tags(self):
+        import yaml
+        values = yaml.safe_dump(self._values, default_flow_style=True, width=float('inf'))
+        return [entity('for_each', self._place_of_loop or self._place(), [('values', text(values.strip(), 'values'))],
+                       entities(self._actions, self._place()))]
+
+
 class ForLoop(Action):
     """Calls function(i) for each i from 0 to length - 1; the actions that it returns are visited."""
 
@@ -123,6 +137,19 @@ class ForLoop(Action):
         super().__init__(**kwargs)
         self._length = text(str(length) if isinstance(length, int) else length, 'length')
         self._function = callable_of(function, 'function')
+        self._name = name
+
+    @property
+    def length(self):
+        return parts_of(self._length)
+
+    @property
+    def function(self):
+        return self._function
+
+    @property
+    def name(self):
+        return self._name
 
     def execute(self, context):
         length = int(context._perform(self._length))
@@ -139,10 +166,19 @@ class ForEach(Action):
         self._values = text(input_values, 'input_values')
         self._function = callable_of(function, 'function')
 
+    @property
+    def input_values(self):
+        return parts_of(self._values)
+
+    @property
+    def function(self):
+        return self._function
+
     def execute(self, context):
         import yaml
         turns = [turn for turn in context._perform(self._values).split(';') if turn.strip()]
-        return [self._function(**yaml.safe_load(turn)) for turn in turns]
+        values = [yaml.safe_load(turn) for turn in turns]
+        return [self._function(**of_turn) for of_turn in values if of_turn is not None]
 
 
 class _Log(Action):

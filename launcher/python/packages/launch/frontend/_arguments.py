@@ -18,6 +18,10 @@ _OF_NODE = {**_OF_PROCESS, 'package': ('pkg', str), 'executable': ('exec', str),
             'ros_arguments': ('ros_args', 'words')}
 _OF_COMPOSABLE = {'package': ('pkg', str), 'plugin': ('plugin', str), 'name': ('name', str), 'namespace': ('namespace', str)}
 _MESSAGE = {'msg': ('message', str)}
+# In ROS 2 these have no element of their own: parse() takes the condition alone.
+_WITHOUT_ELEMENT = ('EmitEvent', 'LifecycleTransition', 'OpaqueCoroutine', 'OpaqueFunction', 'PopEnvironment',
+                    'PopLaunchConfigurations', 'PushEnvironment', 'PushLaunchConfigurations', 'RegisterEventHandler',
+                    'UnregisterEventHandler')
 # The nearest base that is named here tells the attributes.
 _ATTRIBUTES = {
     'ExecuteLocal': {**_OF_PROCESS, 'cmd': ('cmd', 'words'), 'name': ('name', str)},
@@ -30,6 +34,8 @@ _ATTRIBUTES = {
                               'description': ('description', str)},
     'GroupAction': {'scoped': ('scoped', bool), 'forwarding': ('forwarding', bool)},
     'IncludeLaunchDescription': {'launch_description_source': ('file', str)},
+    'ForLoop': {'length': ('len', str), 'name': ('name', 'literal')},
+    'ForEach': {'input_values': ('values', str)},
     'TimerAction': {'period': ('period', str), 'cancel_on_shutdown': ('cancel_on_shutdown', str)},
     'SetLaunchConfiguration': {'name': ('name', str), 'value': ('value', str)},
     'UnsetLaunchConfiguration': {'name': ('name', str)},
@@ -66,7 +72,7 @@ def arguments_of(cls, entity, parser, ignore=()):
     names = [base.__name__ for base in cls.__mro__]
     name = next((name for name in names if name in _ATTRIBUTES or name == 'Action'), 'Action')
     own = next(base.__name__ for base in cls.__mro__ if base.__module__.partition('.')[0] in ('launch', 'launch_ros'))
-    if name == 'Action' and own != 'Action':
+    if name == 'Action' and own not in ('Action', *_WITHOUT_ELEMENT):
         raise LaunchFileError(f'{own}.parse() is not supported: take the attributes with entity.get_attr()')
     found = _conditions(entity, parser)
     for argument, (attribute, kind) in _ATTRIBUTES.get(name, {}).items():
@@ -170,9 +176,21 @@ def _children(name, names, entity, parser, ignore):
         found['environment'] = {tuple(variable): value for variable, value in pairs}
     if name in ('GroupAction', 'ResetLaunchConfigurations') and (pairs := _pairs(entity, parser, 'keep', 'name', 'value')):
         found['launch_configurations'] = {tuple(key): value for key, value in pairs}
+    if name in ('ForLoop', 'ForEach') and 'function' not in ignore:
+        index = str(entity.get_attr('name')) if name == 'ForLoop' else None
+        found['function'] = _turns([parser.parse_action(child) for child in entity.children], index,
+                                   getattr(entity, 'place', None))
     if name in ('GroupAction', 'TimerAction') and 'children' not in ignore:
         found['actions'] = [parser.parse_action(child) for child in entity.children if child.type_name != 'keep']
     return found
+
+
+def _turns(children, index, place):
+    """What the loop calls for each of its turns: with the index, or with the values of the turn."""
+    from launch.actions._groups import Turn
+    if index is not None:
+        return lambda i: [Turn({index: i}, children, place)]
+    return lambda **values: [Turn(values, children, place)]
 
 
 def _parameter(item, parser):

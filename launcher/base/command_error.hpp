@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of command lines, in one form for all commands:
+// Errors of the commands and of their command lines, in one form for all:
 //
 //   launch check: error: unknown option '--formt'
 //         = help: did you mean '--format'?
+//         = help: see 'launch check --help'
+//
+// An error that has a place in a file begins with it (diagnostic.hpp). Exit codes are 1 after an error and 2 after a
+// wrong command line.
 #pragma once
 
 #include <string>
@@ -11,14 +15,19 @@
 
 namespace launch {
 
+constexpr int kWrongCommandLine = 2;  // exit code
+
+// The whole text of an error. `command` is "launch check"; `help` may be empty.
+std::string command_error(std::string_view command, std::string_view message, std::string_view help = {});
+
+// The same for a wrong command line: the last line points to the help of the command.
+std::string usage_error(std::string_view command, std::string_view message, std::string_view help = {});
+
 // What a command takes, as far as a mistyped word may have meant it.
 struct KnownWords {
   std::vector<std::string> options;   // "-f", "--format"
   std::vector<std::string> commands;  // what may follow the name of the command: "start"
 };
-
-// The whole text of an error. `command` is "launch check".
-std::string usage_error(std::string_view command, std::string_view message, std::string_view help = {});
 
 // The error for words that a command does not take. `message` is used if they look like no mistyped ones.
 std::string unexpected_word_error(std::string_view command, const std::vector<std::string>& words,

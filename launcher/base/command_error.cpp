@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/usage_error.hpp"
+#include "launcher/base/command_error.hpp"
 
 #include <fmt/format.h>
 
@@ -17,17 +17,18 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 }  // namespace
 
+std::string command_error(std::string_view command, std::string_view message, std::string_view help) {
+  return fmt::format("{}: error: {}\n{}", command, message, help_line(help));
+}
+
 std::string usage_error(std::string_view command, std::string_view message, std::string_view help) {
-  return fmt::format("{}: error: {}\n{}", command, message,
-                     help.empty() ? "" : fmt::format("      = help: {}\n", help));
+  return command_error(command, message, help) + help_line(fmt::format("see '{} --help'", command));
 }
 
 std::string unexpected_word_error(std::string_view command, const std::vector<std::string>& words,
                                   const KnownWords& known, std::string_view message) {
-  const std::string see_help = fmt::format("see {} --help", command);
   const auto unknown = [&](std::string_view what, const std::string& word, const std::vector<std::string>& names) {
-    const std::string nearest = did_you_mean(word, names);
-    return usage_error(command, fmt::format("unknown {} '{}'", what, word), nearest.empty() ? see_help : nearest);
+    return usage_error(command, fmt::format("unknown {} '{}'", what, word), did_you_mean(word, names));
   };
   for (const std::string& word : words) {
     const std::string name = word.substr(0, word.find('='));  // without the value of "--format=json"
@@ -38,7 +39,7 @@ std::string unexpected_word_error(std::string_view command, const std::vector<st
       return unknown("command", word, known.commands);
     }
   }
-  return usage_error(command, message, see_help);
+  return usage_error(command, message);
 }
 
 }  // namespace launch
