@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <set_remap from="…" to="…"/>: a remap of every later node of the scope, before the node's own.
+#include "actions/process_findings.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -16,7 +17,9 @@ class SetRemap : public Action {
   void execute(LaunchContext& context) const override {
     Scope& scope = context.scope();
     std::string from = from_.perform(scope);
-    scope.global_remaps.emplace_back(std::move(from), to_.perform(scope));
+    std::string to = to_.perform(scope);
+    find_invalid_remap(from, from_.where(), to, to_.where(), context);
+    scope.global_remaps.emplace_back(std::move(from), std::move(to));
   }
 
  private:

@@ -21,6 +21,40 @@ UPDATE = 'LAUNCH_UPDATE_GOLDEN' in os.environ
 
 PLUGINS = 'parts::Talker;lib/libparts.so\nparts::Listener;lib/libparts.so\nparts::Lost;lib/liblost.so\n'
 
+CONTAINER = '<node_container pkg="golden_demo" exec="talker" name="box" namespace=""'
+# A file of a directory for each kind of mistake: what it holds, and the id of the finding.
+MISTAKES = {
+    'included file': ('<include file="$(dirname)/nowhere.launch.xml"/>', 'LF0001'),
+    'cpus': ('<executable cmd="true" cpus="4-2"/>', 'LF0106'),
+    'handler of an unknown process': ('<on_process_exit process="nobody"><shutdown/></on_process_exit>', 'LF0205'),
+    'package': ('<node pkg="golden_dem" exec="talker"/>', 'LF0301'),
+    'package of a component': (f'{CONTAINER}>'
+                               '<composable_node pkg="part" plugin="parts::Talker" name="t"/></node_container>', 'LF0301'),
+    'program': ('<node pkg="golden_demo" exec="talkr"/>', 'LF0302'),
+    'parameter file': ('<node pkg="golden_demo" exec="talker"><param from="$(dirname)/nowhere.yaml"/></node>', 'LF0304'),
+    'parameter file that is no YAML': ('<node pkg="golden_demo" exec="talker"><param from="$(dirname)/no.yaml"/></node>',
+                                       'LF0305'),
+    'ros__parameters mistyped': ('<node pkg="golden_demo" exec="talker"><param from="$(dirname)/typo.yaml"/></node>', 'LF0305'),
+    'plugin': (f'{CONTAINER}><composable_node pkg="golden_parts" plugin="parts::Tlker" name="t"/></node_container>', 'LF0306'),
+    'plugin that is loaded later': (f'{CONTAINER}/><load_composable_node target="box"><composable_node pkg="golden_parts" '
+                                    'plugin="parts::Tlker" name="t"/></load_composable_node>', 'LF0306'),
+    'working directory': ('<executable cmd="true" cwd="/nowhere"/>', 'LF0307'),
+    'cpu that is not there': ('<executable cmd="true" cpus="1000"/>', 'LF0308'),
+    'name of a node': ('<node pkg="golden_demo" exec="talker" name="my-node"/>', 'LF0401'),
+    'namespace': ('<node pkg="golden_demo" exec="talker" namespace="1st"/>', 'LF0401'),
+    'remap': ('<node pkg="golden_demo" exec="talker"><remap from="a b" to="c"/></node>', 'LF0402'),
+    'remap of a scope': ('<set_remap from="a" to="//c"/>', 'LF0402'),
+    'two nodes of a name': (2 * '<node pkg="golden_demo" exec="talker" name="a"/>', 'LF0404'),
+    'container that nobody starts': ('<load_composable_node target="boxx"><composable_node pkg="golden_parts" '
+                                     'plugin="parts::Talker" name="t"/></load_composable_node>', 'LF0405'),
+    'unused argument': ('<arg name="unused" default="1"/>', 'LF0501'),
+    'argument that the included file does not declare': ('<include file="$(dirname)/inner.xml"><arg name="sped" value="1"/>'
+                                                         '</include>', 'LF0502'),
+    'context field': ('<trace session-name="s" context-fields="vpidd"/>', 'LF0601'),
+    'event': ('<trace session-name="s" events-ust="ros2:rcl_inti"/>', 'LF0602'),
+    'two traces of a name': (2 * '<trace session-name="s"/>', 'LF0603'),
+}
+
 
 class CheckFindings(unittest.TestCase):
     maxDiff = None
@@ -98,6 +132,23 @@ class CheckFindings(unittest.TestCase):
         (Path(self.directory.name) / 'golden_parts').mkdir()
         (Path(self.prefix) / 'share/golden_parts/x.launch.xml').write_text('<launch/>')
         self.assertEqual(self.check('golden_parts', 'x.launch.xml').stdout, '1 file: 0 errors, 0 warnings\n')
+
+    def test_a_directory_with_a_file_for_each_kind_of_mistake(self):
+        folder = Path(self.directory.name) / 'mistakes'
+        folder.mkdir()
+        (folder / 'no.yaml').write_text('/**:\n  ros__parameters: {a: [1\n')
+        (folder / 'typo.yaml').write_text('/**:\n  ros__paramters: {a: 1}\n')
+        (folder / 'inner.xml').write_text('<launch><arg name="speed" default="1"/><log message="$(var speed)"/></launch>\n')
+        for name, (text, _) in MISTAKES.items():
+            (folder / f'{name}.launch.xml').write_text(f'<launch>\n  {text}\n</launch>\n')
+        result = self.check('--format', 'json', str(folder))
+        self.assertEqual((result.returncode, result.stderr), (1, ''))
+        found = {}
+        for item in json.loads(result.stdout):
+            # A finding in a parameter file is the finding of the launch file that names it.
+            file = Path((item['included_from'] or [item['file']])[-1].partition('.launch.xml')[0] + '.launch.xml')
+            found.setdefault(file.name.removesuffix('.launch.xml'), []).append(item['id'])
+        self.assertEqual(found, {name: [id_] for name, (_, id_) in MISTAKES.items()})
 
 
 if __name__ == '__main__':
