@@ -382,6 +382,38 @@ TEST_F(WithoutRunning, GraphResolvesNamesAndShowsWhatWaitsAndWhatHandlersStart) 
               HasSubstr("  \"/listener\" [label=\"/listener\\ndemo_nodes listener\\nnamed by the program\"]"));
 }
 
+TEST_F(WithoutRunning, GraphSaysWhatHandlersDoAndNamesContainersOfOthers) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <executable cmd="sleep 1" name="nap"/>
+  <on_process_exit process="nap"><restart process="nap"/><shutdown/></on_process_exit>
+  <load_composable_node target="/box/c"><composable_node pkg="p" plugin="p::A" name="part"/></load_composable_node>
+</launch>
+)xml");
+  const CommandResult result = launch({"graph", path});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("label=\"on_process_exit of 'nap' with exit code any\\nends the launch\"];\n"));
+  EXPECT_THAT(result.out, HasSubstr("  \"handler 0\" -> \"process 0\" [color=orange, label=\"restarts\"];\n"));
+  EXPECT_THAT(result.out, HasSubstr("  label=\"/box\";\n  \"/box/c\" [label=\"/box/c\\nnot started here\"];\n"));
+  const std::string picture = launch({"graph", "--format", "svg", path}).out;
+  for (const char* const text : {">not started here<", ">loads<", ">restarts<", ">ends the launch<"}) {
+    EXPECT_THAT(picture, HasSubstr(text));
+  }
+}
+
+TEST_F(WithoutRunning, GraphOfAnEventHandlerOfPythonIsOneBox) {
+  const std::string path = file("a.launch.py", R"py(from launch import EventHandler, LaunchDescription
+from launch.actions import LogInfo, RegisterEventHandler
+
+def generate_launch_description():
+    return LaunchDescription([
+        RegisterEventHandler(EventHandler(matcher=lambda event: False, entities=[LogInfo(msg='x')]))])
+)py");
+  const CommandResult result = launch({"graph", path});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("  \"handler 0\" [shape=cds, color=orange, label=\"event handler in line 6\\n"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("handler 1")));
+}
+
 TEST_F(WithoutRunning, GraphIsAPictureToo) {
   const std::string inner = file("inner.launch.xml",
                                  "<launch><node pkg=\"demo_nodes\" exec=\"talker\" name=\"mouth\" namespace=\"head\">"

@@ -2,6 +2,7 @@
 #include "launcher/cli/graph/graph.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -30,6 +31,7 @@ class GraphBuilder {
         add_load(request);
       }
     }
+    add_foreign_containers();
     for (const std::string& topic : topics_) {
       graph_.topics.push_back({"topic " + topic, {topic}});
     }
@@ -56,13 +58,65 @@ class GraphBuilder {
       add_dependency(dependency, ids[dependency.process]);
     }
     for (const PlannedHandler& planned : plan.handlers) {
-      const std::string id = fmt::format("handler {}", graph_.handlers.size());
-      graph_.handlers.push_back({id, {describe(planned.handler)}});
-      asked_by(planned.handler.where, id);
+      const std::string id = add_handler(planned);
       if (const auto process = names_.find(planned.handler.process); process != names_.end()) {
         graph_.edges.push_back({process->second, id, Relation::kHandles, ""});
       }
       add_plan(planned.plan, id);
+    }
+  }
+
+  // An EventHandler of Python with a matcher of its own waits for every kind of event: it is one box.
+  bool is_further_event(const EventHandler& handler) const {
+    const SourceRange& where = handler.where;
+    return last_handler_ != nullptr && handler.process.empty() && last_handler_->process.empty() && where &&
+           where.file == last_handler_->where.file && where.begin == last_handler_->where.begin &&
+           where.file->path().ends_with(".py");
+  }
+
+  std::string add_handler(const PlannedHandler& planned) {
+    if (is_further_event(planned.handler)) {
+      LaunchGraph::Box& box = graph_.handlers.back();
+      box.lines.front() = fmt::format("event handler in line {}",
+                                      planned.handler.where.file->position(planned.handler.where.begin).line);
+      return box.id;
+    }
+    last_handler_ = &planned.handler;
+    const std::string id = fmt::format("handler {}", graph_.handlers.size());
+    std::vector<std::string> lines = {describe(planned.handler)};
+    for (const LeftToRun& left : planned.plan.left_to_run) {
+      lines.push_back(left.function.empty() ? "does what only a run tells" : "calls " + left.function);
+    }
+    for (const TransitionRequest& request : planned.plan.transitions) {
+      lines.push_back(fmt::format("changes the state of {}: {}", request.node, fmt::join(request.transitions, ", ")));
+    }
+    for (const ProcessCommand& command : planned.plan.commands) {
+      const std::string label = std::string(name_of(command.kind)) + "s";
+      if (const auto process = names_.find(command.process); process != names_.end()) {
+        graph_.edges.push_back({id, process->second, Relation::kStarts, label});
+      } else {
+        lines.push_back(fmt::format("{} '{}'", label, command.process));
+      }
+    }
+    if (planned.plan.shutdown) {
+      lines.emplace_back("ends the launch");
+    }
+    graph_.handlers.push_back({id, std::move(lines)});
+    asked_by(planned.handler.where, id);
+    return id;
+  }
+
+  // Components may be loaded into a container that another launch has started.
+  void add_foreign_containers() {
+    std::set<std::string> containers;
+    for (const LaunchGraph::Edge& edge : graph_.edges) {
+      if (edge.relation == Relation::kLoads && !ids_.contains(edge.from)) {
+        containers.insert(edge.from);
+      }
+    }
+    for (const std::string& container : containers) {
+      const std::string name_space = container.substr(0, std::max<std::size_t>(container.rfind('/'), 1));
+      graph_.nodes[name_space].push_back({container, {container, "not started here"}});
     }
   }
 
@@ -181,7 +235,8 @@ class GraphBuilder {
     return id;
   }
 
-  bool left_out_ = false;  // what is added now is left out by a condition
+  const EventHandler* last_handler_ = nullptr;  // the last one that got a box
+  bool left_out_ = false;                       // what is added now is left out by a condition
   LaunchGraph graph_;
   std::map<std::string, std::string> names_;  // of processes, with their ids
   std::set<std::string> topics_;

@@ -25,7 +25,7 @@ struct LaunchGraph {
     kRemaps,    // a node to a topic; the label is the node's own name for the topic
     kWaitsFor,  // a node or another process to what it depends on; the label is the condition
     kHandles,   // a node or another process to a handler of its events
-    kStarts,    // a handler to a node or another process
+    kStarts,    // a handler to a node or another process; the label is what it does to it
   };
   struct Edge {
     std::string from;

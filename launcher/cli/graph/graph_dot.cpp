@@ -51,7 +51,7 @@ std::string edge_style(const LaunchGraph::Edge& edge) {
     case LaunchGraph::Relation::kHandles:
       return "color=orange";
     case LaunchGraph::Relation::kStarts:
-      return "color=orange, label=\"starts\"";
+      return fmt::format("color=orange, label={}", as_id(edge.label));
   }
   return "";
 }

@@ -163,7 +163,7 @@ class Picture {
     const auto from = places_.find(edge.from);
     const auto to = places_.find(edge.to);
     if (from == places_.end() || to == places_.end()) {
-      return;  // the container belongs to another launch
+      return;
     }
     const Rectangle& a = from->second;
     const Rectangle& b = to->second;
@@ -173,14 +173,14 @@ class Picture {
                               a.y + a.height, b.middle(), b.x);
         break;
       case LaunchGraph::Relation::kLoads:
-        bow(a, b, "class=\"loads\"", "");
+        bow(a, b, "class=\"loads\"", edge.label);
         break;
       case LaunchGraph::Relation::kWaitsFor:
         bow(a, b, "class=\"waits\" marker-end=\"url(#arrow)\"", edge.label);
         break;
       case LaunchGraph::Relation::kHandles:
       case LaunchGraph::Relation::kStarts:
-        bow(a, b, "class=\"handles\" marker-end=\"url(#arrow)\"", "");
+        bow(a, b, "class=\"handles\" marker-end=\"url(#arrow)\"", edge.label);
         break;
       case LaunchGraph::Relation::kAsksFor:
       case LaunchGraph::Relation::kRemaps: {
@@ -201,6 +201,7 @@ class Picture {
   // A line between two boxes of the middle column.
   void bow(const Rectangle& a, const Rectangle& b, std::string_view style, const std::string& note) {
     const double out = std::max(a.right(), b.right()) + 30;
+    widest_ = std::max(widest_, out + static_cast<double>(note.size()) * kCharacter);
     edges_ += fmt::format("<path {} d=\"M{:.0f} {:.0f}C{:.0f} {:.0f} {:.0f} {:.0f} {:.0f} {:.0f}\"/>\n", style,
                           a.right(), a.middle(), out, a.middle(), out, b.middle(), b.right(), b.middle());
     if (!note.empty()) {
