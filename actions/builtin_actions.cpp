@@ -15,6 +15,7 @@ namespace launch {
   ACTION(call)                         \
   ACTION(change_parameter)             \
   ACTION(executable)                   \
+  ACTION(fault)                        \
   ACTION(for)                          \
   ACTION(for_each)                     \
   ACTION(group)                        \

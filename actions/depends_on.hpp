@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// <depends_on …/> of a process: what it waits for before it starts.
+// <depends_on …/> of a process: what it waits for before it starts; and of a fault, what it waits for before it is
+// applied.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "actions/range_field.hpp"
 #include "actions/ros_condition.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -15,6 +17,8 @@ class DependsOn {
  public:
   // The declaration for the ActionType of a process.
   static ItemSpec item();
+  // And for that of a fault.
+  static ItemSpec item_of_fault();
 
   // Throws LaunchError when attributes don't go together.
   explicit DependsOn(const Fields& fields);
@@ -22,10 +26,15 @@ class DependsOn {
   // If its condition holds, evaluates the item for the process with this number among the requests.
   void request(LaunchContext& context, std::size_t process) const;
 
+  // Of a fault, whose item has this number: a range of occurrences is allowed, and `draw` chooses one.
+  std::optional<Dependency> perform(LaunchContext& context, const FaultDraw& draw, std::size_t number) const;
+  bool is_random(Scope& scope) const;
+
  private:
   enum class State { kStarted, kExited, kOutput };
 
-  ProcessCondition process_condition(Scope& scope) const;
+  Dependency dependency(LaunchContext& context, std::uint64_t occurrence) const;
+  ProcessCondition process_condition(Scope& scope, std::uint64_t occurrence) const;
 
   SourceRange where_;
   Condition condition_;
@@ -35,6 +44,7 @@ class DependsOn {
   std::optional<Template> exit_code_;
   std::optional<Template> pattern_;
   std::optional<Template> stream_;
+  std::optional<RangeField> occurrence_;
   std::optional<NumberField> timeout_;
   OnFailure on_failure_ = OnFailure::kShutdown;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // <stop>, <restart>, <signal>: end, start again or signal a running process.
-#include <fmt/format.h>
 
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/language/fields.hpp"
@@ -9,14 +8,6 @@
 namespace launch {
 
 namespace {
-
-int signal_of(const std::string& name, const SourceRange& where) {
-  const int signal = signal_number(name);
-  if (signal == 0) {
-    throw LaunchError(fmt::format("'{}' is no signal", name), where, did_you_mean(name, signal_names()));
-  }
-  return signal;
-}
 
 class CommandProcess : public Action {
  public:

@@ -58,13 +58,13 @@ class Test : public Action {
     if (context.explores()) {
       // Each test is a run of its own: its processes are not there together with those of the others.
       Requests others = std::exchange(context.requests(), Requests());
-      context.visit_in(context.scope(), actions_);
+      context.visit_test(actions_);
       request(context.scope(), context);
       context.requests() = std::move(others);
     } else if (part != LaunchContext::TestPart::kNothing) {
       TestRequest test = request(context.scope(), context);
       if (part == LaunchContext::TestPart::kActionsToo) {
-        context.visit_in(context.scope(), actions_);
+        test.faults = context.visit_test(actions_);
       }
       context.requests().tests.push_back(std::move(test));
     }

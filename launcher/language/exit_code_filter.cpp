@@ -106,4 +106,12 @@ std::vector<std::string> signal_names() {
   return names;
 }
 
+int signal_of(const std::string& name, const SourceRange& where) {
+  const int signal = signal_number(name);
+  if (signal == 0) {
+    throw LaunchError(fmt::format("'{}' is no signal", name), where, did_you_mean(name, signal_names()));
+  }
+  return signal;
+}
+
 }  // namespace launch

@@ -38,5 +38,7 @@ class ExitCodeFilter {
 // signal_names() gives the known names, for suggestions.
 int signal_number(const std::string& name);
 std::vector<std::string> signal_names();
+// The number of a signal. Throws LaunchError at `where` when there is no such signal.
+int signal_of(const std::string& name, const SourceRange& where);
 
 }  // namespace launch

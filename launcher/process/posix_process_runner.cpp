@@ -113,6 +113,7 @@ class PosixProcessRunner final : public ProcessRunner {
 
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
+  std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
   ProcessExit outcome(const Process& process) override { return wait(process, WNOWAIT); }
   ProcessExit reap(const Process& process) override { return wait(process, 0); }
 
@@ -224,6 +225,17 @@ bool PosixProcessRunner::signal_group(const Process& process, int signal) {
     ::kill(-process.pid, SIGCONT);
   }
   return true;
+}
+
+std::optional<std::uint64_t> PosixProcessRunner::limit(const Process& process, int resource, std::uint64_t soft) {
+  rlimit before{};
+  const auto which = static_cast<__rlimit_resource>(resource);
+  if (::prlimit(process.pid, which, nullptr, &before) != 0) {
+    return std::nullopt;
+  }
+  const rlimit after{std::min<rlim_t>(soft, before.rlim_max), before.rlim_max};
+  return ::prlimit(process.pid, which, &after, nullptr) == 0 ? std::optional<std::uint64_t>(before.rlim_cur)
+                                                             : std::nullopt;
 }
 
 ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {

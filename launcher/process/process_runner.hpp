@@ -2,7 +2,9 @@
 // Starts and signals operating system processes. The seam between the supervisor and the kernel.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "launcher/process/process_spec.hpp"
@@ -20,6 +22,10 @@ class ProcessRunner {
   // Sends a signal to every process of the group of `process`. A group that is gone is not an error. False when each
   // process of the group belongs to another user, so that none got the signal.
   virtual bool signal_group(const Process& process, int signal) = 0;
+
+  // Sets a soft limit of a process that runs, such as RLIMIT_NOFILE; the hard limit stays. Returns the soft limit
+  // before; nullopt when the system refuses.
+  virtual std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) = 0;
 
   // How an exited process ended, without reaping it: its number, and with it the number of its group, stays reserved,
   // so that signal_group() can't hit strangers. Must only be called once its pidfd is readable.

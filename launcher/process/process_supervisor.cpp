@@ -290,6 +290,23 @@ void ProcessSupervisor::resume() {
   }
 }
 
+void ProcessSupervisor::pause(ProcessId id) {
+  if (const Supervised& process = *impl_->processes.at(id - 1); process.unreaped) {
+    impl_->runner.signal_group(process.process, SIGSTOP);
+  }
+}
+
+void ProcessSupervisor::resume(ProcessId id) {
+  if (const Supervised& process = *impl_->processes.at(id - 1); process.unreaped) {
+    impl_->runner.signal_group(process.process, SIGCONT);
+  }
+}
+
+std::optional<std::uint64_t> ProcessSupervisor::limit(ProcessId id, int resource, std::uint64_t soft) {
+  const Supervised& process = *impl_->processes.at(id - 1);
+  return process.unreaped && !process.exited ? impl_->runner.limit(process.process, resource, soft) : std::nullopt;
+}
+
 void ProcessSupervisor::stop(ProcessId id) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kStop);
 }

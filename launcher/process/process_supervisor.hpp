@@ -92,6 +92,12 @@ class ProcessSupervisor {
   void suspend();
   void resume();
 
+  // Stops the group of one running process, and lets it go on. Nobody is told. Ignored for a process that does not run.
+  void pause(ProcessId id);
+  void resume(ProcessId id);
+  // As ProcessRunner::limit(); nullopt for a process that does not run, too.
+  std::optional<std::uint64_t> limit(ProcessId id, int resource, std::uint64_t soft);
+
   // Ends one process as shutdown() ends all of them: it does not respawn, whatever its policy says.
   void stop(ProcessId id);
 

@@ -51,7 +51,10 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                   [this](LogLevel level, const std::string& logger, const std::string& text) {
                     context_.message(level, logger, text);
                   },
-                  [this](const TrackedProcess& process) { ros_tasks_.on_skipped(process.names); },
+                  [this](const TrackedProcess& process) {
+                    ros_tasks_.on_skipped(process.names);
+                    faults_.on_skipped(process);
+                  },
                   [this](const std::string& process, const Dependency& dependency) {
                     record({.kind = LaunchRecord::Kind::kReady,
                             .name = process,
@@ -59,6 +62,8 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                             .where = dependency.where,
                             .time = monotonic_time()});
                   }}),
+      faults_(loop, supervisor, processes_,
+              [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }),
       steering_(supervisor, processes_,
                 {[this] { return phase_ != Phase::kRunning; }, [this] { post_check(); },
                  [this](const std::string& reason) {
@@ -190,6 +195,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   failures_.on_process_event(event);
   crashes_.on_process_event(event);
   processes_.on_event(event);
+  faults_.on_event(event);
   steering_.on_event(event);
   handlers_.on_event(event);
   on_end_of_required(event);
@@ -288,10 +294,12 @@ void LaunchService::start(Round round) {
                                    to_string(request.where)));
     }
   }
-  if (begin_test_) {
-    for (TestRequest& test : requests.tests) {
+  for (TestRequest& test : requests.tests) {
+    std::vector<FaultRequest> faults = test.faults;
+    if (begin_test_) {
       begin_test_(std::move(test));
     }
+    faults_.start(std::move(faults));
   }
   for (EventHandler& handler : requests.handlers) {
     handlers_.add(std::move(handler), context_.ros_client());
@@ -319,12 +327,14 @@ void LaunchService::start(Round round) {
 }
 
 void LaunchService::observe_output() {
-  if (!handlers_.watch_output() && !processes_.watch_output() && !crashes_.watch_output() && !test_line_) {
+  if (!handlers_.watch_output() && !processes_.watch_output() && !faults_.watch_output() && !crashes_.watch_output() &&
+      !test_line_) {
     return;
   }
   supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
                                     OutputStream stream, std::string_view line) {
     processes_.on_line(id, stream, line);
+    faults_.on_line(id, stream, line);
     handlers_.on_line(spec, label, stream, line);
     crashes_.on_line(spec, id, line);
     if (test_line_) {
@@ -356,6 +366,7 @@ void LaunchService::shutdown(const std::string& reason) {
     steering_.tell_end(reason);
     rounds_.close();
     timers_.shutdown();
+    faults_.shutdown();
     processes_.shutdown();
     std::vector<Invocation> farewell = handlers_.shutdown(reason);
     coroutines_.cancel();

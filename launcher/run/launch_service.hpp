@@ -23,6 +23,7 @@
 #include "launcher/run/active_scopes.hpp"
 #include "launcher/run/failures.hpp"
 #include "launcher/run/farewell.hpp"
+#include "launcher/run/faults.hpp"
 #include "launcher/run/handlers.hpp"
 #include "launcher/run/processes.hpp"
 #include "launcher/run/recording.hpp"
@@ -62,13 +63,15 @@ class LaunchService {
   // For tests of systems. `begin` gets each test that the launch file requests, before the processes of its round
   // start. `line` gets each line of each process, before the exit of the process is reported. `ending` is called when
   // the shutdown begins, whatever its reason. None of them may call the service, but for end(), which begins the
-  // shutdown in a later turn of the loop.
+  // shutdown in a later turn of the loop. `fault` gets what happens to the faults of the test.
   using LineSink = std::function<void(const ProcessSpec& spec, const std::string& label, OutputStream stream,
                                       std::string_view line)>;
-  void use_test(std::function<void(TestRequest)> begin, LineSink line, std::function<void()> ending) {
+  void use_test(std::function<void(TestRequest)> begin, LineSink line, std::function<void()> ending,
+                std::function<void(const FaultEvent&)> fault) {
     begin_test_ = std::move(begin);
     test_line_ = std::move(line);
     test_ending_ = std::move(ending);
+    faults_.observe(std::move(fault));
   }
   void end(const std::string& reason);
 
@@ -160,6 +163,7 @@ class LaunchService {
   Rounds rounds_;
   Recording recording_;
   Processes processes_;
+  Faults faults_;
   Steering steering_;
   Handlers handlers_;
   Timers timers_;

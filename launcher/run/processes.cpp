@@ -42,6 +42,11 @@ Round Processes::enter(Requests requests) {
     round.processes.push_back(&table_.add(spec));
   }
   resolve_dependencies(round.requests.dependencies, round.processes, table_);
+  for (TestRequest& test : round.requests.tests) {
+    for (FaultRequest& fault : test.faults) {
+      resolve_targets(fault.dependencies, round.processes, table_);
+    }
+  }
   check(round.requests.commands);
   return round;
 }

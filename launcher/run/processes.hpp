@@ -39,6 +39,10 @@ class Processes {
   Round enter(Requests requests);
   // Throws LaunchError for names that no process has.
   void check(const std::vector<ProcessCommand>& commands) const { check_commands(commands, table_); }
+  // The processes of this name, in the order in which they were asked for.
+  std::vector<TrackedProcess*> find(const std::string& name) const { return table_.find(name); }
+  // Null if the process was not asked for by a launch file.
+  TrackedProcess* find(ProcessId id) { return table_.find(id); }
   // Carries out a command. Reports a command that no process could get.
   void execute(const ProcessCommand& command);
   // The process must never start. Returns whether it waited.

@@ -13,6 +13,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/run/dependency_watches.hpp"
 #include "launcher/visit/dependency.hpp"
 #include "launcher/visit/process_table.hpp"
 
@@ -33,7 +34,7 @@ class StartOrder {
   };
 
   // The loop must outlive this object.
-  StartOrder(EventLoop& loop, Callbacks callbacks) : loop_(loop), callbacks_(std::move(callbacks)) {}
+  StartOrder(EventLoop& loop, Callbacks callbacks) : loop_(loop), callbacks_(std::move(callbacks)), watches_(loop) {}
 
   // The process starts when all its dependencies hold. There must be at least one, and all must be resolved.
   void add(ProcessSpec spec, TrackedProcess& process, std::vector<Dependency> dependencies);
@@ -51,14 +52,14 @@ class StartOrder {
   // The processes that wait, and what shall start.
   std::unordered_map<const TrackedProcess*, const ProcessSpec*> waiting() const;
   // Whether some process waits for a line.
-  bool watch_output() const { return lines_watched_ > 0; }
+  bool watch_output() const { return watches_.watch_output(); }
 
  private:
   struct Waiting;
   struct Watch {
     Dependency dependency;
     Waiting* owner;
-    EventLoop::SourcePtr timer{};
+    DependencyWatches::WatchPtr watch{};
     bool settled = false;  // the condition holds, or its failure has been handled
     std::optional<std::string> failure{};
   };
@@ -74,11 +75,7 @@ class StartOrder {
   };
   using WaitingPtr = std::shared_ptr<Waiting>;
 
-  void begin(Watch& watch);
-  // Compares a watch with the facts known about its process.
-  void evaluate(Watch& watch);
-  void settle(Watch& watch);
-  void fail(Watch& watch, std::string why);
+  void decide(Watch& watch, const std::optional<std::string>& failure);
   void proceed_later(Waiting& waiting);
   void proceed();
   void deal_with_failures(const WaitingPtr& waiting);
@@ -86,10 +83,9 @@ class StartOrder {
 
   EventLoop& loop_;
   Callbacks callbacks_;
+  DependencyWatches watches_;
   std::list<WaitingPtr> waiting_;
   std::vector<WaitingPtr> changed_;  // those with a watch that was settled or failed since proceed()
-  std::unordered_map<const TrackedProcess*, std::vector<Watch*>> by_target_;
-  std::size_t lines_watched_ = 0;
 };
 
 }  // namespace launch

@@ -44,14 +44,23 @@ std::string from_word(const std::string& word) {
 
 EngineTask task_of(const std::string& word) {
   const Json json = Json::parse(from_word(word));
-  return {json.at("file"), json.at("name"), json.at("arguments").get<LaunchArguments>(), json.at("directory")};
+  EngineTask task{json.at("file"), json.at("name"), json.at("arguments").get<LaunchArguments>(), json.at("directory"),
+                  json.at("seed").get<std::uint64_t>()};
+  if (json.contains("faults")) {
+    task.faults = json.at("faults").get<std::set<std::size_t>>();
+  }
+  return task;
 }
 
 pid_t start_in_engine(const std::vector<std::string>& engine, const EngineTask& task) {
-  const Json json = {{"file", fs::absolute(task.file).string()},
-                     {"name", task.name},
-                     {"arguments", task.arguments},
-                     {"directory", task.directory}};
+  Json json = {{"file", fs::absolute(task.file).string()},
+               {"name", task.name},
+               {"arguments", task.arguments},
+               {"directory", task.directory},
+               {"seed", task.seed}};
+  if (task.faults) {
+    json["faults"] = *task.faults;
+  }
   std::vector<std::string> words = engine;
   words.insert(words.end(), {own_prefix() + "/bin/launch", "test", "--task", as_word(json.dump())});
   const std::string path = task.directory + "/engine.txt";

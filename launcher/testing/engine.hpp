@@ -7,7 +7,9 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,8 @@ struct EngineTask {
   std::string name;
   LaunchArguments arguments;
   std::string directory;  // on a file system that both see, or of the other machine
+  std::uint64_t seed = 1;
+  std::optional<std::set<std::size_t>> faults = {};  // as in TestCase
 };
 
 // Starts the command in a process group of its own and returns its number. Its output is in DIRECTORY/engine.txt.

@@ -32,6 +32,10 @@ int run_task(const std::string& word) {
     const Registry registry = builtin_actions();
     std::vector<TestCase> tests = list_tests(task.file, registry, environment, task.arguments);
     std::erase_if(tests, [&](const TestCase& test) { return test.name != task.name; });
+    for (TestCase& test : tests) {
+      test.seed = task.seed;
+      test.faults = task.faults;
+    }
     QueueOptions options;
     options.directory = task.directory;
     options.keep = true;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/testing/check.hpp"
 #include "launcher/visit/process_table.hpp"
 
@@ -26,16 +27,31 @@ void ImpliedCheck::on_process(const ProcessEvent& event) {
       fail(event, fmt::format("{} can't be started: {}", event.label, failed->reason));
     }
   } else if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
-    const bool by_itself = !exited->expected && exited->exit.code != 0 && !exited->will_respawn;
+    const Kill kill = take_kill(event, exited->exit.code);
+    if (kill == Kill::kExpected) {
+      return;
+    }
+    const bool is_expected = exited->expected && kill == Kill::kNone;
+    const bool by_itself = !is_expected && exited->exit.code != 0 && !exited->will_respawn;
     if ((by_itself || is_crash(exited->exit.code)) && !is_left_out(event)) {
       fail(event, fmt::format("{} has exited with {}", event.label, exit_text(exited->exit.code)),
-           exited->expected ? std::string()
-                            : fmt::format("if that is right: <exit process=\"{}\" code=\"{}\"/>", event.spec.name,
-                                          exited->exit.code));
+           is_expected ? std::string()
+                       : fmt::format("if that is right: <exit process=\"{}\" code=\"{}\"/>", event.spec.name,
+                                     exited->exit.code));
     }
   } else if (const auto* const left = std::get_if<ProcessLeft>(&event.what)) {
     fail(event, fmt::format("{} can't be ended: its pid is {}", event.label, left->pid));
   }
+}
+
+ImpliedCheck::Kill ImpliedCheck::take_kill(const ProcessEvent& event, int code) {
+  const auto found = killed_.find(event.label);
+  if (found == killed_.end()) {
+    return Kill::kNone;
+  }
+  const int signal = found->second;
+  killed_.erase(found);
+  return code == -signal || (code == 0 && asks_to_end(signal)) ? Kill::kExpected : Kill::kOther;
 }
 
 bool ImpliedCheck::is_left_out(const ProcessEvent& event) const {

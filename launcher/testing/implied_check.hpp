@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,24 @@ class ImpliedCheck {
   // An <exit> speaks of the process of this name: its exit is judged there.
   void leave_out(const std::string& name) { left_out_.push_back(name); }
 
+  // A fault sends a signal to the process: it may end by it, or with 0 if the signal asks to end.
+  void expect_end(const std::string& label, int signal) { killed_[label] = signal; }
+  // Processes end from now on because they are told to.
+  void on_shutdown() { killed_.clear(); }
+
   void on_process(const ProcessEvent& event);
 
  private:
+  // How the process of the event has ended, if a fault has sent it a signal; takes note of that.
+  enum class Kill { kNone, kExpected, kOther };
+  Kill take_kill(const ProcessEvent& event, int code);
   bool is_left_out(const ProcessEvent& event) const;
   void fail(const ProcessEvent& event, std::string message, std::string help = {});
 
   const OutputTail& tail_;
   std::function<void(Failure)> failed_;
   std::vector<std::string> left_out_;
+  std::map<std::string, int> killed_;  // label, signal of a fault
 };
 
 }  // namespace launch

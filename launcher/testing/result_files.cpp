@@ -21,6 +21,7 @@ std::string whole_text(const TestResult& result) {
   for (const TestFailure& failure : result.failures) {
     text += failure.text;
   }
+  text += seed_text(result) + shrunk_text(result);
   if (!result.directory.empty()) {
     text += fmt::format("files: {}\n", result.directory);
   }
@@ -37,6 +38,18 @@ std::string xml(const std::string& text) {
   std::copy_if(text.begin(), text.end(), std::back_inserter(clean),
                [](char c) { return static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t'; });
   return as_xml_text(clean);
+}
+
+// The seed and the faults of a test.
+std::string properties(const TestResult& result) {
+  if (!result.seed) {
+    return {};
+  }
+  std::string text = fmt::format("      <properties>\n        <property name=\"seed\" value=\"{}\"/>\n", *result.seed);
+  for (const FaultResult& fault : result.faults) {
+    text += fmt::format("        <property name=\"fault {}\" value=\"{}\"/>\n", fault.number, xml(fault.text()));
+  }
+  return text + "      </properties>\n";
 }
 
 }  // namespace
@@ -64,14 +77,14 @@ std::string as_junit(const std::vector<TestResult>& results) {
     for (const TestResult* const test : tests) {
       text += fmt::format("    <testcase name=\"{}\" classname=\"{}\" file=\"{}\" line=\"{}\" time=\"{:.3f}\"",
                           xml(test->full_name()), xml(file), xml(file), test->line, test->seconds);
+      std::string inside = properties(*test);
       if (!test->passed()) {
-        text += fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                            xml(first_message(*test)), xml(whole_text(*test)));
+        inside += fmt::format("      <failure message=\"{}\">{}</failure>\n", xml(first_message(*test)),
+                              xml(whole_text(*test)));
       } else if (!test->earlier.empty()) {
-        text += fmt::format(">\n      <flakyFailure message=\"{}\"/>\n    </testcase>\n", xml(test->earlier));
-      } else {
-        text += "/>\n";
+        inside += fmt::format("      <flakyFailure message=\"{}\"/>\n", xml(test->earlier));
       }
+      text += inside.empty() ? "/>\n" : fmt::format(">\n{}    </testcase>\n", inside);
     }
     text += "  </testsuite>\n";
   }
@@ -87,6 +100,12 @@ std::string as_tap(const std::vector<TestResult>& results) {
     text += fmt::format("{} {} - {}\n", result.passed() ? "ok" : "not ok", ++number, title);
     if (result.passed() && !result.earlier.empty()) {
       text += fmt::format("# attempt {} has passed; the first: {}\n", result.attempts, result.earlier);
+    }
+    if (result.passed() && result.seed) {
+      text += fmt::format("# seed {}\n", *result.seed);
+      for (const FaultResult& fault : result.faults) {
+        text += fmt::format("# fault {}: {}\n", fault.number, fault.text());
+      }
     }
     if (!result.passed()) {
       text += fmt::format("  ---\n  message: {}\n  duration_ms: {:.0f}\n  details: |\n",
@@ -120,7 +139,7 @@ std::string as_github(const std::vector<TestResult>& results, const std::string&
       }
       text += fmt::format("::error file={},line={},title={}::{}\n", escaped(file, true),
                           failure.file.empty() ? result.line : failure.line, escaped(result.full_name(), true),
-                          escaped(failure.text, false));
+                          escaped(failure.text + seed_text(result) + shrunk_text(result), false));
     }
     if (result.passed() && !result.earlier.empty()) {
       text += fmt::format(

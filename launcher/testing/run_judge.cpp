@@ -24,6 +24,7 @@ RunJudge::RunJudge(EventLoop& loop, std::string trace_directory, std::function<v
 void RunJudge::begin(TestRequest test) {
   has_begun_ = true;
   test_ = std::move(test);
+  faults_.begin(std::move(test_.faults), loop_.now());
   timeout_ = loop_.after(test_.timeout, [this] { on_timeout(); });
   if (test_.duration) {
     duration_over_ = false;
@@ -66,7 +67,18 @@ void RunJudge::on_line(const ProcessSpec& spec, const std::string& label, Output
   }
 }
 
+void RunJudge::on_fault(const FaultEvent& event) {
+  faults_.on_fault(event, loop_.now());
+  if (event.signal != 0) {
+    for (const std::string& label : event.labels) {
+      implied_.expect_end(label, event.signal);
+    }
+  }
+  decide();
+}
+
 void RunJudge::on_shutdown() {
+  implied_.on_shutdown();
   for (const std::unique_ptr<Check>& check : checks_) {
     check->on_shutdown();
   }
@@ -85,7 +97,7 @@ void RunJudge::decide() {
     end_run(RunEnd::kFailure, "an expectation has failed");
     return;
   }
-  if (!duration_over_) {
+  if (!duration_over_ || faults_.is_open()) {
     return;
   }
   // Without anything to wait for, and without a duration, the system decides when it ends.
@@ -114,7 +126,11 @@ void RunJudge::end_run(RunEnd end, const std::string& reason) {
 
 void RunJudge::on_timeout() {
   const auto is_waited_for = [](const auto& check) { return check->is_open() && check->is_waited_for(); };
-  if (std::none_of(checks_.begin(), checks_.end(), is_waited_for)) {
+  if (std::none_of(checks_.begin(), checks_.end(), is_waited_for) && faults_.is_open()) {
+    failures_.push_back(as_text(Failure{fmt::format("the {} was not over {}", launch::describe(faults_.open()),
+                                                    launch::describe(RunEnd::kTimeout, test_.timeout)),
+                                        faults_.open().where}));
+  } else if (std::none_of(checks_.begin(), checks_.end(), is_waited_for)) {
     Failure failure{fmt::format("the system has not ended within {:g} s, the timeout of the test",
                                 std::chrono::duration<double>(test_.timeout).count()),
                     test_.where};
@@ -145,10 +161,19 @@ void RunJudge::finish() {
     }
   }
   failures_.insert(failures_.begin(), found.begin(), found.end());
+  if (end_ != RunEnd::kFailure && end_ != RunEnd::kTimeout) {
+    for (const Failure& failure : faults_.failures(describe_end())) {
+      failures_.push_back(as_text(failure));
+    }
+  }
   judge_trace();
   if (!has_begun_ && failures_.empty()) {
     failures_.push_back({.message = "the test has not begun", .text = "error: the test has not begun\n"});
   }
+}
+
+std::string RunJudge::describe_end() const {
+  return end_ == RunEnd::kNothingLeft ? "the system had ended" : "the test had ended";
 }
 
 void RunJudge::judge_trace() {

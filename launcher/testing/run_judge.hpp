@@ -2,7 +2,7 @@
 // Judges the run of a test: passes what happens to its checks, and decides when the run is over.
 //
 // The run ends at the first of these: a check has failed; everything that is waited for has happened, and the duration
-// of the test is over; its timeout is over; nothing is left to run.
+// of the test and its faults are over; its timeout is over; nothing is left to run.
 #pragma once
 
 #include <functional>
@@ -13,6 +13,7 @@
 
 #include "launcher/process/event_loop.hpp"
 #include "launcher/testing/check.hpp"
+#include "launcher/testing/fault_log.hpp"
 #include "launcher/testing/implied_check.hpp"
 #include "launcher/testing/output_tail.hpp"
 #include "launcher/testing/trace_check.hpp"
@@ -31,6 +32,7 @@ class RunJudge {
 
   void on_process(const ProcessEvent& event);
   void on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line);
+  void on_fault(const FaultEvent& event);
   void on_shutdown();
   // An error of the launch itself.
   void on_error(const LaunchError& error);
@@ -41,12 +43,14 @@ class RunJudge {
   const std::vector<TestFailure>& failures() const { return failures_; }
   std::size_t met() const;
   std::size_t not_judged() const;
+  std::vector<FaultResult> faults() const { return faults_.results(describe_end()); }
 
  private:
   void decide();
   void judge_trace();
   void end_run(RunEnd end, const std::string& reason);
   void on_timeout();
+  std::string describe_end() const;
 
   EventLoop& loop_;
   std::string trace_directory_;
@@ -54,6 +58,7 @@ class RunJudge {
   TestRequest test_;
   OutputTail tail_;
   ImpliedCheck implied_;
+  FaultLog faults_;
   std::vector<std::unique_ptr<Check>> checks_;
   std::vector<Expectation> of_trace_;  // to be judged when the trace is whole
   std::size_t trace_met_ = 0;

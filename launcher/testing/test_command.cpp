@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -28,6 +27,8 @@
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/testing/engine_task.hpp"
 #include "launcher/testing/result_files.hpp"
+#include "launcher/testing/seeds.hpp"
+#include "launcher/testing/shrink.hpp"
 #include "launcher/testing/test_files.hpp"
 #include "launcher/testing/test_queue.hpp"
 #include "launcher/testing/test_report.hpp"
@@ -56,22 +57,9 @@ struct Options {
   std::string retries;
   std::string shard;
   std::string engine;
+  SeedOptions seeds;
+  bool shrink = false;
 };
-
-// A mistake in the command line.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-std::size_t whole_number(const std::string& text, const char* option) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number == 0) {
-    throw UsageError(fmt::format("{} takes a number from 1, got '{}'", option, text));
-  }
-  return number;
-}
 
 std::vector<TestCase> list_all(const Options& options, const Registry& registry, const Environment& environment) {
   Scope scope;
@@ -202,10 +190,11 @@ int run(const Options& options) {
   queue.engine = words_of(options.engine);
   std::vector<TestCase> tests = list_all(options, registry, environment);
   keep_named(options.names, tests);
+  apply_seeds(options.seeds, tests);
   keep_shard(options.shard, tests);
   if (options.list) {
     for (const TestCase& test : tests) {
-      fmt::print("{}:{}: {}\n", test.file, test.line, test.name);
+      fmt::print("{}:{}: {}\n", test.file, test.line, test.full_name());
     }
     return 0;
   }
@@ -215,8 +204,13 @@ int run(const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
   TestReport report(stdout);
   bool interrupted = false;
-  const std::vector<TestResult> results =
+  std::vector<TestResult> results =
       run_tests(tests, registry, environment, options.target.arguments, queue, report, interrupted);
+  if (options.shrink && !interrupted) {
+    shrink_failures(
+        results, tests, registry, environment, options.target.arguments, queue,
+        [&](const TestResult& result) { report.on_shrunk(result); }, interrupted);
+  }
   const bool is_open = queue.stop_at_failure || queue.rounds == 0;
   report.finish(results, is_open ? results.size() : tests.size() * queue.rounds,
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), interrupted);
@@ -257,6 +251,12 @@ int test_command(std::vector<std::string> words) {
                     "run a test that has failed again, at most so often; the result says so");
   command.take_text("--shard", options.shard, "I/N: only the I-th of N parts of the tests");
   command.take_text("--engine", options.engine, "hand each test to this command, such as 'srun' or 'ssh HOST'");
+  command.take_text("--seed", options.seeds.seed, "from which the random parts of faults are drawn; default: 1");
+  command.take_text("--seeds", options.seeds.seeds, "run each test so often, with the seeds 1, 2, 3, …");
+  command.take_text("--faults", options.seeds.faults,
+                    "only apply the faults with these numbers, such as 1,3, or none of them");
+  command.take_flag("--shrink", options.shrink,
+                    "run tests that have failed again, to find the fewest faults with which they still fail");
   if (const std::optional<int> code = command.parse(std::move(words))) {
     return *code;
   }

@@ -87,12 +87,17 @@ void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Di
   if (!is_complete) {
     return;  // what a function of a Python launch file starts is not known
   }
-  for (const Expectation& expectation : test.expectations) {
-    const std::string& name = expectation.process;
+  const auto check = [&](const std::string& name, const SourceRange& where) {
     if (!name.empty() && !names.contains(name) && !names.contains(without_number(name))) {
-      errors.push_back({Severity::kError, fmt::format("no process is named '{}'", name), expectation.process_where,
+      errors.push_back({Severity::kError, fmt::format("no process is named '{}'", name), where,
                         did_you_mean(name, {names.begin(), names.end()}), Finding::kUnknownProcess});
     }
+  };
+  for (const Expectation& expectation : test.expectations) {
+    check(expectation.process, expectation.process_where);
+  }
+  for (const FaultRequest& fault : test.faults) {
+    check(fault.process, fault.process_where);
   }
 }
 
@@ -151,10 +156,21 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
         errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
       }
     }
-    check_names(test, plan(*description, registry, environment, arguments, tests.size()), errors);
+    const LaunchPlan whole = plan(*description, registry, environment, arguments, tests.size());
+    const TestRequest& same = whole.tests.at(tests.size());
+    check_names(same, whole, errors);
     const unsigned line = test.where ? test.where.file->position(test.where.begin).line : 0;
-    tests.push_back(
-        {file, description, tests.size(), test.name, line, test.timeout, test.is_traced(), other_events(test)});
+    tests.push_back({.file = file,
+                     .description = description,
+                     .number = tests.size(),
+                     .name = test.name,
+                     .line = line,
+                     .timeout = test.timeout,
+                     .traced = test.is_traced(),
+                     .events = other_events(test),
+                     .is_only = all.tests.size() == 1,
+                     .fault_count = same.faults.size(),
+                     .shows_seed = !same.faults.empty()});
   }
   if (!errors.empty()) {
     throw LaunchError(std::move(errors));

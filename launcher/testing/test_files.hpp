@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +29,15 @@ struct TestCase {
   Duration timeout{0};
   bool traced = false;              // its run is recorded
   std::vector<std::string> events;  // that it names, beside those of ROS 2
+  bool is_only = false;             // the only one of its file
+  std::size_t fault_count = 0;
+  std::uint64_t seed = 1;                            // of its faults
+  bool shows_seed = false;                           // the result names the seed
+  bool seed_in_name = false;                         // it runs with several
+  std::optional<std::set<std::size_t>> faults = {};  // the numbers of those that are applied; nullopt: all
+
+  // With the seed, if there are several.
+  std::string full_name() const { return seed_in_name ? name + " [seed " + std::to_string(seed) + "]" : name; }
 };
 
 // The launch files that the words mean: files, directories, which are searched for launch files with a test, or a

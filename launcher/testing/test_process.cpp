@@ -33,6 +33,7 @@ namespace {
 Environment own_surroundings(const TestRun& run, int domain) {
   Environment environment = run.environment;
   environment["ROS_DOMAIN_ID"] = std::to_string(domain);
+  environment["LAUNCH_TEST_SEED"] = std::to_string(run.test.seed);
   environment["ROS_HOME"] = run.directory + "/ros";
   environment["ROS_LOG_DIR"] = run.directory + "/log";
   environment["ROS_TRACE_DIR"] = run.directory + "/own_traces";
@@ -64,6 +65,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
     context.scope().configurations.insert_or_assign(name, value);
   }
   context.take_tests(run.test.number);
+  context.choose_faults({run.test.seed, run.test.faults});
 
   LaunchService* service = nullptr;
   RunJudge judge(*loop, trace_directory(run.directory), [&](const std::string& reason) { service->end(reason); });
@@ -89,7 +91,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
       [&](const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
         judge.on_line(spec, label, stream, line);
       },
-      [&] { judge.on_shutdown(); });
+      [&] { judge.on_shutdown(); }, [&](const FaultEvent& event) { judge.on_fault(event); });
   guardian.wait_until_ready();
   launch.run(run.test.traced ? *recorded(*run.test.description, run.registry, run.directory, run.test.events)
                              : *run.test.description);
@@ -97,6 +99,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   result.failures = judge.failures();
   result.met = judge.met();
   result.not_judged = judge.not_judged();
+  result.faults = judge.faults();
 }
 
 [[noreturn]] void run_in_child(const TestRun& run) {
@@ -107,6 +110,9 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   result.name = run.test.name;
   result.line = run.test.line;
   result.directory = run.directory;
+  if (run.test.shows_seed) {
+    result.seed = run.test.seed;
+  }
   try {
     Guardian guardian = Guardian::put_above({"launch", "test", run.test.file, run.test.name});
     const std::string mark = guardian.mark("launch test", {});

@@ -27,6 +27,7 @@
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/testing/check.hpp"
 #include "launcher/testing/engine.hpp"
+#include "launcher/testing/seeds.hpp"
 #include "launcher/testing/test_process.hpp"
 
 namespace launch {
@@ -130,15 +131,16 @@ class Queue {
 
   void start(std::size_t number, std::size_t attempt) {
     const TestCase& test = test_of(number);
-    std::string directory = options_.directory + "/" + directory_name(number + 1, test.name);
+    std::string directory = options_.directory + "/" + directory_name(number + 1, test.full_name());
     if (attempt > 1) {
       directory += fmt::format("-attempt{}", attempt);
     }
     fs::create_directories(directory);
     const Clock::time_point now = Clock::now();
     const bool here = options_.engine.empty();
-    const pid_t pid = here ? start_test({test, registry_, environment_, arguments_, directory})
-                           : start_in_engine(options_.engine, {test.file, test.name, arguments_, directory});
+    const pid_t pid =
+        here ? start_test({test, registry_, environment_, arguments_, directory})
+             : start_in_engine(options_.engine, {test.file, test.name, arguments_, directory, test.seed, test.faults});
     // An engine may let a test wait for its turn.
     running_.push_back(
         {number, attempt, directory, pid, UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))), now,
@@ -194,6 +196,12 @@ class Queue {
     ++ended_;
     result.round = options_.rounds == 1 ? 0 : run.number / tests_.size() + 1;
     result.attempts = run.attempt;
+    const TestCase& test = test_of(run.number);
+    result.seed_in_name = test.seed_in_name;
+    if (test.shows_seed) {
+      result.seed = test.seed;
+      result.again = command_of(test, arguments_);
+    }
     if (const auto first = first_failures_.find(run.number); first != first_failures_.end()) {
       result.earlier = first->second;
     }
@@ -235,7 +243,7 @@ class Queue {
   void tell_progress() {
     std::vector<std::string> names;
     for (const Running& run : running_) {
-      names.push_back(test_of(run.number).name);
+      names.push_back(test_of(run.number).full_name());
     }
     observer_.on_progress(ended_, all_, names);
   }

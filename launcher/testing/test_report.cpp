@@ -53,8 +53,9 @@ void TestReport::on_result(const TestResult& result) {
   const char* const word = result.passed() ? "PASS" : "FAIL";
   const char* const colour = !is_terminal_ ? "" : result.passed() ? "\x1b[32m" : "\x1b[31m";
   const std::string attempts = result.attempts == 1 ? "" : fmt::format("  ({} attempts)", result.attempts);
-  fmt::print(stream_, "{}{}{}  {}  {:.2f} s{}\n", colour, word, is_terminal_ ? "\x1b[0m" : "", result.title(),
-             result.seconds, attempts);
+  const std::string faults = result.faults.empty() ? "" : fmt::format("  ({})", fault_count_text(result));
+  fmt::print(stream_, "{}{}{}  {}  {:.2f} s{}{}\n", colour, word, is_terminal_ ? "\x1b[0m" : "", result.title(),
+             result.seconds, faults, attempts);
   if (result.passed()) {
     if (!result.earlier.empty()) {
       ++flaky_;
@@ -71,9 +72,16 @@ void TestReport::on_result(const TestResult& result) {
     fmt::print(stream_, "      = not judged, because the run ended: {} expectation{}\n", result.not_judged,
                result.not_judged == 1 ? "" : "s");
   }
+  fmt::print(stream_, "{}", seed_text(result));
   if (!result.directory.empty()) {
     fmt::print(stream_, "      = files: {}\n", result.directory);
   }
+  std::fflush(stream_);
+}
+
+void TestReport::on_shrunk(const TestResult& result) {
+  clear_line();
+  fmt::print(stream_, "SHRUNK  {}\n{}", result.title(), shrunk_text(result));
   std::fflush(stream_);
 }
 

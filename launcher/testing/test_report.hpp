@@ -17,6 +17,8 @@ class TestReport final : public QueueObserver {
 
   void on_progress(std::size_t ended, std::size_t all, const std::vector<std::string>& running) override;
   void on_result(const TestResult& result) override;
+  // Of a result that was told before.
+  void on_shrunk(const TestResult& result);
   // "3 tests: 2 passed, 1 failed, in 1.2 s", and the names of those that have failed.
   void finish(const std::vector<TestResult>& results, std::size_t all, double seconds, bool interrupted);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/testing/test_result.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace launch {
@@ -17,7 +20,76 @@ Json json_of(const TestFailure& failure) {
           {"text", failure.text}};
 }
 
+Json json_of(const FaultResult& fault) {
+  Json json = {{"number", fault.number},
+               {"what", fault.what},
+               {"file", fault.file},
+               {"line", fault.line},
+               {"column", fault.column}};
+  json["left_out"] = fault.left_out;
+  if (fault.applied()) {
+    json["seconds"] = fault.seconds;
+  } else {
+    json["reason"] = fault.reason;
+  }
+  return json;
+}
+
+FaultResult fault_of(const Json& json) {
+  return {.number = json.at("number").get<std::size_t>(),
+          .file = json.at("file").get<std::string>(),
+          .line = json.at("line").get<unsigned>(),
+          .column = json.at("column").get<unsigned>(),
+          .what = json.at("what").get<std::string>(),
+          .reason = json.value("reason", ""),
+          .left_out = json.at("left_out").get<bool>(),
+          .seconds = json.value("seconds", 0.0)};
+}
+
 }  // namespace
+
+std::string TestResult::full_name() const {
+  std::string text = name;
+  if (seed_in_name && seed) {
+    text += fmt::format(" [seed {}]", *seed);
+  }
+  return round == 0 ? text : fmt::format("{} #{}", text, round);
+}
+
+std::string fault_count_text(const TestResult& result) {
+  const std::vector<FaultResult>& faults = result.faults;
+  const auto applied = std::count_if(faults.begin(), faults.end(), [](const auto& fault) { return fault.applied(); });
+  return faults.empty() ? "" : fmt::format("{} of {} fault{}", applied, faults.size(), faults.size() == 1 ? "" : "s");
+}
+
+std::string seed_text(const TestResult& result) {
+  if (!result.seed) {
+    return {};
+  }
+  const std::string count = fault_count_text(result);
+  std::string text =
+      fmt::format("      = seed {}{}\n", *result.seed, count.empty() ? "" : fmt::format(": {} applied", count));
+  for (const FaultResult& fault : result.faults) {
+    text += fmt::format("          {}  {}\n", fault.number, fault.text());
+  }
+  return result.again.empty() ? text : text + fmt::format("      = again: {}\n", result.again);
+}
+
+std::string shrunk_text(const TestResult& result) {
+  if (!result.shrunk) {
+    return {};
+  }
+  const Shrunk& shrunk = *result.shrunk;
+  const std::string runs = fmt::format("{} run{}", shrunk.runs, shrunk.runs == 1 ? "" : "s");
+  std::string text = shrunk.faults.empty()
+                         ? fmt::format("      = shrunk in {}: it fails without any fault, too\n", runs)
+                         : fmt::format("      = shrunk to {} of {} fault{} in {}:\n", shrunk.faults.size(), shrunk.of,
+                                       shrunk.of == 1 ? "" : "s", runs);
+  for (const FaultResult& fault : shrunk.faults) {
+    text += fmt::format("          {}  {}\n", fault.number, fault.text());
+  }
+  return text + fmt::format("      = again: {}\n", shrunk.again);
+}
 
 std::string to_json(const TestResult& result) {
   Json json = {{"file", result.file},
@@ -32,6 +104,23 @@ std::string to_json(const TestResult& result) {
                {"round", result.round},
                {"attempts", result.attempts},
                {"earlier", result.earlier}};
+  if (result.seed) {
+    json["seed"] = *result.seed;
+    json["faults"] = Json::array();
+    for (const FaultResult& fault : result.faults) {
+      json["faults"].push_back(json_of(fault));
+    }
+    json["again"] = result.again;
+  }
+  if (result.shrunk) {
+    json["shrunk"] = {{"of", result.shrunk->of},
+                      {"runs", result.shrunk->runs},
+                      {"faults", Json::array()},
+                      {"again", result.shrunk->again}};
+    for (const FaultResult& fault : result.shrunk->faults) {
+      json["shrunk"]["faults"].push_back(json_of(fault));
+    }
+  }
   for (const TestFailure& failure : result.failures) {
     json["failures"].push_back(json_of(failure));
   }
@@ -52,6 +141,13 @@ std::optional<TestResult> from_json(const std::string& text) {
     result.round = json.at("round").get<std::size_t>();
     result.attempts = json.at("attempts").get<std::size_t>();
     result.earlier = json.at("earlier").get<std::string>();
+    if (json.contains("seed")) {
+      result.seed = json.at("seed").get<std::uint64_t>();
+      result.again = json.at("again").get<std::string>();
+      for (const Json& fault : json.at("faults")) {
+        result.faults.push_back(fault_of(fault));
+      }
+    }
     for (const Json& failure : json.at("failures")) {
       result.failures.push_back({.message = failure.at("message").get<std::string>(),
                                  .file = failure.at("file").get<std::string>(),

@@ -21,17 +21,18 @@ std::string describe(const Dependency& dependency) {
     return (*readiness)->describe();
   }
   const auto& condition = std::get<ProcessCondition>(dependency.condition);
-  return std::visit(Overloaded{
-                        [&](const UntilStarted&) { return fmt::format("'{}' has started", condition.process); },
-                        [&](const UntilExited& until) {
-                          return fmt::format("'{}' has exited with exit code {}", condition.process,
-                                             until.exit_code.text());
-                        },
-                        [&](const UntilOutput& until) {
-                          return fmt::format("'{}' has written {}", condition.process, until.pattern.describe());
-                        },
-                    },
-                    condition.state);
+  return std::visit(
+      Overloaded{
+          [&](const UntilStarted&) { return fmt::format("'{}' has started", condition.process); },
+          [&](const UntilExited& until) {
+            return fmt::format("'{}' has exited with exit code {}", condition.process, until.exit_code.text());
+          },
+          [&](const UntilOutput& until) {
+            const std::string times = until.occurrence == 1 ? "" : fmt::format(", {} times", until.occurrence);
+            return fmt::format("'{}' has written {}{}", condition.process, until.pattern.describe(), times);
+          },
+      },
+      condition.state);
 }
 
 std::string_view to_string(OnFailure on_failure) {

@@ -2,6 +2,7 @@
 // A condition that a process waits for before it starts: one `depends_on` of a launch file.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ struct UntilExited {
 };
 struct UntilOutput {
   OutputPattern pattern;
+  std::uint64_t occurrence = 1;  // the how many-th such line
 };
 
 // Another process of the launch.

@@ -13,8 +13,10 @@ namespace launch {
 
 namespace {
 
-TrackedProcess* find_target(const std::string& name, const std::unordered_map<const TrackedProcess*, std::size_t>& now,
-                            const ProcessTable& table, const SourceRange& where) {
+using Numbers = std::unordered_map<const TrackedProcess*, std::size_t>;  // of the processes of a traversal
+
+TrackedProcess* find_target(const std::string& name, const Numbers& now, const ProcessTable& table,
+                            const SourceRange& where) {
   const std::vector<TrackedProcess*> named = table.find(name);
   if (named.empty()) {
     const std::string suggestion = did_you_mean(name, table.names());
@@ -34,11 +36,37 @@ TrackedProcess* find_target(const std::string& name, const std::unordered_map<co
   return asked_for.empty() ? named.back() : asked_for.front();
 }
 
+Numbers numbered(const std::vector<TrackedProcess*>& processes) {
+  Numbers numbers;
+  for (std::size_t i = 0; i < processes.size(); ++i) {
+    numbers.emplace(processes[i], i);
+  }
+  return numbers;
+}
+
+void find_targets(std::vector<Dependency>& dependencies, const Numbers& numbers, const ProcessTable& table) {
+  std::vector<Diagnostic> errors;
+  for (Dependency& dependency : dependencies) {
+    const auto* const condition = std::get_if<ProcessCondition>(&dependency.condition);
+    if (condition == nullptr) {
+      continue;
+    }
+    try {
+      dependency.target = find_target(condition->process, numbers, table, dependency.where);
+    } catch (const LaunchError& error) {
+      errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!errors.empty()) {
+    throw LaunchError(std::move(errors));
+  }
+}
+
 // Throws LaunchError for the first cycle.
 class CycleSearch {
  public:
   CycleSearch(const std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& processes,
-              const std::unordered_map<const TrackedProcess*, std::size_t>& numbers)
+              const Numbers& numbers)
       : processes_(processes), edges_(processes.size()), marks_(processes.size(), Mark::kNew) {
     for (const Dependency& dependency : dependencies) {
       if (const auto target = numbers.find(dependency.target); target != numbers.end()) {
@@ -93,30 +121,18 @@ class CycleSearch {
 
 }  // namespace
 
+void resolve_targets(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
+                     const ProcessTable& table) {
+  find_targets(dependencies, numbered(asked_for), table);
+}
+
 void resolve_dependencies(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
                           const ProcessTable& table) {
   if (dependencies.empty()) {
     return;
   }
-  std::unordered_map<const TrackedProcess*, std::size_t> numbers;
-  for (std::size_t i = 0; i < asked_for.size(); ++i) {
-    numbers.emplace(asked_for[i], i);
-  }
-  std::vector<Diagnostic> errors;
-  for (Dependency& dependency : dependencies) {
-    const auto* const condition = std::get_if<ProcessCondition>(&dependency.condition);
-    if (condition == nullptr) {
-      continue;
-    }
-    try {
-      dependency.target = find_target(condition->process, numbers, table, dependency.where);
-    } catch (const LaunchError& error) {
-      errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
-  if (!errors.empty()) {
-    throw LaunchError(std::move(errors));
-  }
+  const Numbers numbers = numbered(asked_for);
+  find_targets(dependencies, numbers, table);
   CycleSearch(dependencies, asked_for, numbers).run();
 }
 

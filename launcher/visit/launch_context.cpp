@@ -54,6 +54,13 @@ LaunchContext::TestPart LaunchContext::next_test() {
   return chosen_test_ == number ? TestPart::kActionsToo : TestPart::kExpectations;
 }
 
+std::vector<FaultRequest> LaunchContext::visit_test(const std::vector<ActionPtr>& actions) {
+  AtExit restore([this] { in_test_ = false; });
+  in_test_ = true;
+  visit_in(scope_, actions);
+  return std::exchange(requests_.faults, {});
+}
+
 void LaunchContext::visit(const Action& action) {
   if (depth_ == kDeepest) {
     throw LaunchError(fmt::format("actions hold each other more than {} deep", kDeepest), action.where(),

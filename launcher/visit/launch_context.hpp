@@ -6,6 +6,7 @@
 // error in the middle of a file has therefore started nothing.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -62,6 +63,19 @@ class LaunchContext {
   enum class TestPart { kNothing, kExpectations, kActionsToo };
   // To be called once by each test that is visited: what it should request.
   TestPart next_test();
+
+  // The actions within a test are visited by this call, in a scope of their own. Returns the faults that they ask for.
+  std::vector<FaultRequest> visit_test(const std::vector<ActionPtr>& actions);
+  // Whether such a visit is under way. Timers and event handlers are visited later.
+  bool is_in_test() const { return in_test_; }
+
+  // Of faults: the seed of what is drawn, and the numbers of those that are applied; nullopt: all.
+  struct FaultChoice {
+    std::uint64_t seed = 1;
+    std::optional<std::set<std::size_t>> numbers;
+  };
+  void choose_faults(FaultChoice choice) { fault_choice_ = std::move(choice); }
+  const FaultChoice& fault_choice() const { return fault_choice_; }
 
   // The client that answers requests of actions to the ROS graph. It must outlive the context. Null while nothing is
   // carried out.
@@ -129,6 +143,8 @@ class LaunchContext {
   bool plan_only_ = false;
   bool takes_tests_ = false;
   std::optional<std::size_t> chosen_test_;
+  FaultChoice fault_choice_;
+  bool in_test_ = false;
   std::size_t tests_ = 0;                              // visited so far
   int depth_ = 0;                                      // of the actions that are being visited
   Explorer explorer_;                                  // empty: not exploring

@@ -94,6 +94,11 @@ class Planner {
     any_left_ |= !plan.left_to_run.empty();
     try {
       resolve_dependencies(requests.dependencies, asked_for, table_);
+      for (TestRequest& test : requests.tests) {
+        for (FaultRequest& fault : test.faults) {
+          resolve_targets(fault.dependencies, asked_for, table_);
+        }
+      }
       check_commands(requests.commands, table_);
     } catch (const LaunchError& error) {
       if (any_left_) {

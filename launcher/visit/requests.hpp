@@ -17,6 +17,7 @@
 #include "launcher/visit/coroutine_request.hpp"
 #include "launcher/visit/dependency.hpp"
 #include "launcher/visit/event_handler.hpp"
+#include "launcher/visit/fault_request.hpp"
 #include "launcher/visit/launch_record.hpp"
 #include "launcher/visit/left_to_run.hpp"
 #include "launcher/visit/process_command.hpp"
@@ -66,6 +67,7 @@ struct Requests {
   std::vector<TimerRequest> timers;
   std::optional<ShutdownRequest> shutdown;
   std::vector<TestRequest> tests;            // only if the visit takes tests (launch_context.hpp)
+  std::vector<FaultRequest> faults;          // of the test whose actions are being visited; it takes them
   std::vector<std::string> logs;             // messages of `log` actions
   std::vector<std::string> python_includes;  // paths of Python launch files, which are only noted
   int includes = 0;                          // other launch files that were included

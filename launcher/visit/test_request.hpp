@@ -16,6 +16,7 @@
 #include "launcher/language/output_pattern.hpp"
 #include "launcher/language/readiness_condition.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/visit/fault_request.hpp"
 #include "launcher/visit/trace_expectation.hpp"
 
 namespace launch {
@@ -69,6 +70,7 @@ struct TestRequest {
   Duration timeout{0};
   std::optional<Duration> duration;  // the system runs so long at least
   std::vector<Expectation> expectations;
+  std::vector<FaultRequest> faults;  // only if its actions were visited
   SourceRange where;
   SourceRange name_where;
 

@@ -152,6 +152,17 @@ void FakeProcessRunner::exit(Running& process, int code) {
   ::eventfd_write(process.exited.get(), 1);
 }
 
+std::optional<std::uint64_t> FakeProcessRunner::limit(const Process& process, int resource, std::uint64_t soft) {
+  std::uint64_t before = kSoftLimit;
+  for (const Limited& earlier : limits_) {
+    if (earlier.pid == process.pid && earlier.resource == resource) {
+      before = earlier.soft;
+    }
+  }
+  limits_.push_back({process.pid, resource, soft, loop_.now()});
+  return before;
+}
+
 ProcessExit FakeProcessRunner::outcome(const Process& process) {
   const Running& running = find(process);
   if (!running.dead) {

@@ -48,6 +48,14 @@ class FakeProcessRunner final : public ProcessRunner {
     Duration at;
   };
 
+  struct Limited {
+    pid_t pid;
+    int resource;
+    std::uint64_t soft;
+    Duration at;
+  };
+  static constexpr std::uint64_t kSoftLimit = 1'000'000;  // before the first limit() of a process
+
   explicit FakeProcessRunner(FakeEventLoop& loop);
   ~FakeProcessRunner() override;
 
@@ -58,11 +66,13 @@ class FakeProcessRunner final : public ProcessRunner {
 
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
+  std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
   ProcessExit outcome(const Process& process) override;
   ProcessExit reap(const Process& process) override;
 
   const std::vector<Spawned>& spawned() const { return spawned_; }
   const std::vector<Signalled>& signals() const { return signals_; }
+  const std::vector<Limited>& limits() const { return limits_; }
   std::vector<int> signals_of(pid_t pid) const;
   // Started and not yet reaped.
   std::size_t unreaped() const;
@@ -82,6 +92,7 @@ class FakeProcessRunner final : public ProcessRunner {
   pid_t last_pid_ = 1'000'000;
   std::vector<Spawned> spawned_;
   std::vector<Signalled> signals_;
+  std::vector<Limited> limits_;
 };
 
 }  // namespace launch

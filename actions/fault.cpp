@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system. Its random parts are
+// drawn here, so that a run has nothing left to chance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+
+#include "actions/depends_on.hpp"
+#include "actions/expectation_fields.hpp"
+#include "actions/range_field.hpp"
+#include "actions/resource_fields.hpp"
+#include "launcher/language/exit_code_filter.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+enum class Kind { kKill, kStop, kSlow, kLimit };
+const std::vector<std::string> kKinds = {"kill", "stop", "slow", "limit"};
+
+// An attribute that only some faults have.
+struct OwnAttribute {
+  const char* name;
+  std::vector<Kind> kinds;
+  const char* with;
+};
+
+unsigned percent(const Template& given, Scope& scope) {
+  const std::string text = given.perform(scope);
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  constexpr unsigned kAll = 100;
+  if (error != std::errc() || std::string_view(end, text.data() + text.size()) != "%" || value == 0 || value >= kAll) {
+    throw LaunchError(fmt::format("'{}' is no part of the processor", text), given.where(), "write 1% to 99%",
+                      Finding::kWrongValue);
+  }
+  return value;
+}
+
+class Fault : public Action {
+ public:
+  explicit Fault(const Fields& fields)
+      : Action(fields.where(), fields.condition()),
+        kind_(static_cast<Kind>(choice(fields, "do", kKinds))),
+        process_(fields.text("process")),
+        name_(fields.optional_text("name")),
+        at_(RangeField::of(fields, "at")),
+        lasts_(RangeField::of(fields, "for")),
+        probability_(from_zero(fields, "probability")),
+        probability_where_(fields.where("probability")),
+        signal_(fields.optional_text("signal")),
+        share_(fields.optional_text("to")),
+        memory_(fields.optional_text("memory")),
+        files_(from_zero(fields, "files")) {
+    check_attributes(fields);
+    for (const Fields* const item : fields.items("depends_on")) {
+      dependencies_.emplace_back(*item);
+    }
+    check_literals();
+  }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    if (!context.is_in_test()) {
+      throw LaunchError("a fault belongs in a <test>", where(),
+                        "there it may be in groups, loops and included files; at and depends_on say when it happens",
+                        Finding::kWrongPlace);
+    }
+    Scope& scope = context.scope();
+    std::vector<FaultRequest>& others = context.requests().faults;
+    FaultRequest fault;
+    fault.number = others.size() + 1;
+    fault.process = process_.perform(scope);
+    fault.process_where = process_.where();
+    fault.where = where();
+    const double probability = perform_probability(scope);
+    const NumberRange at = at_ ? at_->perform(scope) : NumberRange{};
+    const NumberRange lasts = lasts_ ? lasts_->perform(scope) : NumberRange{};
+    set_what(fault, scope);
+    fault.identity =
+        name_ ? name_->perform(scope)
+              : fmt::format("{} {}..{} {}..{} {}", describe(fault), at.from, at.to, lasts.from, lasts.to, probability);
+    const auto equal = std::count_if(others.begin(), others.end(),
+                                     [&](const FaultRequest& other) { return other.identity == fault.identity; });
+
+    const FaultDraw draw(context.fault_choice().seed, fmt::format("{} {}", fault.identity, equal));
+    fault.at = as_duration(draw.number("at", at));
+    if (lasts_) {
+      fault.lasts = as_duration(draw.number("for", lasts));
+    }
+    fault.is_random = at.is_random() || lasts.is_random() || probability < 1;
+    for (std::size_t i = 0; i < dependencies_.size(); ++i) {
+      fault.is_random = fault.is_random || dependencies_[i].is_random(scope);
+      if (std::optional<Dependency> dependency = dependencies_[i].perform(context, draw, i)) {
+        fault.dependencies.push_back(std::move(*dependency));
+      }
+    }
+    const auto& chosen = context.fault_choice().numbers;
+    if (draw.share("probability") >= probability) {
+      fault.left_out = "not drawn";
+    } else if (chosen && !chosen->contains(fault.number)) {
+      fault.left_out = "not chosen";
+    }
+    others.push_back(std::move(fault));
+  }
+
+ private:
+  void check_attributes(const Fields& fields) const {
+    static const std::array<OwnAttribute, 5> kOwn = {
+        {{"signal", {Kind::kKill}, "do=\"kill\""},
+         {"for", {Kind::kStop, Kind::kSlow, Kind::kLimit}, "do=\"stop\", do=\"slow\" and do=\"limit\""},
+         {"to", {Kind::kSlow}, "do=\"slow\""},
+         {"memory", {Kind::kLimit}, "do=\"limit\""},
+         {"files", {Kind::kLimit}, "do=\"limit\""}}};
+    for (const OwnAttribute& own : kOwn) {
+      if (fields.has(own.name) && std::find(own.kinds.begin(), own.kinds.end(), kind_) == own.kinds.end()) {
+        throw LaunchError(fmt::format("{} goes with {} only", own.name, own.with), fields.where(own.name), {},
+                          Finding::kExclusive);
+      }
+    }
+    if (kind_ == Kind::kSlow && !share_) {
+      throw LaunchError("it is not said how slow the process is", fields.where(), "to=\"25%\": a quarter of the time",
+                        Finding::kMissingAttribute);
+    }
+    if (kind_ == Kind::kLimit && !memory_ && !files_) {
+      throw LaunchError("it is not said what is limited", fields.where(), "give memory, files or both",
+                        Finding::kMissingAttribute);
+    }
+  }
+
+  void check_literals() const {
+    Scope nothing;
+    if (signal_ && signal_->is_literal()) {
+      signal_of(signal_->perform(nothing), signal_->where());
+    }
+    if (share_ && share_->is_literal()) {
+      percent(*share_, nothing);
+    }
+    if (memory_ && memory_->is_literal()) {
+      parse_bytes(memory_->perform(nothing), memory_->where());
+    }
+  }
+
+  double perform_probability(Scope& scope) const {
+    const double probability = probability_ ? probability_->perform(scope) : 1;
+    if (probability > 1) {
+      throw LaunchError(fmt::format("a probability is at most 1, got {:g}", probability), probability_where_, {},
+                        Finding::kWrongValue);
+    }
+    return probability;
+  }
+
+  void set_what(FaultRequest& fault, Scope& scope) const {
+    switch (kind_) {
+      case Kind::kKill:
+        fault.what = KillFault{signal_ ? signal_of(signal_->perform(scope), signal_->where()) : SIGKILL};
+        break;
+      case Kind::kStop:
+        fault.what = StopFault{};
+        break;
+      case Kind::kSlow:
+        fault.what = SlowFault{percent(*share_, scope)};
+        break;
+      case Kind::kLimit: {
+        LimitFault limit;
+        if (memory_) {
+          limit.memory = parse_bytes(memory_->perform(scope), memory_->where());
+        }
+        if (files_) {
+          limit.files = static_cast<std::uint64_t>(files_->perform(scope));
+        }
+        fault.what = limit;
+        break;
+      }
+    }
+  }
+
+  Kind kind_;
+  Template process_;
+  std::optional<Template> name_;
+  std::optional<RangeField> at_;
+  std::optional<RangeField> lasts_;
+  std::optional<NumberField> probability_;
+  SourceRange probability_where_;
+  std::optional<Template> signal_;
+  std::optional<Template> share_;
+  std::optional<Template> memory_;
+  std::optional<NumberField> files_;
+  std::vector<DependsOn> dependencies_;
+};
+
+}  // namespace
+
+ActionType fault_action() {
+  return {
+      .tag = "fault",
+      .help = "In a test: does something to a process of the system, at a time or when something is ready.",
+      .attributes =
+          {{"process", AttributeType::kText, true, "",
+            "name of the process or of its node; all processes of that name are meant", true},
+           {"do", AttributeType::kLiteral, true, "",
+            "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
+            "no more memory or descriptors",
+            true},
+           {"at", AttributeType::kText, false, "0",
+            "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
+            "the seed draws",
+            true},
+           {"for", AttributeType::kText, false, "until the end",
+            "with stop, slow and limit: seconds, or a range of them", true},
+           {"probability", AttributeType::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
+           {"signal", AttributeType::kText, false, "SIGKILL", "with kill: the name or number of the signal", true},
+           {"to", AttributeType::kText, false, "", "with slow: the part of the time in which it runs, such as 25%",
+            true},
+           {"memory", AttributeType::kText, false, "none", "with limit: its address space in bytes, or with K, M or G",
+            true},
+           {"files", AttributeType::kInteger, false, "none", "with limit: its open descriptors", true},
+           {"name", AttributeType::kText, false, "all attributes", "what tells its draws from those of other faults",
+            true}},
+      .items = {DependsOn::item_of_fault()},
+      .extension = true,
+      .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
+}
+
+}  // namespace launch

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "actions/range_field.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "launcher/base/ascii.hpp"
+
+namespace launch {
+
+std::optional<RangeField> RangeField::of(const Fields& fields, const std::string& attribute, bool whole) {
+  std::optional<Template> text = fields.optional_text(attribute);
+  if (!text) {
+    return std::nullopt;
+  }
+  RangeField field(attribute, *std::move(text), whole);
+  if (field.text_.is_literal()) {
+    Scope nothing;
+    field.perform(nothing);
+  }
+  return field;
+}
+
+NumberRange RangeField::parse(const std::string& text) const {
+  const std::string_view all = text;
+  const std::size_t dots = all.find("..");
+  if (dots == std::string_view::npos) {
+    const double value = number(all);
+    return {value, value};
+  }
+  const NumberRange range{number(all.substr(0, dots)), number(all.substr(dots + 2))};
+  if (range.to < range.from) {
+    throw LaunchError(fmt::format("the range of {} begins behind its end: '{}'", attribute_, text), where(), {},
+                      Finding::kWrongType);
+  }
+  return range;
+}
+
+double RangeField::number(std::string_view text) const {
+  const std::string_view digits = trim(text);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_number = error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
+  constexpr double kMost = 1e9;
+  if (!is_number || value < (whole_ ? 1 : 0) || value > kMost || (whole_ && value != std::floor(value))) {
+    throw LaunchError(fmt::format("{} takes {}, got '{}'", attribute_,
+                                  whole_ ? "a whole number from 1" : "a number that is not negative", text),
+                      where(), "or a range of them, such as 1..5", Finding::kWrongType);
+  }
+  return value;
+}
+
+}  // namespace launch

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/run/faults.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <utility>
+#include <variant>
+
+namespace launch {
+
+namespace {
+
+// A slow process runs and stands still once in this time.
+constexpr Duration kTurn = std::chrono::milliseconds(100);
+constexpr unsigned kWhole = 100;  // percent
+
+}  // namespace
+
+struct Faults::Fault {
+  explicit Fault(FaultRequest given) : request(std::move(given)) {}
+
+  // A soft limit of a process as it was.
+  struct Limit {
+    ProcessId id;
+    int resource;
+    std::uint64_t before;
+  };
+
+  FaultRequest request;
+  std::vector<DependencyWatches::WatchPtr> watches{};
+  std::size_t open = 0;  // conditions that do not hold yet
+  bool is_over = false;
+  EventLoop::SourcePtr timer{};       // its begin, then its end
+  EventLoop::SourcePtr turn_timer{};  // of a slow process
+  std::vector<ProcessId> processes{};
+  std::vector<Limit> limits{};
+};
+
+Faults::Faults(EventLoop& loop, ProcessSupervisor& supervisor, Processes& processes,
+               std::function<void(const std::string&)> log)
+    : loop_(loop), supervisor_(supervisor), processes_(processes), log_(std::move(log)), watches_(loop) {}
+
+Faults::~Faults() = default;
+
+void Faults::start(std::vector<FaultRequest> faults) {
+  for (FaultRequest& request : faults) {
+    if (!request.left_out.empty()) {
+      continue;
+    }
+    Fault& fault = faults_.emplace_back(std::move(request));
+    fault.open = fault.request.dependencies.size();
+    if (fault.open == 0) {
+      begin(fault);
+    }
+    for (const Dependency& dependency : fault.request.dependencies) {
+      fault.watches.push_back(watches_.begin(
+          dependency, [this, &fault](const std::optional<std::string>& failure) { decide(fault, failure); }));
+    }
+  }
+}
+
+void Faults::decide(Fault& fault, const std::optional<std::string>& failure) {
+  if (fault.is_over) {
+    return;
+  }
+  if (failure) {
+    miss(fault, *failure);
+  } else if (--fault.open == 0) {
+    begin(fault);
+  }
+}
+
+void Faults::begin(Fault& fault) {
+  fault.timer = loop_.after(fault.request.at, [this, &fault] { apply(fault); });
+}
+
+void Faults::apply(Fault& fault) {
+  fault.timer.reset();
+  const std::string& name = fault.request.process;
+  FaultEvent event;
+  std::vector<ProcessId> running;
+  for (const TrackedProcess* const process : processes_.find(name)) {
+    if (process->id != 0 && supervisor_.view(process->id).pid >= 0) {
+      running.push_back(process->id);
+      event.labels.push_back(supervisor_.view(process->id).label);
+    }
+  }
+  if (running.empty()) {
+    miss(fault, fmt::format("'{}' did not run", name));
+    return;
+  }
+  if (const auto* const kill = std::get_if<KillFault>(&fault.request.what)) {
+    event.signal = kill->signal;
+  }
+  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
+  tell(fault, event);
+  for (const ProcessId id : running) {
+    const std::string reason = std::visit([&](const auto& what) { return apply(fault, id, what); }, fault.request.what);
+    if (!reason.empty()) {
+      miss(fault, reason);
+      return;
+    }
+    fault.processes.push_back(id);
+  }
+  if (std::holds_alternative<SlowFault>(fault.request.what)) {
+    turn(fault, false);
+  }
+  if (fault.request.lasts) {
+    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end(fault); });
+  } else {
+    fault.is_over = true;
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
+  }
+}
+
+std::string Faults::apply(Fault& /*fault*/, ProcessId id, const KillFault& kill) {
+  supervisor_.signal(id, kill.signal);
+  return {};
+}
+
+std::string Faults::apply(Fault& fault, ProcessId id, const StopFault& /*stop*/) {
+  hold(fault, id);
+  return {};
+}
+
+std::string Faults::apply(Fault& /*fault*/, ProcessId /*id*/, const SlowFault& /*slow*/) {
+  return {};  // turn() follows
+}
+
+std::string Faults::apply(Fault& fault, ProcessId id, const LimitFault& limit) {
+  const std::pair<int, std::optional<std::uint64_t>> limits[] = {{RLIMIT_AS, limit.memory},
+                                                                 {RLIMIT_NOFILE, limit.files}};
+  for (const auto& [resource, value] : limits) {
+    if (!value) {
+      continue;
+    }
+    const std::optional<std::uint64_t> before = supervisor_.limit(id, resource, *value);
+    if (!before) {
+      return fmt::format("'{}' can't be limited", fault.request.process);
+    }
+    fault.limits.push_back({id, resource, *before});
+  }
+  return {};
+}
+
+void Faults::turn(Fault& fault, bool runs) {
+  const unsigned percent = std::get<SlowFault>(fault.request.what).percent;
+  for (const ProcessId id : fault.processes) {
+    if (runs) {
+      release(fault, id);
+    } else {
+      hold(fault, id);
+    }
+  }
+  fault.turn_timer =
+      loop_.after(kTurn * (runs ? percent : kWhole - percent) / kWhole, [this, &fault, runs] { turn(fault, !runs); });
+}
+
+void Faults::hold(const Fault& fault, ProcessId id) {
+  if (supervisor_.view(id).pid < 0) {
+    return;
+  }
+  std::set<const Fault*>& holders = held_[id];
+  if (holders.empty()) {
+    supervisor_.pause(id);
+  }
+  holders.insert(&fault);
+}
+
+void Faults::release(const Fault& fault, ProcessId id) {
+  const auto held = held_.find(id);
+  if (held != held_.end() && held->second.erase(&fault) > 0 && held->second.empty()) {
+    held_.erase(held);
+    supervisor_.resume(id);
+  }
+}
+
+void Faults::end(Fault& fault) {
+  fault.timer.reset();
+  fault.turn_timer.reset();
+  for (const ProcessId id : fault.processes) {
+    release(fault, id);
+  }
+  for (const Fault::Limit& limit : fault.limits) {
+    supervisor_.limit(limit.id, limit.resource, limit.before);
+  }
+  fault.limits.clear();
+  fault.is_over = true;
+  tell(fault, {.kind = FaultEvent::Kind::kOver});
+}
+
+void Faults::miss(Fault& fault, const std::string& reason) {
+  fault.is_over = true;
+  fault.timer.reset();
+  log_(fmt::format("fault {}: {} can't be applied: {}", fault.request.number, describe(fault.request), reason));
+  tell(fault, {.kind = FaultEvent::Kind::kMissed, .reason = reason});
+}
+
+void Faults::tell(const Fault& fault, FaultEvent event) const {
+  if (observer_) {
+    event.number = fault.request.number;
+    observer_(event);
+  }
+}
+
+void Faults::on_event(const ProcessEvent& event) {
+  if (std::holds_alternative<ProcessExited>(event.what)) {
+    held_.erase(event.id);
+    for (Fault& fault : faults_) {
+      // The next run has limits of its own.
+      std::erase_if(fault.limits, [&](const Fault::Limit& limit) { return limit.id == event.id; });
+    }
+  }
+  if (const TrackedProcess* const process = processes_.find(event.id)) {
+    watches_.on_process_event(*process);
+  }
+}
+
+void Faults::on_line(ProcessId id, OutputStream stream, std::string_view line) {
+  if (const TrackedProcess* const process = watch_output() ? processes_.find(id) : nullptr) {
+    watches_.on_line(*process, stream, line);
+  }
+}
+
+void Faults::shutdown() {
+  for (Fault& fault : faults_) {
+    fault.is_over = true;
+    fault.timer.reset();
+    fault.turn_timer.reset();
+    fault.watches.clear();
+  }
+  for (const auto& [id, holders] : held_) {
+    supervisor_.resume(id);
+  }
+  held_.clear();
+}
+
+}  // namespace launch

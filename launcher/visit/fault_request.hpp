@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fault that a test asks for: what is done to a process, and when. Its random parts are drawn already.
+#pragma once
+
+#include <signal.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "launcher/base/source.hpp"
+#include "launcher/visit/dependency.hpp"
+
+namespace launch {
+
+struct KillFault {
+  int signal = SIGKILL;
+};
+// The process stands still.
+struct StopFault {};
+// The process runs for this part of the time only.
+struct SlowFault {
+  unsigned percent = 50;
+};
+struct LimitFault {
+  std::optional<std::uint64_t> memory;  // bytes of address space
+  std::optional<std::uint64_t> files;   // open descriptors
+};
+
+struct FaultRequest {
+  std::size_t number = 0;  // among the faults of its test, from 1
+  std::string process;     // one of its names (process_table.hpp); every process of that name is meant
+  std::variant<KillFault, StopFault, SlowFault, LimitFault> what;
+  Duration at{0};                        // from the begin of the test, or from when all dependencies hold
+  std::optional<Duration> lasts;         // nullopt: as long as the process
+  std::vector<Dependency> dependencies;  // their number of a process means nothing
+  std::string left_out;                  // why it is not applied in this run; empty: it is
+  bool is_random = false;                // it has something that is drawn
+  std::string identity;                  // as FaultDraw takes it
+  SourceRange where;
+  SourceRange process_where;
+};
+
+// "kill of 'worker'", "kill of 'worker' by SIGTERM", "stop of 'worker' for 2 s", "slow of 'worker' to 25% for 1 s",
+// "limit of 'worker' to 20 files".
+std::string describe(const FaultRequest& fault);
+
+}  // namespace launch

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults in the tests of launch files: real processes are killed, stopped, slowed and limited.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace fs = std::filesystem;
+
+// Counts its lines, and one in `step` seconds.
+constexpr const char* kCounter = R"sh(i=0
+while :; do
+  i=$((i + 1))
+  echo item $i
+  sleep $1
+done
+)sh";
+
+class FaultTest : public testing::Test {
+ protected:
+  FaultTest() { write_file(sandbox_.directory() / "counter.sh", kCounter); }
+
+  std::string write(const std::string& actions) {
+    const fs::path path = sandbox_.directory() / "a.launch.xml";
+    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
+    return path.string();
+  }
+
+  static CommandResult run(std::vector<std::string> words) {
+    words.insert(words.begin(), {LAUNCH_PROGRAM, "test"});
+    return run_command({.argv = words}, std::chrono::seconds(100));
+  }
+
+  // Without times and directories, which differ.
+  std::string plain(const std::string& text) const {
+    std::string result = std::regex_replace(text, std::regex("(  |, in | at )[0-9.]+ s"), "$1T s");
+    result = std::regex_replace(result, std::regex("files: .*/"), "files: DIR/");
+    for (std::size_t at = 0; (at = result.find(sandbox_.directory().string() + "/", at)) != std::string::npos;) {
+      result.erase(at, sandbox_.directory().string().size() + 1);
+    }
+    return result;
+  }
+
+  Sandbox sandbox_;
+};
+
+TEST_F(FaultTest, AProcessThatItKillsHasNotFailedAndRespawns) {
+  const std::string file = write(R"xml(
+  <executable name="p" cmd="sh $(dirname)/counter.sh 0.01" respawn="true" respawn_delay="0.01"/>
+  <executable name="q" cmd="cat"/>
+  <test name="t">
+    <fault process="p" do="kill"><depends_on process="p" condition="output" pattern="item" occurrence="3"/></fault>
+    <fault process="q" do="kill" signal="SIGSEGV"/>
+    <in_order process="p"><line text="item 3"/><line pattern="item 1$"/></in_order>
+  </test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(plain(result.out), "PASS  a.launch.xml: t  T s  (2 of 2 faults)\n\n1 test: 1 passed, in T s\n");
+}
+
+TEST_F(FaultTest, WhatTheKillBringsDownHasFailed) {
+  const std::string file = write(R"xml(
+  <executable name="p" shell="true" cmd="trap 'exit 3' TERM; echo ready; while :; do sleep 0.01; done"/>
+  <test name="t">
+    <fault process="p" do="kill" signal="SIGTERM"><depends_on process="p" condition="output" pattern="ready"/></fault>
+    <output text="never"/>
+  </test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.out), R"(FAIL  a.launch.xml: t  T s  (1 of 1 fault)
+a.launch.xml:3:4: error: p-1 has exited with code 3
+    3 |   <executable name="p" shell="true" cmd="trap 'exit 3' TERM; echo ready; while :; do sleep 0.01; done"/>
+      |    ^~~~~~~~~~
+      = help: if that is right: <exit process="p" code="3"/>
+      = last lines of p-1:
+          ready
+      = not judged, because the run ended: 1 expectation
+      = seed 1: 1 of 1 fault applied
+          1  a.launch.xml:5:6: kill of 'p' by SIGTERM at T s
+      = again: launch test a.launch.xml --seed 1
+      = files: DIR/0001-t
+
+1 test: 0 passed, 1 failed, in T s
+)");
+}
+
+TEST_F(FaultTest, StopsSlowsAndLimits) {
+  const std::string file = write(R"xml(
+  <executable name="p" cmd="sh $(dirname)/counter.sh 0.01"/>
+  <test name="t" timeout="30">
+    <fault process="p" do="stop" for="0.2"/>
+    <fault process="p" do="slow" to="50%" for="0.3" at="0.3"/>
+    <fault process="p" do="limit" memory="1G" files="50" for="0.1"/>
+    <output process="p" text="item 5"/>
+  </test>)xml");
+  const CommandResult result = run({file, "--keep", "--directory", sandbox_.directory() / "out"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const std::string output = read_file(sandbox_.directory() / "out/0001-t/output.txt");
+  EXPECT_THAT(output, AllOf(HasSubstr("fault 1: stop of 'p' for 0.2 s"), HasSubstr("fault 2: slow of 'p' to 50% for"),
+                            HasSubstr("fault 3: limit of 'p' to 1073741824 bytes and 50 files for 0.1 s")));
+}
+
+TEST_F(FaultTest, AFaultThatCouldNotBeAppliedFailsTheTestUnlessItIsDrawn) {
+  const std::string file = write(R"xml(
+  <executable name="p" cmd="true"/>
+  <executable name="q" cmd="cat"/>
+  <test name="certain">
+    <fault process="p" do="kill" at="0.3"/>
+    <exit process="q" when="shutdown" code="SIGINT"/>
+    <exit process="p"/>
+  </test>
+  <test name="drawn">
+    <fault process="p" do="kill" at="0.3..0.4"/>
+    <exit process="q" when="shutdown" code="SIGINT"/>
+    <exit process="p"/>
+  </test>)xml");
+  const CommandResult result = run({file, "-j", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.out), R"(FAIL  a.launch.xml: certain  T s  (0 of 1 fault)
+a.launch.xml:6:6: error: the kill of 'p' was not applied: 'p' did not run
+    6 |     <fault process="p" do="kill" at="0.3"/>
+      |      ^~~~~
+      = seed 1: 0 of 1 fault applied
+          1  a.launch.xml:6:6: kill of 'p': not applied: 'p' did not run
+      = again: launch test a.launch.xml --name certain --seed 1
+      = files: DIR/0001-certain
+PASS  a.launch.xml: drawn  T s  (0 of 1 fault)
+
+2 tests: 1 passed, 1 failed, in T s
+FAIL  a.launch.xml: certain
+)");
+}
+
+TEST_F(FaultTest, NamesThatNoProcessHasAreErrorsBeforeAnythingStarts) {
+  const std::string file = write(R"xml(
+  <executable name="worker" shell="true" cmd="touch $(dirname)/started"/>
+  <test name="t">
+    <fault process="wroker" do="kill"/>
+    <exit process="worker"/>
+  </test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(plain(result.err), R"(a.launch.xml:5:21: error: no process is named 'wroker'
+    5 |     <fault process="wroker" do="kill"/>
+      |                     ^~~~~~
+      = help: did you mean 'worker'?
+)");
+  EXPECT_FALSE(fs::exists(sandbox_.directory() / "started"));
+}
+
+// Of 100 seeds the one that draws four faults at once has a fault that the system does not survive.
+TEST_F(FaultTest, OfManySeedsOneFailsAndIsShrunk) {
+  const std::string file = write(R"xml(
+  <executable name="a" cmd="cat"/>
+  <executable name="b" cmd="cat"/>
+  <executable name="step" cmd="true"/>
+  <test name="survives">
+    <fault process="a" do="stop" for="0.001"/>
+    <fault process="a" do="stop" for="0.002" at="0.001..0.003"/>
+    <fault name="rare" process="b" do="kill" probability="0.01"/>
+    <fault process="a" do="slow" to="50%" for="0.001..0.002"/>
+    <exit process="step"/>
+    <exit process="b" when="shutdown" code="SIGINT"/>
+  </test>)xml");
+  const std::string json = sandbox_.directory() / "result.json";
+  const CommandResult result = run({file, "--seeds", "100", "--shrink", "--json", json});
+  EXPECT_EQ(result.exit_code, 1);
+  const auto results = nlohmann::json::parse(read_file(json));
+  EXPECT_EQ(results["tests"].size(), 100U);
+  EXPECT_EQ(results["failed"], 1) << result.out;
+  for (const auto& test : results["tests"]) {
+    EXPECT_EQ(test.contains("shrunk"), test["outcome"] == "failed");
+    if (test.contains("shrunk")) {
+      EXPECT_EQ(test["shrunk"]["of"], 4);
+      ASSERT_EQ(test["shrunk"]["faults"].size(), 1U) << test.dump(2);
+      EXPECT_EQ(test["shrunk"]["faults"][0]["what"], "kill of 'b'");
+      const std::string seed = std::to_string(test["seed"].get<int>());
+      EXPECT_THAT(plain(result.out), HasSubstr("SHRUNK  a.launch.xml: survives [seed " + seed + R"(]
+      = shrunk to 1 of 4 faults in 4 runs:
+          3  a.launch.xml:9:6: kill of 'b' at T s
+      = again: launch test a.launch.xml --seed )" +
+                                               seed + " --faults 3\n"));
+      const CommandResult again = run({file, "--seed", seed, "--faults", "3"});
+      EXPECT_EQ(again.exit_code, 1) << again.out;
+      const CommandResult without = run({file, "--seed", seed, "--faults", "1,2,4"});
+      EXPECT_EQ(without.exit_code, 0) << without.out;
+    }
+  }
+}
+
+TEST_F(FaultTest, TheSameSeedGivesTheSameFaultsInEachReport) {
+  const std::string file = write(R"xml(
+  <executable name="p" cmd="cat"/>
+  <executable name="step" shell="true" cmd="echo $LAUNCH_TEST_SEED"/>
+  <test name="t">
+    <fault process="p" do="stop" for="0.001..0.02" at="0..0.02"/>
+    <fault process="p" do="stop" for="0.001..0.02" probability="0.5"/>
+    <exit process="step"/>
+    <output process="step" text="7"/>
+  </test>)xml");
+  const auto faults = [&](const std::string& seed) {
+    const std::string json = sandbox_.directory() / "result.json";
+    run({file, "--seed", seed, "--json", json, "--junit", sandbox_.directory() / "result.xml", "--tap",
+         sandbox_.directory() / "result.tap"});
+    std::vector<std::string> texts;
+    for (const auto& fault : nlohmann::json::parse(read_file(json))["tests"][0]["faults"]) {
+      texts.push_back(fault["what"].get<std::string>() + (fault["left_out"].get<bool>() ? " not" : ""));
+    }
+    return texts;
+  };
+  EXPECT_NE(faults("8"), faults("7"));
+  EXPECT_EQ(faults("7"), faults("7"));
+  const std::string junit = read_file(sandbox_.directory() / "result.xml");
+  EXPECT_THAT(junit, AllOf(HasSubstr("<property name=\"seed\" value=\"7\"/>"),
+                           HasSubstr("<property name=\"fault 1\" value=\""), HasSubstr("stop of 'p' for 0.0")));
+  EXPECT_THAT(read_file(sandbox_.directory() / "result.tap"), AllOf(HasSubstr("# seed 7\n"), HasSubstr("# fault 1: ")));
+}
+
+}  // namespace
