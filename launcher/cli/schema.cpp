@@ -106,6 +106,8 @@ void add_attributes(Json& schema, const std::vector<AttributeSpec>& attributes) 
       property["type"] = {"number", "string"};
     } else if (attribute.type == AttributeType::kWords) {
       property["type"] = {"string", "array"};
+    } else if (attribute.type == AttributeType::kText && attribute.extension) {
+      property["type"] = {"string", "number"};
     } else if (attribute.type != AttributeType::kParameter) {
       property["type"] = "string";
     }

@@ -461,6 +461,10 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
   EXPECT_THAT(late.out, HasSubstr(" outside; least "));
   EXPECT_THAT(late.out, HasSubstr("error: the chain /ping /pong does not take the time that is expected\n"));
   EXPECT_THAT(late.out, HasSubstr("nearest events:"));
+  const CommandResult faults = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "46_faults.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(faults.exit_code, 0) << faults.out << faults.err;
+  EXPECT_THAT(faults.out, HasSubstr("(1 of 1 fault)\n"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));
