@@ -77,7 +77,7 @@ std::vector<TestCase> list_all(const Options& options, const Registry& registry,
         fmt::print(stderr, "{}",
                    render(check_arguments(options.target.arguments, description,
                                           find_arguments(description, registry, scope), Severity::kWarning),
-                          ::isatty(STDERR_FILENO) != 0));
+                          ::isatty(STDERR_FILENO) != 0, "launch test"));
       }
       std::move(found.begin(), found.end(), std::back_inserter(tests));
     } catch (const LaunchError& error) {

@@ -115,7 +115,7 @@ TEST_F(Control, StopStartAndRestartWaitUntilItHasHappened) {
   EXPECT_EQ(ps()["launches"][0]["processes"][1]["state"], "ended") << "it would respawn otherwise";
   result = ask({"stop", "sleeper"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.err, "launch stop: sleeper-2 does not run\n");
+  EXPECT_EQ(result.err, "launch stop: error: sleeper-2 does not run\n");
   result = ask({"start", "sleeper-2"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, MatchesRegex("sleeper-2 has started, pid [0-9]+\n"));

@@ -112,7 +112,8 @@ int logs_command(const std::string& name, const std::vector<std::string>& words,
       break;
     }
     if (event->value("event", "") == "dropped") {
-      fmt::print(stderr, "launch logs: {} lines came too fast, launch.log has them\n", event->value("lines", 0));
+      fmt::print(stderr, "launch logs: warning: {} lines came too fast, launch.log has them\n",
+                 event->value("lines", 0));
     } else {
       fmt::print("[{}] {}\n", event->value("process", ""), event->value("line", ""));
     }

@@ -36,7 +36,7 @@ std::string description_of(const std::string& name) {
 // Prints what has not been done. Returns the exit code.
 int report(const std::string& name, const Json& outcome) {
   for (const Json& text : outcome["refused"]) {
-    fmt::print(stderr, "launch {}: {}\n", name, text.get<std::string>());
+    fmt::print(stderr, "{}", command_error("launch " + name, text.get<std::string>()));
   }
   for (const Json& process : outcome["dropped"]) {
     fmt::print("{} will not start\n", process.get<std::string>());

@@ -116,7 +116,7 @@ class OpaqueCoroutine(Action):
 _MOST_TURNS = 100_000
 
 
-class Turn(Action):
+class _Turn(Action):
     """One turn of a loop of an XML or YAML file: its actions, and the values that they get by their names."""
 
     def __init__(self, values, actions, place):

@@ -187,10 +187,10 @@ def _children(name, names, entity, parser, ignore):
 
 def _turns(children, index, place):
     """What the loop calls for each of its turns: with the index, or with the values of the turn."""
-    from launch.actions._groups import Turn
+    from launch.actions._groups import _Turn
     if index is not None:
-        return lambda i: [Turn({index: i}, children, place)]
-    return lambda **values: [Turn(values, children, place)]
+        return lambda i: [_Turn({index: i}, children, place)]
+    return lambda **values: [_Turn(values, children, place)]
 
 
 def _parameter(item, parser):
