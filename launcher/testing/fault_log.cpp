@@ -9,8 +9,8 @@
 namespace launch {
 
 std::string FaultResult::text() const {
-  const std::string place = fmt::format("{}:{}:{}: {}", file, line, column, what);
-  return applied() ? fmt::format("{} at {:.3f} s", place, seconds) : fmt::format("{}: {}", place, reason);
+  return applied() ? fmt::format("{}: {} at {:.3f} s", place, what, seconds)
+                   : fmt::format("{}: {}: {}", place, what, reason);
 }
 
 void FaultLog::begin(std::vector<FaultRequest> faults, Duration now) {
@@ -53,6 +53,7 @@ std::vector<FaultResult> FaultLog::results(const std::string& why) const {
     FaultResult& result = results.emplace_back();
     result.number = entry.request.number;
     result.what = describe(entry.request);
+    result.place = to_string(entry.request.where);
     if (const SourceRange& where = entry.request.where) {
       const SourceFile::Position position = where.file->position(where.begin);
       result.file = where.file->path();

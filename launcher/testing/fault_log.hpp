@@ -18,6 +18,7 @@ struct FaultResult {
   std::string file;
   unsigned line = 0;
   unsigned column = 0;
+  std::string place;      // as messages show it: "system.launch.xml:8:6"
   std::string what;       // "kill of 'worker'"
   std::string reason;     // why it was not applied; empty: it was
   bool left_out = false;  // not drawn, or not chosen on the command line

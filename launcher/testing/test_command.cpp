@@ -184,7 +184,9 @@ int run(const Options& options) {
   queue.jobs =
       options.jobs.empty() ? std::max(1U, std::thread::hardware_concurrency()) : whole_number(options.jobs, "--jobs");
   queue.keep = options.keep;
-  queue.rounds = !options.repeat.empty() ? whole_number(options.repeat, "--repeat") : options.until_failure ? 0 : 1;
+  queue.rounds = !options.repeat.empty()                                ? whole_number(options.repeat, "--repeat")
+                 : options.until_failure && options.seeds.seeds.empty() ? 0
+                                                                        : 1;
   queue.stop_at_failure = options.until_failure;
   queue.retries = options.retries.empty() ? 0 : whole_number(options.retries, "--retries");
   queue.engine = words_of(options.engine);
@@ -246,7 +248,7 @@ int test_command(std::vector<std::string> words) {
   command.take_flag("--github", options.github, "also print the failures as annotations for GitHub's workflows");
   command.take_text("--repeat", options.repeat, "run all tests so often");
   command.take_flag("--until-failure", options.until_failure,
-                    "begin no test after one has failed; without --repeat, go on until then");
+                    "begin no test after one has failed; without --repeat and --seeds, go on until then");
   command.take_text("--retries", options.retries,
                     "run a test that has failed again, at most so often; the result says so");
   command.take_text("--shard", options.shard, "I/N: only the I-th of N parts of the tests");

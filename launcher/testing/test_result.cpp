@@ -21,11 +21,8 @@ Json json_of(const TestFailure& failure) {
 }
 
 Json json_of(const FaultResult& fault) {
-  Json json = {{"number", fault.number},
-               {"what", fault.what},
-               {"file", fault.file},
-               {"line", fault.line},
-               {"column", fault.column}};
+  Json json = {{"number", fault.number}, {"what", fault.what},     {"file", fault.file},
+               {"line", fault.line},     {"column", fault.column}, {"place", fault.place}};
   json["left_out"] = fault.left_out;
   if (fault.applied()) {
     json["seconds"] = fault.seconds;
@@ -40,6 +37,7 @@ FaultResult fault_of(const Json& json) {
           .file = json.at("file").get<std::string>(),
           .line = json.at("line").get<unsigned>(),
           .column = json.at("column").get<unsigned>(),
+          .place = json.at("place").get<std::string>(),
           .what = json.at("what").get<std::string>(),
           .reason = json.value("reason", ""),
           .left_out = json.at("left_out").get<bool>(),

@@ -96,20 +96,55 @@ a.launch.xml:3:4: error: p-1 has exited with code 3
 )");
 }
 
+// Says when it stood still, and what its limit of descriptors is whenever that changes.
+constexpr const char* kWitness = R"py(import resource
+import time
+
+last = time.monotonic()
+limit = None
+print('ready', flush=True)
+while True:
+    time.sleep(0.002)
+    now = time.monotonic()
+    if now - last > 0.05:
+        print(f'stood still for {now - last:.2f} s', flush=True)
+    last = now
+    found = resource.getrlimit(resource.RLIMIT_NOFILE)[0], resource.getrlimit(resource.RLIMIT_AS)[0]
+    if found != limit:
+        limit = found
+        print(f'limits {limit[0]} {limit[1]}', flush=True)
+)py";
+
 TEST_F(FaultTest, StopsSlowsAndLimits) {
+  write_file(sandbox_.directory() / "witness.py", kWitness);
   const std::string file = write(R"xml(
-  <executable name="p" cmd="sh $(dirname)/counter.sh 0.01"/>
-  <test name="t" timeout="30">
-    <fault process="p" do="stop" for="0.2"/>
-    <fault process="p" do="slow" to="50%" for="0.3" at="0.3"/>
-    <fault process="p" do="limit" memory="1G" files="50" for="0.1"/>
-    <output process="p" text="item 5"/>
+  <executable name="stopped" cmd="python3 $(dirname)/witness.py"/>
+  <executable name="slow" cmd="python3 $(dirname)/witness.py"/>
+  <executable name="limited" cmd="python3 $(dirname)/witness.py"/>
+  <test name="t">
+    <fault process="stopped" do="stop" for="0.3">
+      <depends_on process="stopped" condition="output" pattern="limits"/>
+    </fault>
+    <fault process="slow" do="slow" to="10%" for="0.5">
+      <depends_on process="slow" condition="output" pattern="limits"/>
+    </fault>
+    <fault process="limited" do="limit" memory="1G" files="50" for="0.1">
+      <depends_on process="limited" condition="output" pattern="limits"/>
+    </fault>
+    <output process="stopped" pattern="stood still for (0\\.[3-9]|[1-9])"/>
+    <output process="slow" pattern="stood still for " min="3"/>
+    <in_order process="limited">
+      <line pattern="limits [0-9]+ -1"/>
+      <line text="limits 50 1073741824"/>
+      <line pattern="limits [0-9]+ -1"/>
+    </in_order>
   </test>)xml");
   const CommandResult result = run({file, "--keep", "--directory", sandbox_.directory() / "out"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const std::string output = read_file(sandbox_.directory() / "out/0001-t/output.txt");
-  EXPECT_THAT(output, AllOf(HasSubstr("fault 1: stop of 'p' for 0.2 s"), HasSubstr("fault 2: slow of 'p' to 50% for"),
-                            HasSubstr("fault 3: limit of 'p' to 1073741824 bytes and 50 files for 0.1 s")));
+  EXPECT_THAT(output,
+              AllOf(HasSubstr("fault 1: stop of 'stopped' for 0.3 s"), HasSubstr("fault 2: slow of 'slow' to 10% for"),
+                    HasSubstr("fault 3: limit of 'limited' to 1073741824 bytes and 50 files for 0.1 s")));
 }
 
 TEST_F(FaultTest, AFaultThatCouldNotBeAppliedFailsTheTestUnlessItIsDrawn) {

@@ -465,6 +465,12 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
       {.argv = {LAUNCH_PROGRAM, "test", folder + "46_faults.launch." + GetParam()}}, std::chrono::seconds(100));
   EXPECT_EQ(faults.exit_code, 0) << faults.out << faults.err;
   EXPECT_THAT(faults.out, HasSubstr("(1 of 1 fault)\n"));
+  const CommandResult crash = run_command({.argv = {LAUNCH_PROGRAM, "test", folder + "46_faults.launch." + GetParam(),
+                                                    "-n", "ping ends well", "--seed", "9", "--shrink"}},
+                                          std::chrono::seconds(100));
+  EXPECT_EQ(crash.exit_code, 1) << crash.out << crash.err;
+  EXPECT_THAT(crash.out, HasSubstr("      = shrunk to 1 of "));
+  EXPECT_THAT(crash.out, HasSubstr(": kill of 'ping' at "));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));
