@@ -67,6 +67,8 @@ std::variant<CommandLine, ExitNow> parse_command_line(int argc, const char* cons
   app.add_flag("--strict-args", command.strict_arguments,
                "arguments that the file does not declare, or that are given twice, are errors");
   app.add_flag("--top", command.top, "begin in the full-screen view of launch top; q leaves it, the launch goes on");
+  app.add_flag("--isolate", command.isolate,
+               "give the launch a network and shared memory of its own, or a ROS domain where that is not allowed");
   app.add_flag("--ignore-failures", command.ignore_failures,
                "exit with 0 also if processes have failed, as ros2 launch does");
   app.add_flag("--timestamps", command.timestamps, "put the time in front of every line on the screen");

@@ -33,6 +33,7 @@
 #include "launcher/control/launch_control.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/process/guardian/guardian.hpp"
+#include "launcher/process/isolation.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/python/python_places.hpp"
 #include "launcher/ros/ros_client_process.hpp"
@@ -130,10 +131,21 @@ LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::stri
           .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()};
 }
 
+void tell_isolation(const Isolation& isolation, OutputRouter& output) {
+  if (isolation.domain) {
+    output.message(LogLevel::kWarning, "launch",
+                   fmt::format("namespaces are not allowed here ({}): the launch is isolated by ROS_DOMAIN_ID={}, which "
+                               "it has leased",
+                               isolation.refused, isolation.domain->id()));
+  } else if (isolation.namespaces) {
+    output.message(LogLevel::kInfo, "launch", "the launch has a network and a /dev/shm of its own");
+  }
+}
+
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
-        Guardian& guardian, TimedStep load, LaunchRecord load_record) {
+        Guardian& guardian, const Isolation& isolation, TimedStep load, LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   // nohup(1) ignores SIGHUP, which stays so.
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
@@ -153,13 +165,16 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.message(LogLevel::kWarning, "launch", log_directory.warning);
   }
 
-  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
+  tell_isolation(isolation, output);
+
+  const Namespaces* const namespaces = isolation.namespaces ? &*isolation.namespaces : nullptr;
+  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner(default_exec_program(), namespaces);
   guardian.set_log(log);
   ProcessSupervisor supervisor(*loop, *runner, output);
   supervisor.use_guardian(guardian);
   supervisor.observe(process_messages(output));
 
-  RosClientProcess ros_client(*loop);
+  RosClientProcess ros_client(*loop, RosClientProcess::default_program(), namespaces);
   LaunchContext context(registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
@@ -201,8 +216,10 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
 
 // Before anything else: a launch file can start processes while it is loaded. Programs that the launcher starts for
 // itself have the mark of the launch, too.
-Guardian guard_this_process(const CommandLine& command) {
-  Guardian guardian = Guardian::put_above(command.words);
+Guardian guard_this_process(const CommandLine& command, const Isolation& isolation) {
+  // The guardian may still end processes of the domain when the launcher has gone.
+  const std::vector<int> held = isolation.domain ? std::vector<int>{isolation.domain->fd()} : std::vector<int>{};
+  Guardian guardian = Guardian::put_above(command.words, Guardian::default_program(), held);
   const std::string mark = guardian.mark("launch", {});
   ::setenv(kMarkVariable, mark.c_str() + std::string_view(kMarkVariable).size() + 1, 1);
   return guardian;
@@ -230,14 +247,23 @@ int run_command(const CommandLine& command, Environment environment,
   if (command.debug) {
     show_python_tracebacks();
   }
+  Isolation isolation;
   std::optional<Guardian> guardian;
   if (command.mode == CommandMode::kRun) {
     try {
-      guardian = guard_this_process(command);
-    } catch (const std::system_error& error) {
+      if (command.isolate) {
+        isolation = make_isolation();
+      }
+      guardian = guard_this_process(command, isolation);
+    } catch (const std::runtime_error& error) {
       fmt::print(stderr, "{}", command_error("launch", error.what()));
       return 1;
     }
+  }
+  if (isolation.domain) {
+    const std::string domain = std::to_string(isolation.domain->id());
+    environment.insert_or_assign("ROS_DOMAIN_ID", domain);
+    ::setenv("ROS_DOMAIN_ID", domain.c_str(), 1);
   }
   const Registry registry = builtin_actions();
   std::optional<ResultOutput> result;
@@ -278,7 +304,7 @@ int run_command(const CommandLine& command, Environment environment,
         result->print(dry_run(command, context, *description, environment));
         return result->finish() ? 0 : 1;
       case CommandMode::kRun:
-        return run(command, registry, environment, description, files, *guardian, load,
+        return run(command, registry, environment, description, files, *guardian, isolation, load,
                    {.kind = LaunchRecord::Kind::kLoad,
                     .name = description->file == nullptr ? "several files" : description->file->path(),
                     .where = {description->file, 0, 0},

@@ -27,6 +27,7 @@
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "launcher/process/namespaces.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/program_search.hpp"
 #include "launcher/process/spawn_failure.hpp"
@@ -109,7 +110,7 @@ std::optional<LaunchExecFailure> read_failure(const UniqueFd& pipe) {
 
 class PosixProcessRunner final : public ProcessRunner {
  public:
-  explicit PosixProcessRunner(std::string exec_program);
+  PosixProcessRunner(std::string exec_program, const Namespaces* namespaces);
 
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
@@ -121,10 +122,12 @@ class PosixProcessRunner final : public ProcessRunner {
   static ProcessExit wait(const Process& process, int flags);
 
   std::string exec_program_;
+  const Namespaces* namespaces_;
   std::optional<rlimit> limit_of_children_;  // only if it differs from the launcher's
 };
 
-PosixProcessRunner::PosixProcessRunner(std::string exec_program) : exec_program_(std::move(exec_program)) {
+PosixProcessRunner::PosixProcessRunner(std::string exec_program, const Namespaces* namespaces)
+    : exec_program_(std::move(exec_program)), namespaces_(namespaces) {
   for (int fd = 0; fd <= 2; ++fd) {
     if (::fcntl(fd, F_GETFD) < 0) {
       // open() takes the lowest free number. Without this a pipe could get it, and be overwritten by the redirections.
@@ -163,12 +166,18 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
       .group = ChildGroup::kOwn,
       .signals = ChildSignals::kFresh,
   };
-  const bool limited = spec.limits.any();
+  const bool wrapped = spec.limits.any() || namespaces_ != nullptr;
   Pipe failures;
-  if (limited) {
+  if (wrapped) {
     failures = make_pipe();
     child.descriptors.push_back({kLaunchExecError, failures.write.get()});
     std::vector<std::string> wrapper = launch_exec_arguments(spec.limits);
+    if (namespaces_ != nullptr) {
+      for (const ChildDescriptor& descriptor : namespaces_->descriptors()) {
+        child.descriptors.push_back(descriptor);
+      }
+      wrapper.insert(wrapper.end() - 1, namespaces_->step());
+    }
     wrapper.insert(wrapper.begin(), exec_program_);
     wrapper.push_back(program);
     child.argv.insert(child.argv.begin(), wrapper.begin(), wrapper.end());
@@ -185,7 +194,7 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   } catch (const SpawnError& error) {
     throw spawn_failure(error.code().value(), spec, child.program);
   }
-  if (limited) {
+  if (wrapped) {
     failures.write.reset();
     if (const std::optional<LaunchExecFailure> failure = read_failure(failures.read)) {
       wait_for(process.pid);
@@ -254,8 +263,8 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
 
 }  // namespace
 
-std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program) {
-  return std::make_unique<PosixProcessRunner>(exec_program);
+std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program, const Namespaces* namespaces) {
+  return std::make_unique<PosixProcessRunner>(exec_program, namespaces);
 }
 
 std::string default_exec_program() {

@@ -11,6 +11,8 @@
 
 namespace launch {
 
+class Namespaces;
+
 class ProcessRunner {
  public:
   virtual ~ProcessRunner() = default;
@@ -45,7 +47,9 @@ std::string default_exec_program();
 // the standard ones is marked close-on-exec before each start.
 //
 // A process with limits is started through `exec_program`, launch-exec, which applies the limits to itself and then
-// becomes the program. spawn() returns when that has happened, and throws when a limit is refused.
-std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program = default_exec_program());
+// becomes the program. spawn() returns when that has happened, and throws when a limit is refused. The same holds for
+// every process if there are `namespaces`, which must outlive the runner.
+std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program = default_exec_program(),
+                                                         const Namespaces* namespaces = nullptr);
 
 }  // namespace launch

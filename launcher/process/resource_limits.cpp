@@ -154,6 +154,8 @@ std::string limit_failure(char step, int error, const ResourceLimits& limits) {
           *limits.open_files, hard_limit(RLIMIT_NOFILE), *limits.open_files);
     case kStepCoreFiles:
       return "cannot allow core files";
+    case kStepNamespaces:
+      return "cannot enter the namespaces of the launch";
     default:
       return fmt::format("launch-exec failed at step '{}'", step);
   }

@@ -14,6 +14,7 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
+#include "launcher/process/namespaces.hpp"
 #include "launcher/ros/ros_protocol.hpp"
 
 namespace launch {
@@ -49,7 +50,7 @@ std::string how_it_ended(int status) {
 class RosClientProcess::Connection : public std::enable_shared_from_this<Connection> {
  public:
   // Throws std::system_error.
-  Connection(EventLoop& loop, const std::string& program, const Environment& environment);
+  Connection(EventLoop& loop, const std::string& program, const Namespaces* namespaces, const Environment& environment);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -95,7 +96,8 @@ class RosClientProcess::Ticket final : public EventLoop::Source {
   RosRequestId id_;
 };
 
-RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& program, const Environment& environment)
+RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& program, const Namespaces* namespaces,
+                                         const Environment& environment)
     : loop_(loop) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -110,14 +112,18 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
   variables.erase("LD_LIBRARY_PATH");
   variables.erase("LD_PRELOAD");
   variables["TRACETOOLS_RUNTIME_DISABLE"] = "1";  // the launcher's own messages are no part of a trace
-  pid_ = spawn({
+  ChildProgram child{
       .program = program,
       .argv = {"launch-ros-client", fmt::format("launch_ros_{}", ::getpid())},
       .environment = &variables,
       .descriptors = {{STDIN_FILENO, other.get()}, {STDOUT_FILENO, kDevNull}},
       .group = ChildGroup::kOwnSession,
       .signals = ChildSignals::kFresh,
-  });
+  };
+  if (namespaces != nullptr) {
+    namespaces->put_in(child);
+  }
+  pid_ = spawn(child);
   readable_ = loop_.on_readable(socket_.get(), [this] { on_readable(); });
 }
 
@@ -219,7 +225,8 @@ int RosClientProcess::Connection::reap() {
   return status;
 }
 
-RosClientProcess::RosClientProcess(EventLoop& loop, std::string program) : loop_(loop), program_(std::move(program)) {}
+RosClientProcess::RosClientProcess(EventLoop& loop, std::string program, const Namespaces* namespaces)
+    : loop_(loop), program_(std::move(program)), namespaces_(namespaces) {}
 
 RosClientProcess::~RosClientProcess() {
   close();  // closes all sockets first, then waits for each program
@@ -236,7 +243,7 @@ EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Envi
   auto found = connections_.find(graph);
   try {
     if (found == connections_.end() || !found->second->is_open()) {
-      auto connection = std::make_shared<Connection>(loop_, program_, environment);
+      auto connection = std::make_shared<Connection>(loop_, program_, namespaces_, environment);
       found = connections_.insert_or_assign(std::move(graph), std::move(connection)).first;
     }
   } catch (const std::system_error& error) {

@@ -16,10 +16,13 @@
 
 namespace launch {
 
+class Namespaces;
+
 class RosClientProcess final : public RosClient {
  public:
-  // The loop must outlive it.
-  explicit RosClientProcess(EventLoop& loop, std::string program = default_program());
+  // The loop must outlive it, and so must the namespaces in which the program runs, if there are any.
+  explicit RosClientProcess(EventLoop& loop, std::string program = default_program(),
+                            const Namespaces* namespaces = nullptr);
   ~RosClientProcess() override;  // waits for the programs to end, a second at most
 
   [[nodiscard]] EventLoop::SourcePtr ask(const RosRequest& request, const Environment& environment, Duration timeout,
@@ -35,6 +38,7 @@ class RosClientProcess final : public RosClient {
 
   EventLoop& loop_;
   std::string program_;
+  const Namespaces* namespaces_;
   // The keys are the variables that choose the graph.
   std::map<Environment, std::shared_ptr<Connection>> connections_;
 };

@@ -14,6 +14,7 @@
 #include <memory>
 #include <system_error>
 
+#include "launcher/base/domain_lease.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/process_mark.hpp"
 #include "launcher/cli/launch_tracepoints.hpp"
@@ -24,7 +25,6 @@
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
 #include "launcher/testing/trace_session.hpp"
-#include "tracing/testing/own_domain.hpp"
 
 namespace launch {
 
@@ -42,7 +42,7 @@ Environment own_surroundings(const TestRun& run, int domain) {
 
 // Makes everything that a run needs. The order is that of destruction, backwards.
 void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
-  const launch_trace_testing::OwnDomain domain;
+  const DomainLease domain;
   const Environment environment = own_surroundings(run, domain.id());
   ::setenv("ROS_DOMAIN_ID", std::to_string(domain.id()).c_str(), 1);
 

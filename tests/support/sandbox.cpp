@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/sandbox.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <net/if.h>
-#include <net/route.h>
-#include <netinet/in.h>
 #include <sched.h>
 #include <signal.h>
-#include <sys/ioctl.h>
 #include <sys/mount.h>
 #include <sys/prctl.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,6 +20,9 @@
 #include <set>
 #include <system_error>
 
+#include "launcher/base/domain_lease.hpp"
+#include "launcher/base/loopback.hpp"
+
 namespace test_support {
 namespace {
 
@@ -33,38 +30,6 @@ namespace fs = std::filesystem;
 
 void check(int result, const std::string& what) {
   if (result < 0) throw std::system_error(errno, std::generic_category(), what);
-}
-
-// DDS participants of domains up to 101 use ports below the ephemeral ports.
-constexpr int kUsableDomains = 101;
-
-// Makes lo ready: it is up, allows multicast, and all multicast goes through it. Discovery then works without any other
-// network.
-void bring_up_loopback() {
-  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  check(fd, "socket");
-  ifreq interface {};
-  std::strcpy(interface.ifr_name, "lo");
-  check(ioctl(fd, SIOCGIFFLAGS, &interface), "read the flags of lo");
-  interface.ifr_flags = static_cast<short>(interface.ifr_flags | IFF_UP | IFF_RUNNING | IFF_MULTICAST);
-  check(ioctl(fd, SIOCSIFFLAGS, &interface), "bring lo up");
-
-  const auto ipv4 = [](const char* text) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = inet_addr(text);
-    sockaddr generic{};
-    std::memcpy(&generic, &address, sizeof generic);
-    return generic;
-  };
-  rtentry route{};
-  std::string device = "lo";
-  route.rt_dst = ipv4("224.0.0.0");
-  route.rt_genmask = ipv4("240.0.0.0");
-  route.rt_flags = RTF_UP;
-  route.rt_dev = device.data();
-  check(ioctl(fd, SIOCADDRT, &route), "route multicast through lo");
-  close(fd);
 }
 
 struct ProcessInfo {
@@ -125,7 +90,8 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
   if (geteuid() == 0) {
     enter_namespaces();
   } else {
-    domain = static_cast<int>(getpid() % kUsableDomains) + 1;
+    domain_ = std::make_shared<launch::DomainLease>();
+    domain = domain_->id();
     not_isolated_ =
         "not root: the network and /dev/shm are shared with the machine, LTTNG_HOME and ROS_DOMAIN_ID differ";
   }
@@ -204,7 +170,8 @@ void Sandbox::enter_namespaces() {
   const std::string launches = "/tmp/launch-" + std::to_string(geteuid());
   check(mkdir(launches.c_str(), S_IRWXU) == 0 || errno == EEXIST ? 0 : -1, "make " + launches);
   check(mount("tmpfs", launches.c_str(), "tmpfs", MS_NOSUID | MS_NODEV, "mode=0700"), "mount tmpfs on " + launches);
-  bring_up_loopback();
+  errno = launch::bring_up_loopback();
+  check(errno == 0 ? 0 : -1, "bring up lo");
 }
 
 void Sandbox::leave_namespaces() {

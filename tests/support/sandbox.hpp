@@ -4,9 +4,14 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace launch {
+class DomainLease;
+}
 
 namespace test_support {
 
@@ -55,6 +60,7 @@ class Sandbox {
   std::filesystem::path directory_;
   std::filesystem::path previous_directory_;
   std::string not_isolated_;
+  std::shared_ptr<launch::DomainLease> domain_;  // when not root
   int mount_namespace_ = -1;    // the namespace to return to
   int network_namespace_ = -1;  // the namespace to return to
   std::map<std::string, std::optional<std::string>> previous_environment_;

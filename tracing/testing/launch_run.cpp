@@ -23,10 +23,10 @@
 #include <system_error>
 
 #include "launch_trace_testing/event_query.hpp"
+#include "launcher/base/domain_lease.hpp"
 #include "launcher/base/own_environment.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
-#include "tracing/testing/own_domain.hpp"
 #include "tracing/testing/wrapper_file.hpp"
 
 namespace launch_trace_testing {
@@ -98,7 +98,7 @@ std::string last_lines(const std::string& text) {
 
 struct LaunchRun::State {
   RunOptions options;
-  OwnDomain domain;
+  launch::DomainLease domain;
   fs::path directory = make_directory();
   fs::path traces = directory / "traces";
   fs::path file = directory / "run.launch.xml";

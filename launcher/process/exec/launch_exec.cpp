@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// launch-exec: applies scheduling and limits to itself, then becomes another program.
+// launch-exec: applies scheduling and limits to itself, enters namespaces, then becomes another program.
 //
 // A program may read its limits and make its threads before its first own instruction, so the limits have to be set
 // before it starts. posix_spawn(3) has no attributes for most of them. This program is linked statically: nothing is
@@ -9,7 +9,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <climits>
 #include <cstdlib>
 
 #include "launcher/process/exec/launch_exec_protocol.hpp"
@@ -65,6 +67,19 @@ int set_policy(const char* text) {
   return ::sched_setscheduler(0, policy, &parameters);
 }
 
+// The directory stays the same, by its path: a process that enters a mount namespace is in the root of it.
+int enter_namespaces(int count) {
+  std::array<char, PATH_MAX> directory{};
+  const bool has_directory = ::getcwd(directory.data(), directory.size()) != nullptr;
+  for (int file = kLaunchExecNamespaces; file < kLaunchExecNamespaces + count; ++file) {
+    if (::setns(file, 0) != 0) {
+      return -1;
+    }
+    ::close(file);
+  }
+  return has_directory ? ::chdir(directory.data()) : 0;
+}
+
 void apply(char step, const char* value) {
   switch (step) {
     case kStepNice:
@@ -79,6 +94,8 @@ void apply(char step, const char* value) {
       return check(step, set_limit(RLIMIT_NOFILE, std::strtoull(value, nullptr, 10)));
     case kStepCoreFiles:
       return check(step, allow_core_files());
+    case kStepNamespaces:
+      return check(step, enter_namespaces(std::atoi(value)));
     default:
       fail(step, EINVAL);
   }

@@ -87,7 +87,8 @@ std::int64_t milliseconds(Duration duration) {
 
 }  // namespace
 
-Guardian Guardian::put_above(const std::vector<std::string>& command_line, const std::string& program) {
+Guardian Guardian::put_above(const std::vector<std::string>& command_line, const std::string& program,
+                             const std::vector<int>& held) {
   const UniqueFd file(::memfd_create("launch-guardian", MFD_CLOEXEC));
   // The number of a standard descriptor is free when that descriptor was closed.
   UniqueFd records(file ? ::fcntl(file.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1);
@@ -123,6 +124,9 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
     words.insert(words.end(), command_line.begin(), command_line.end());
     ::fcntl(records.get(), F_SETFD, 0);
     ::fcntl(ready.write.get(), F_SETFD, 0);
+    for (const int descriptor : held) {
+      ::fcntl(descriptor, F_SETFD, 0);
+    }
     become(program, words, launcher);
   }
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != guardian) {

@@ -21,10 +21,10 @@ class Guardian {
  public:
   // Splits this process in two: the calling process becomes the guardian, and this function returns in a new process,
   // which goes on as the launcher. Must be called while there is one thread. When the guardian is killed, the launcher
-  // gets SIGTERM. `command_line` is what ps(1) shows. Throws std::system_error; a missing program ends the process with
-  // exit code 1 and a message.
+  // gets SIGTERM. `command_line` is what ps(1) shows. The guardian keeps the descriptors `held` open until the end of
+  // the launch. Throws std::system_error; a missing program ends the process with exit code 1 and a message.
   static Guardian put_above(const std::vector<std::string>& command_line,
-                            const std::string& program = default_program());
+                            const std::string& program = default_program(), const std::vector<int>& held = {});
 
   // Waits until guardian and spare are there. A process that is started earlier may survive when all three are killed
   // at once.

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/process/namespaces.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "launcher/base/loopback.hpp"
+#include "launcher/base/pipe.hpp"
+#include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "launcher/process/process_runner.hpp"
+
+namespace launch {
+namespace {
+
+constexpr const char* kSharedMemory = "/dev/shm";
+constexpr std::string_view kWaitFile = "lttng-ust-wait-";  // of LTTng's session daemon, in /dev/shm
+
+// Descriptors of a launcher that has just started have smaller numbers than this, and those of launch-exec, too.
+constexpr int kFirstFile = 16;
+
+// What a process that makes the namespaces reports.
+struct Report {
+  std::array<char, 48> step;  // empty: all went well
+  int error;
+};
+
+class Maker {
+ public:
+  explicit Maker(int reports) : reports_(reports) {}
+
+  void make(bool user) {
+    const uid_t uid = ::geteuid();
+    const gid_t gid = ::getegid();
+    check("unshare", ::unshare((user ? CLONE_NEWUSER : 0) | CLONE_NEWNET | CLONE_NEWIPC | CLONE_NEWNS));
+    if (user) {
+      // Without privileges a process may map its own user and group only, and must give up setgroups(2) before.
+      write_file("/proc/self/setgroups", "deny");
+      write_file("/proc/self/uid_map", fmt::format("{0} {0} 1", uid));
+      write_file("/proc/self/gid_map", fmt::format("{0} {0} 1", gid));
+    }
+    // Disks that are mounted later appear inside, and nothing that is mounted inside appears outside.
+    check("make mounts private", ::mount(nullptr, "/", nullptr, MS_REC | MS_SLAVE, nullptr));
+    mount_shared_memory();
+    errno = bring_up_loopback();
+    check("bring up lo", errno == 0 ? 0 : -1);
+    check_root();
+    report("", 0);
+  }
+
+ private:
+  void report(const char* step, int error) const {
+    Report report{{}, error};
+    fmt::format_to_n(report.step.data(), report.step.size() - 1, "{}", step);
+    static_cast<void>(!::write(reports_, &report, sizeof report));
+  }
+
+  void check(const char* step, int result) const {
+    if (result != 0) {
+      report(step, errno);
+      ::_exit(1);
+    }
+  }
+
+  void write_file(const char* path, std::string_view text) const {
+    const UniqueFd file(::open(path, O_WRONLY | O_CLOEXEC));
+    const bool written = file && ::write(file.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    check(path, written ? 0 : -1);
+  }
+
+  void mount_shared_memory() const {
+    std::vector<std::pair<std::string, UniqueFd>> kept;
+    if (DIR* const directory = ::opendir(kSharedMemory)) {
+      while (const dirent* const entry = ::readdir(directory)) {
+        if (std::string_view(entry->d_name).starts_with(kWaitFile)) {
+          const std::string path = fmt::format("{}/{}", kSharedMemory, entry->d_name);
+          kept.emplace_back(path, UniqueFd(::open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC)));
+        }
+      }
+      ::closedir(directory);
+    }
+    check("mount /dev/shm", ::mount("tmpfs", kSharedMemory, "tmpfs", MS_NOSUID | MS_NODEV, "mode=1777"));
+    for (const auto& [path, file] : kept) {
+      // Processes that LTTng does not wake are traced all the same if the session daemon runs before them.
+      const UniqueFd point(::open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0600));
+      const std::string source = fmt::format("/proc/self/fd/{}", file.get());
+      static_cast<void>(!::mount(source.c_str(), path.c_str(), nullptr, MS_BIND, nullptr));
+    }
+  }
+
+  // A process that enters a mount namespace is in the root of it, even if it was in another one (chroot).
+  void check_root() const {
+    struct stat before {};
+    struct stat after {};
+    const UniqueFd own(::open("/proc/self/ns/mnt", O_RDONLY | O_CLOEXEC));
+    check("look at /", ::stat("/", &before));
+    check("enter the mount namespace", ::setns(own.get(), CLONE_NEWNS));
+    check("look at /", ::stat("/", &after));
+    errno = EPERM;
+    check("keep the root directory", before.st_dev == after.st_dev && before.st_ino == after.st_ino ? 0 : -1);
+  }
+
+  int reports_;
+};
+
+// Throws std::system_error.
+std::vector<UniqueFd> open_namespaces(pid_t process, bool user) {
+  std::vector<UniqueFd> files;
+  for (const char* const name : {"user", "net", "ipc", "mnt"}) {
+    if (!user && std::string_view(name) == "user") {
+      continue;
+    }
+    const std::string path = fmt::format("/proc/{}/ns/{}", process, name);
+    const UniqueFd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    files.emplace_back(file ? ::fcntl(file.get(), F_DUPFD_CLOEXEC, kFirstFile) : -1);
+    if (!files.back()) {
+      throw std::system_error(errno, std::system_category(), path);
+    }
+  }
+  return files;
+}
+
+// A process makes the namespaces and waits until they have been opened. Throws std::system_error.
+std::vector<UniqueFd> make_namespaces(bool user) {
+  Pipe reports = make_pipe();
+  Pipe end = make_pipe();
+  const pid_t maker = ::fork();
+  if (maker < 0) {
+    throw std::system_error(errno, std::system_category(), "fork");
+  }
+  if (maker == 0) {
+    end.write.reset();
+    Maker(reports.write.get()).make(user);
+    char nothing = 0;
+    static_cast<void>(!::read(end.read.get(), &nothing, 1));
+    ::_exit(0);
+  }
+  struct Reaper {
+    Pipe& end;
+    pid_t pid;
+    ~Reaper() {
+      end.write.reset();
+      wait_for(pid);
+    }
+  } reaper{end, maker};
+  reports.write.reset();
+  Report report{};
+  if (::read(reports.read.get(), &report, sizeof report) != sizeof report) {
+    throw std::system_error(ECHILD, std::system_category(), "the process that makes namespaces");
+  }
+  if (report.step[0] != '\0') {
+    throw std::system_error(report.error, std::system_category(), report.step.data());
+  }
+  return open_namespaces(maker, user);
+}
+
+}  // namespace
+
+Namespaces Namespaces::make() {
+  try {
+    return Namespaces(make_namespaces(false));
+  } catch (const std::system_error&) {
+    return Namespaces(make_namespaces(true));  // its error tells more: this is what a user without privileges may do
+  }
+}
+
+std::string Namespaces::step() const {
+  return fmt::format("{}{}", kStepNamespaces, files_.size());
+}
+
+std::vector<ChildDescriptor> Namespaces::descriptors() const {
+  std::vector<ChildDescriptor> all;
+  for (const UniqueFd& file : files_) {
+    all.push_back({kLaunchExecNamespaces + static_cast<int>(all.size()), file.get()});
+  }
+  return all;
+}
+
+void Namespaces::put_in(ChildProgram& child) const {
+  const std::string exec_program = default_exec_program();
+  child.argv.insert(child.argv.begin(), {exec_program, step(), std::string(1, kStepExec), child.program});
+  child.program = exec_program;
+  child.descriptors.push_back({kLaunchExecError, kDevNull});
+  for (const ChildDescriptor& descriptor : descriptors()) {
+    child.descriptors.push_back(descriptor);
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Network, IPC and mount namespaces of a launch's own, for `launch --isolate`.
+//
+// Only the processes of the launch enter them, through launch-exec. The launcher stays outside: so its control socket,
+// the session daemon that it starts and the commands of its launch file are where they always are.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/base/spawn.hpp"
+#include "launcher/base/unique_fd.hpp"
+
+namespace launch {
+
+// lo is the only network; multicast works on it. /dev/shm is empty, but for the files by which LTTng's session daemon
+// wakes the processes that wait for it. All other files are those of the machine. The namespaces exist as long as this
+// object or a process inside.
+class Namespaces {
+ public:
+  // Makes them, in a user namespace of their own if that is necessary. Must be called while there is one thread.
+  // Throws std::system_error where the machine does not allow it.
+  static Namespaces make();
+
+  // The step of launch-exec that enters them, and the descriptors that the step needs.
+  std::string step() const;
+  std::vector<ChildDescriptor> descriptors() const;
+
+  // Lets launch-exec start `child` inside. If that fails, the child ends with exit code 127.
+  void put_in(ChildProgram& child) const;
+
+ private:
+  explicit Namespaces(std::vector<UniqueFd> files) : files_(std::move(files)) {}
+
+  std::vector<UniqueFd> files_;  // in the order in which they have to be entered
+};
+
+}  // namespace launch
