@@ -38,6 +38,7 @@
 #include "launcher/python/python_places.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/run/status_line.hpp"
 #include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
@@ -203,6 +204,12 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   } catch (const std::system_error& error) {
     output.message(LogLevel::kWarning, "launch",
                    fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));
+  }
+  std::optional<StatusLine> status;
+  if (output.can_show_status()) {
+    status.emplace(*loop, supervisor, service.steering(),
+                   [&output](const std::string& line) { output.show_status(line); });
+    service.observe_suspension([&status](bool stops) { status->suspend(stops); });
   }
   guardian.wait_until_ready();
   const int exit_code = service.run(*description);

@@ -216,6 +216,14 @@ void OutputRouter::message(LogLevel level, std::string_view logger, std::string_
   }
 }
 
+void OutputRouter::show_status(std::string_view text) {
+  impl_->screen.show_status(text);
+}
+
+bool OutputRouter::can_show_status() const {
+  return impl_->screen.can_show_status();
+}
+
 void OutputRouter::error(std::string_view text) {
   Screen& screen = impl_->error_screen ? *impl_->error_screen : impl_->screen;
   if (!screen.print(text, false)) {

@@ -74,6 +74,10 @@ class OutputRouter {
   // A launcher message: "[INFO] [logger]: text" on the screen, with a time stamp in front in launch.log.
   void message(LogLevel level, std::string_view logger, std::string_view text);
 
+  // The status line of the screen, see screen.hpp.
+  void show_status(std::string_view text);
+  bool can_show_status() const;
+
   // Shows lines on standard error as they are.
   void error(std::string_view text);
 

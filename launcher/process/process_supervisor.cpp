@@ -194,6 +194,7 @@ void Supervision::wait_for_respawn(Supervised& process, Duration delay) {
 }
 
 void Supervision::start_timer(Supervised& process, Duration delay) {
+  process.timer_end = loop.now() + delay;
   process.timer = loop.after(delay, [this, &process] { handle(process, Event::kTimeout); });
 }
 
@@ -360,6 +361,7 @@ ProcessView ProcessSupervisor::view(ProcessId id) const {
           .state = process.state,
           .pid = runs ? process.process.pid : -1,
           .running_for = runs ? impl_->loop.now() - process.started : Duration{0},
+          .next_step_in = process.timer ? process.timer_end - impl_->loop.now() : Duration{0},
           .runs = process.runs,
           .last_exit = process.last_exit};
 }

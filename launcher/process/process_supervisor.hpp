@@ -39,7 +39,8 @@ struct ProcessView {
   ProcessState state;
   pid_t pid;  // -1: it does not run
   Duration running_for;
-  std::int64_t runs;  // how often it has been started
+  Duration next_step_in;  // until the next signal of its end, or its next start; 0: nothing is timed
+  std::int64_t runs;      // how often it has been started
   std::optional<ProcessExit> last_exit;
 };
 

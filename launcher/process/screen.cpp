@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,6 +28,31 @@ bool is_writable(int fd, std::chrono::milliseconds timeout) {
   return ::poll(&writable, 1, static_cast<int>(std::max<long>(timeout.count(), 0))) == 1;
 }
 
+// Of ECMA-48 terminals: erases from the cursor to the end of the line.
+constexpr std::string_view kEraseToEnd = "\033[K";
+constexpr std::string_view kEraseLine = "\r\033[K";
+
+bool is_terminal(int fd) {
+  const char* const type = ::getenv("TERM");
+  return ::isatty(fd) != 0 && type != nullptr && std::string_view(type) != "dumb";
+}
+
+// The text in less columns than the terminal has: the cursor stays in the line.
+std::string fit_to_terminal(std::string_view text, int fd) {
+  constexpr std::size_t kUsualColumns = 80;
+  winsize size{};
+  std::size_t columns = ::ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+  std::string fitted;
+  for (const char c : text) {
+    const bool begins_character = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    if (begins_character && --columns == 0) {
+      break;
+    }
+    fitted += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  }
+  return fitted;
+}
+
 std::size_t count_lines(std::string_view text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -37,6 +64,7 @@ Screen::Screen(int fd, EventLoop* loop, Limits limits) : loop_(loop), limits_(li
   if (::fstat(fd, &status) != 0) {
     return;  // the first write tells that it is gone
   }
+  terminal_ = is_terminal(fd);
   if (S_ISSOCK(status.st_mode)) {
     kind_ = Kind::kSocket;
   } else if (S_ISFIFO(status.st_mode) || ::isatty(fd) != 0) {
@@ -60,26 +88,55 @@ bool Screen::print(std::string_view lines, bool logged) {
     dropped_ += count_lines(lines);
     return false;
   }
+  erase_status();
+  put(lines, logged);
+  draw_status();
+  return !gone_;
+}
+
+void Screen::put(std::string_view bytes, bool logged) {
   if (queue_.empty()) {
-    while (!lines.empty()) {
-      const std::size_t written = write_some(lines);
+    while (!bytes.empty()) {
+      const std::size_t written = write_some(bytes);
       if (written == 0) {
         break;
       }
-      lines.remove_prefix(written);
+      bytes.remove_prefix(written);
     }
   }
-  if (gone_) {
-    return false;
-  }
-  if (!lines.empty()) {
-    append(lines, logged);
+  if (!gone_ && !bytes.empty()) {
+    append(bytes, logged);
     watch();
   }
-  return true;
+}
+
+void Screen::show_status(std::string_view text) {
+  if (!terminal_ || gone_ || text == status_) {
+    return;
+  }
+  status_ = text;
+  if (status_.empty()) {
+    erase_status();
+  }
+  draw_status();
+}
+
+void Screen::erase_status() {
+  if (std::exchange(status_shown_, false)) {
+    put(kEraseLine, true);
+  }
+}
+
+void Screen::draw_status() {
+  if (gone_ || status_.empty() || !queue_.empty() || ::tcgetpgrp(fd_) != ::getpgrp()) {
+    return;
+  }
+  status_shown_ = true;
+  put(std::string("\r").append(fit_to_terminal(status_, fd_)).append(kEraseToEnd), true);
 }
 
 Screen::Rest Screen::finish() {
+  show_status("");
   Clock::time_point last_progress = Clock::now();
   while (!queue_.empty() && !gone_) {
     const std::size_t before = waiting_;
@@ -175,6 +232,9 @@ void Screen::write_queue() {
     resume();
   }
   watch();
+  if (!status_shown_) {
+    draw_status();
+  }
 }
 
 void Screen::resume() {

@@ -6,6 +6,9 @@
 // loses nothing. After that the screen is stalled: lines are dropped, without waiting, until half of the queue has been
 // taken. A notice on the screen says how many lines are missing there.
 //
+// A terminal can have a status line below all other lines. It is overwritten in place, cut to the width of the terminal,
+// and not drawn while the terminal belongs to another job of the shell.
+//
 // The descriptor belongs to other processes, too, and stays blocking for them: a pipe or terminal is opened a second
 // time through /proc. A regular file and any other device is written as it is. SIGPIPE must be ignored.
 #pragma once
@@ -40,6 +43,10 @@ class Screen {
   // because the screen is stalled or gone.
   bool print(std::string_view lines, bool logged);
 
+  // Replaces the status line; "" removes it. Does nothing on a screen that is no terminal.
+  void show_status(std::string_view text);
+  bool can_show_status() const { return terminal_; }
+
   // The screen goes on after `lines` lines were dropped. Returns the lines that say so.
   using Notice = std::function<std::string(std::size_t lines)>;
   void tell_of_dropped(Notice notice) { notice_ = std::move(notice); }
@@ -63,6 +70,9 @@ class Screen {
 
   // Writes a part of the bytes without waiting. Returns their number; 0 if the screen takes none now, or is gone.
   std::size_t write_some(std::string_view bytes);
+  void put(std::string_view bytes, bool logged);
+  void erase_status();
+  void draw_status();
   void append(std::string_view lines, bool logged);
   bool make_room(std::size_t size);
   void write_queue();
@@ -82,6 +92,9 @@ class Screen {
   bool stalled_ = false;
   std::size_t dropped_ = 0;  // lines
   EventLoop::SourcePtr source_;
+  bool terminal_ = false;
+  std::string status_;
+  bool status_shown_ = false;
 };
 
 }  // namespace launch

@@ -67,6 +67,7 @@ struct Supervised {
   ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;
+  Duration timer_end{0};
 };
 
 // What a ProcessSupervisor consists of.

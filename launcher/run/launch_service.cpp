@@ -183,11 +183,17 @@ void LaunchService::on_interrupt_again(int number, const std::string& name) {
 }
 
 void LaunchService::suspend() {
+  if (on_suspension_) {
+    on_suspension_(true);
+  }
   context_.message(LogLevel::kInfo, "launch", "stopping the system, SIGCONT continues it");
   supervisor_.suspend();
   UserSignals::stop_this_process();
   supervisor_.resume();
   context_.message(LogLevel::kInfo, "launch", "continuing the system");
+  if (on_suspension_) {
+    on_suspension_(false);
+  }
 }
 
 void LaunchService::on_process_event(const ProcessEvent& event) {

@@ -78,6 +78,9 @@ class LaunchService {
   // Failures of processes and components don't change the exit code, as with ros2 launch.
   void ignore_failures() { ignore_failures_ = true; }
 
+  // Called before the system stops by Ctrl-Z and after it goes on.
+  void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
+
   // Visits the description, runs the loop until nothing is left, and tells what has failed. Returns the exit code:
   // - 1 after an error of the launch itself, or if a process could not be ended;
   // - the exit code of the `required` process that has ended the launch, 128+N when signal N ended it;
@@ -145,6 +148,7 @@ class LaunchService {
   std::function<void(TestRequest)> begin_test_;
   LineSink test_line_;
   std::function<void()> test_ending_;
+  std::function<void(bool stops)> on_suspension_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
   std::vector<TimedStep> timing_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <regex>
 #include <set>
@@ -50,10 +51,11 @@ class Isolation : public testing::Test {
   // Says a word on a topic that has the same name everywhere, and prints what it hears there.
   std::string write_pair() const {
     return write("pair.launch.xml",
-                 "<node pkg=\"demo_nodes\" exec=\"listener\" output=\"screen\"/>\n<executable name=\"say\" cmd=\"" +
+                 "<arg name=\"word\"/>\n<let name=\"message\" value=\"data: $(var word)\"/>\n"
+                 "<node pkg=\"demo_nodes\" exec=\"listener\" output=\"screen\"/>\n"
+                 "<executable name=\"say\" output=\"log\" cmd=\"" +
                      std::string(LAUNCH_PROGRAM) +
-                     " topic pub --rate 20 /chatter std_msgs/msg/String 'data: $(var word)'\" output=\"log\">\n"
-                     "</executable>\n<arg name=\"word\"/>");
+                     " topic pub --rate 20 /chatter std_msgs/msg/String $(var message)\"/>");
   }
 
   Sandbox sandbox_;
@@ -206,6 +208,7 @@ TEST_P(Namespaces, HideALaunchFromNobodyWhoMaySteerIt) {
 TEST_P(Namespaces, LeaveNothingBehindAfterKill9) {
   const std::string file = write("wait.launch.xml",
                                  "<executable shell=\"true\" cmd=\"setsid sleep 1000 &amp; echo ready; sleep 1000\" "
+                                 "sigterm_timeout=\"0.2\" sigkill_timeout=\"0.2\" "
                                  "output=\"screen\"/>");
   RunningCommand run(launch({"--isolate", file}, prefix()));
   ASSERT_TRUE(run.wait_for_output("ready", kPatience)) << run.out() << run.err();
@@ -247,6 +250,6 @@ TEST_P(Namespaces, TellOfAProgramThatDoesNotExist) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutPrivileges, Namespaces, testing::Bool(),
-                         [](const auto& info) { return info.param ? "AsRoot" : "WithoutPrivileges"; });
+                         [](const auto& test) { return test.param ? "AsRoot" : "WithoutPrivileges"; });
 
 }  // namespace
