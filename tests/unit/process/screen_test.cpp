@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
@@ -188,6 +189,80 @@ TEST_F(ScreenTest, NeverWaitsForTheReaderOfASocket) {
   other.reset();
   loop.run_until_idle();
   EXPECT_TRUE(screen.is_gone());
+}
+
+class StatusLineOfScreen : public ScreenTest {
+ protected:
+  StatusLineOfScreen() {
+    ::setenv("TERM", "xterm", 1);
+    EXPECT_EQ(::grantpt(terminal.get()), 0);
+    EXPECT_EQ(::unlockpt(terminal.get()), 0);
+    fd.reset(::open(::ptsname(terminal.get()), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  }
+  std::string shown() const {
+    std::array<char, 4096> text{};
+    pollfd readable{terminal.get(), POLLIN, 0};
+    return ::poll(&readable, 1, 0) == 1
+               ? std::string(text.data(), static_cast<std::size_t>(::read(terminal.get(), text.data(), text.size())))
+               : std::string();
+  }
+
+  UniqueFd terminal{::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)};
+  UniqueFd fd;
+};
+
+TEST_F(StatusLineOfScreen, IsOverwrittenInPlaceAndStaysBelowTheOtherLines) {
+  Screen screen(fd.get(), &loop, kSmall);
+  ASSERT_TRUE(screen.can_show_status());
+  screen.show_status("starting 1 of 3");
+  EXPECT_EQ(shown(), "\rstarting 1 of 3\033[K");
+  screen.show_status("starting 2 of 3");
+  screen.show_status("starting 2 of 3");
+  EXPECT_EQ(shown(), "\rstarting 2 of 3\033[K");
+  EXPECT_TRUE(screen.print("[a-1] text\n", false));
+  EXPECT_EQ(shown(), "\r\033[K[a-1] text\r\n\rstarting 2 of 3\033[K");
+  screen.show_status("");
+  EXPECT_EQ(shown(), "\r\033[K");
+  EXPECT_TRUE(screen.print("[a-1] more\n", false));
+  EXPECT_EQ(shown(), "[a-1] more\r\n");
+}
+
+TEST_F(StatusLineOfScreen, FitsIntoTheTerminal) {
+  const winsize narrow{24, 10, 0, 0};
+  ASSERT_EQ(::ioctl(fd.get(), TIOCSWINSZ, &narrow), 0);
+  Screen screen(fd.get(), &loop, kSmall);
+  screen.show_status("b\u00e4\u00e4\n56789 and more");
+  EXPECT_EQ(shown(), "\rb\u00e4\u00e4?56789\033[K");
+}
+
+TEST_F(StatusLineOfScreen, IsErasedAtTheEnd) {
+  Screen screen(fd.get(), &loop, kSmall);
+  screen.show_status("stopping");
+  shown();
+  EXPECT_EQ(screen.finish().lines, 0U);
+  EXPECT_EQ(shown(), "\r\033[K");
+}
+
+TEST_F(StatusLineOfScreen, WaitsUntilAStoppedTerminalGoesOn) {
+  Screen screen(fd.get(), &loop, {});
+  screen.show_status("starting 1 of 3");
+  EXPECT_EQ(shown(), "\rstarting 1 of 3\033[K");
+  ASSERT_EQ(::tcflow(fd.get(), TCOOFF), 0);
+  EXPECT_TRUE(screen.print("text\n", false));
+  screen.show_status("starting 2 of 3");
+  EXPECT_EQ(shown(), "");
+  ASSERT_EQ(::tcflow(fd.get(), TCOON), 0);
+  loop.run_until_idle();
+  EXPECT_EQ(shown(), "\r\033[Ktext\r\n\rstarting 2 of 3\033[K");
+}
+
+TEST_F(StatusLineOfScreen, IsForTerminalsOnly) {
+  Screen screen(pipe.write.get(), &loop, kSmall);
+  EXPECT_FALSE(screen.can_show_status());
+  screen.show_status("starting 1 of 3");
+  EXPECT_EQ(read(), "");
+  ::setenv("TERM", "dumb", 1);
+  EXPECT_FALSE(Screen(fd.get(), &loop, kSmall).can_show_status());
 }
 
 }  // namespace
