@@ -134,10 +134,11 @@ LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::stri
 
 void tell_isolation(const Isolation& isolation, OutputRouter& output) {
   if (isolation.domain) {
-    output.message(LogLevel::kWarning, "launch",
-                   fmt::format("namespaces are not allowed here ({}): the launch is isolated by ROS_DOMAIN_ID={}, which "
-                               "it has leased",
-                               isolation.refused, isolation.domain->id()));
+    output.message(
+        LogLevel::kWarning, "launch",
+        fmt::format("namespaces are not allowed here ({}): the launch is isolated by ROS_DOMAIN_ID={}, which "
+                    "it has leased",
+                    isolation.refused, isolation.domain->id()));
   } else if (isolation.namespaces) {
     output.message(LogLevel::kInfo, "launch", "the launch has a network and a /dev/shm of its own");
   }

@@ -263,7 +263,8 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
 
 }  // namespace
 
-std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program, const Namespaces* namespaces) {
+std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program,
+                                                         const Namespaces* namespaces) {
   return std::make_unique<PosixProcessRunner>(exec_program, namespaces);
 }
 

@@ -6,8 +6,8 @@
 // loses nothing. After that the screen is stalled: lines are dropped, without waiting, until half of the queue has been
 // taken. A notice on the screen says how many lines are missing there.
 //
-// A terminal can have a status line below all other lines. It is overwritten in place, cut to the width of the terminal,
-// and not drawn while the terminal belongs to another job of the shell.
+// A terminal can have a status line below all other lines. It is overwritten in place, cut to the width of the
+// terminal, and not drawn while the terminal belongs to another job of the shell.
 //
 // The descriptor belongs to other processes, too, and stays blocking for them: a pipe or terminal is opened a second
 // time through /proc. A regular file and any other device is written as it is. SIGPIPE must be ignored.

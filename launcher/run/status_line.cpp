@@ -91,10 +91,10 @@ std::string StatusLine::stopping() const {
       signal = view.state == ProcessState::kInterrupting ? "SIGTERM" : "SIGKILL";
     }
   }
-  const std::string step = *signal == '\0' ? ""
-                                           : fmt::format(", {} in {} s", signal,
-                                                         std::max<std::int64_t>(
-                                                             std::chrono::ceil<std::chrono::seconds>(next).count(), 0));
+  const std::string step =
+      *signal == '\0' ? ""
+                      : fmt::format(", {} in {} s", signal,
+                                    std::max<std::int64_t>(std::chrono::ceil<std::chrono::seconds>(next).count(), 0));
   return fmt::format("stopping: {} of {} still run{}: {}", left.size(), std::max(to_end_, left.size()), step,
                      list_some(left));
 }

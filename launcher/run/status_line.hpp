@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line that says how far a launch is while it starts and while it stops: "starting 12 of 40", "stopping: 3 of 40 still
-// run, SIGTERM in 4 s: planner-3, …". A start or stop that takes less than half a second shows nothing.
+// One line that says how far a launch is while it starts and while it stops: "starting 12 of 40", "stopping: 3 of 40
+// still run, SIGTERM in 4 s: planner-3, …". A start or stop that takes less than half a second shows nothing.
 #pragma once
 
 #include <cstddef>

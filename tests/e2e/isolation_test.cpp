@@ -31,7 +31,11 @@ const std::string kLeased = "the launch is isolated by ROS_DOMAIN_ID=";
 const std::vector<std::string> kUnprivileged = {"setpriv", "--bounding-set", "-sys_admin"};
 // A user namespace in which no further namespaces can be made.
 const std::vector<std::string> kNoNamespaces = {
-    "unshare", "--user", "--map-root-user", "sh", "-c",
+    "unshare",
+    "--user",
+    "--map-root-user",
+    "sh",
+    "-c",
     "for kind in user net ipc mnt; do echo 0 > /proc/sys/user/max_${kind}_namespaces || exit 1; done; exec \"$@\"",
     "sh"};
 
@@ -144,10 +148,10 @@ TEST_F(Isolation, GivesAProcessItsDomainAndTakesItBackFromAKilledLaunch) {
     // 32768 plus the domain, as a port in /proc/net/tcp.
     char port[16];
     ::snprintf(port, sizeof port, ":%04X ", 32768 + std::stoi(domain));
-    std::string bound = run_command({"python3", "-c",
-                                     "import socket, sys\ns = socket.socket()\ns.bind(('', 32768 + int(sys.argv[1])))",
-                                     domain})
-                            .err;
+    std::string bound =
+        run_command({"python3", "-c", "import socket, sys\ns = socket.socket()\ns.bind(('', 32768 + int(sys.argv[1])))",
+                     domain})
+            .err;
     return bound.find("Address already in use") != std::string::npos;
   };
   EXPECT_TRUE(is_leased());
@@ -225,8 +229,8 @@ TEST_P(Namespaces, AreTraced) {
   const CommandResult result = isolated({file});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("trace is complete")) << result.out;
-  const CommandResult events = run_command(
-      launch({"trace", "read", "--count", (sandbox_.trace_directory() / "isolated").string()}), kPatience);
+  const CommandResult events =
+      run_command(launch({"trace", "read", "--count", (sandbox_.trace_directory() / "isolated").string()}), kPatience);
   EXPECT_THAT(events.out, ContainsRegex("ros2:callback_start")) << events.out << events.err;
 }
 

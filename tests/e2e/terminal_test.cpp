@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch on a terminal: its status line while it starts and stops.
+#include "tests/support/terminal.hpp"
+
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -7,7 +9,6 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
-#include "tests/support/terminal.hpp"
 
 namespace {
 
@@ -33,7 +34,8 @@ TEST_F(OnATerminal, AStatusLineTellsOfASlowStartAndASlowEnd) {
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   Terminal terminal(launch("<executable name=\"gate\" shell=\"true\" output=\"screen\" sigterm_timeout=\"2\"\n"
                            "  cmd=\"trap : INT; cat " +
-                           fifo + "; while :; do read x; done\"/>\n"
+                           fifo +
+                           "; while :; do read x; done\"/>\n"
                            "<executable name=\"late\" cmd=\"echo here\" output=\"screen\">"
                            "<depends_on process=\"gate\" condition=\"output\" pattern=\"open\"/></executable>"),
                     environment_);

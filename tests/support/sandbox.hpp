@@ -61,8 +61,8 @@ class Sandbox {
   std::filesystem::path previous_directory_;
   std::string not_isolated_;
   std::shared_ptr<launch::DomainLease> domain_;  // when not root
-  int mount_namespace_ = -1;    // the namespace to return to
-  int network_namespace_ = -1;  // the namespace to return to
+  int mount_namespace_ = -1;                     // the namespace to return to
+  int network_namespace_ = -1;                   // the namespace to return to
   std::map<std::string, std::optional<std::string>> previous_environment_;
 };
 

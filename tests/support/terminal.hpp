@@ -55,9 +55,7 @@ class Terminal {
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
-  void type(const std::string& keys) {
-    static_cast<void>(!::write(fd_, keys.data(), keys.size()));
-  }
+  void type(const std::string& keys) { static_cast<void>(!::write(fd_, keys.data(), keys.size())); }
   void resize(unsigned short lines, unsigned short columns) {
     const winsize size{lines, columns, 0, 0};
     ::ioctl(fd_, TIOCSWINSZ, &size);

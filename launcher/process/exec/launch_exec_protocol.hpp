@@ -18,10 +18,10 @@ inline constexpr char kStepCpus = 'c';       // numbers with commas
 inline constexpr char kStepMemory = 'm';     // bytes
 inline constexpr char kStepOpenFiles = 'f';  // descriptors
 inline constexpr char kStepCoreFiles = 'd';  // no value: cores of any size that the hard limit allows
-// How many namespaces are entered, in the order of their descriptors. The last step: what a user may do outside of a user
-// namespace is not always allowed inside.
+// How many namespaces are entered, in the order of their descriptors. The last step: what a user may do outside of a
+// user namespace is not always allowed inside.
 inline constexpr char kStepNamespaces = 'i';
-inline constexpr char kStepExec = '-';       // the end of the steps, and the start of PROGRAM
+inline constexpr char kStepExec = '-';  // the end of the steps, and the start of PROGRAM
 
 struct LaunchExecFailure {
   char step;
