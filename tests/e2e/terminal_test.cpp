@@ -48,6 +48,7 @@ TEST_F(OnATerminal, AStatusLineTellsOfASlowStartAndASlowEnd) {
   gate << "open" << std::endl;
   ASSERT_TRUE(terminal.shows("[late-2] here")) << terminal.screen();
   ASSERT_TRUE(terminal.hides("starting ")) << terminal.screen();
+  ASSERT_TRUE(terminal.shows("[INFO] [late-2]: process has finished cleanly")) << terminal.screen();
   gate.close();
   terminal.type("\003");
   ASSERT_TRUE(terminal.shows("stopping: 1 of 1 still run, SIGTERM in ", ": gate-1")) << terminal.screen();
