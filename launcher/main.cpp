@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     return launch::graph_command({argv + 2, argv + argc}, launch::builtin_actions(), launch::own_environment());
   }
   if (command == "complete") {
-    launch::ResultOutput result;
+    launch::ResultOutput result("launch complete");
     for (const std::string& word : launch::completions({argv + 2, argv + argc}, launch::builtin_actions(),
                                                        launch::own_environment(), tracing::trace_completions)) {
       result.print(word + "\n");
@@ -91,8 +91,9 @@ int main(int argc, char** argv) {
     if (const auto exit_code = reference.parse({argv + 2, argv + argc})) {
       return *exit_code;
     }
-    fmt::print("{}", launch::reference_page(launch::builtin_actions()));
-    return 0;
+    launch::ResultOutput result("launch reference");
+    result.print(launch::reference_page(launch::builtin_actions()));
+    return result.finish() ? 0 : 1;
   }
   if (command == "run") {
     return launch::run_program_command({argv + 2, argv + argc}, launch::own_environment());

@@ -6,10 +6,13 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
+
+#include "launcher/base/command_error.hpp"
 
 namespace launch {
 
-ResultOutput::ResultOutput() {
+ResultOutput::ResultOutput(std::string command) : command_(std::move(command)) {
   std::fflush(stdout);
   const int former = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (former < 0) {
@@ -45,7 +48,8 @@ bool ResultOutput::finish() {
     note_error();
   }
   if (error_ != 0) {
-    std::fprintf(stderr, "launch: error: the output can't be written: %s\n", std::strerror(error_));
+    const std::string message = std::string("the output can't be written: ") + std::strerror(error_);
+    std::fputs(command_error(command_, message).c_str(), stderr);
   }
   return error_ == 0;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Standard output of a command that only looks at launch files.
+// Standard output of a command whose result a program may read.
 #pragma once
 
 #include <cstdio>
+#include <string>
 #include <string_view>
 
 namespace launch {
@@ -11,7 +12,8 @@ namespace launch {
 // goes to standard error, so that it never gets into a result that a program reads. One at a time.
 class ResultOutput {
  public:
-  ResultOutput();
+  // `command` is "launch check", for the error when the output can't be written.
+  explicit ResultOutput(std::string command);
   ResultOutput(const ResultOutput&) = delete;
   ResultOutput& operator=(const ResultOutput&) = delete;
   ~ResultOutput();
@@ -24,6 +26,7 @@ class ResultOutput {
  private:
   void note_error();
 
+  std::string command_;
   std::FILE* file_ = nullptr;  // the former standard output; null if there was none
   int error_ = 0;              // errno of the first text that could not be written
 };

@@ -276,7 +276,7 @@ int run_command(const CommandLine& command, Environment environment,
   const Registry registry = builtin_actions();
   std::optional<ResultOutput> result;
   if (command.mode != CommandMode::kRun) {
-    result.emplace();
+    result.emplace("launch");
   }
   try {
     LaunchContext context(registry, environment, own_prefix(),

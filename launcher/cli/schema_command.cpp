@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/schema_command.hpp"
 
-#include <fmt/format.h>
-
 #include "launcher/cli/dry_run_schema.hpp"
+#include "launcher/cli/result_output.hpp"
 #include "launcher/cli/schema.hpp"
 #include "launcher/cli/subcommand.hpp"
 
@@ -19,12 +18,11 @@ int schema_command(const std::vector<std::string>& words, const Registry& regist
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  if (format == "dry-run") {
-    fmt::print("{}", dry_run_schema());
-    return 0;
-  }
-  fmt::print("{}", format == "xsd" ? xml_schema(registry) : json_schema(registry));
-  return 0;
+  ResultOutput result("launch schema");
+  result.print(format == "dry-run" ? std::string(dry_run_schema())
+               : format == "xsd"   ? xml_schema(registry)
+                                   : json_schema(registry));
+  return result.finish() ? 0 : 1;
 }
 
 }  // namespace launch

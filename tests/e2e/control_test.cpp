@@ -131,12 +131,12 @@ TEST_F(Control, StopStartAndRestartWaitUntilItHasHappened) {
 
 TEST_F(Control, AProcessThatCantStartAgainIsAnError) {
   const fs::path program = sandbox_.directory() / "program";
-  write_file(program, "#!/bin/sh\nexec sleep 1000\n");
+  write_file(program, "#!/bin/sh\necho up\nexec sleep 1000\n");
   fs::permissions(program, fs::perms::owner_all);
   const std::string file =
-      write(kTalker + R"xml(<executable name="program" cmd=")xml" + program.string() + R"xml("/>)xml");
+      write(kTalker + R"xml(<executable name="program" output="both" cmd=")xml" + program.string() + R"xml("/>)xml");
   RunningCommand run(launch({file}));
-  ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
+  ASSERT_TRUE(run.wait_for_output("[program-2] up", kPatience));
   fs::remove(program);
   const CommandResult result = ask({"restart", "program"});
   EXPECT_EQ(result.exit_code, 1);

@@ -153,7 +153,7 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
     }
     options.recorded_nodes = std::move(*recorded);
   }
-  ResultOutput result;
+  ResultOutput result("launch check");
   options.arguments = target.arguments;
   const std::vector<std::string> words_of_files = expand_directories(target.words, found);
   const std::vector<std::string> files =

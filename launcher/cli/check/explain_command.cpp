@@ -98,7 +98,7 @@ int explain_command(const std::vector<std::string>& words) {
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  ResultOutput result;
+  ResultOutput result("launch explain");
   if (markdown) {
     result.print(page());
   } else if (id.empty()) {

@@ -80,7 +80,7 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     fmt::print(stderr, "{}", usage_error("launch graph", "no launch file given"));
     return kWrongCommandLine;
   }
-  ResultOutput result;
+  ResultOutput result("launch graph");
   try {
     LaunchContext context(registry, environment, own_prefix(), [](auto, auto, auto) {});
     for (const auto& [name, value] : target.arguments) {

@@ -63,7 +63,7 @@ int report(const TraceToDraw& trace, const std::string& directory) {
   if (!trace.output.empty() || !std::filesystem::exists(output)) {
     return exit_code;
   }
-  ResultOutput result;
+  ResultOutput result("launch graph");
   result.print(std::string(std::istreambuf_iterator<char>(std::ifstream(output).rdbuf()), {}));
   return result.finish() ? exit_code : 1;
 }
