@@ -39,6 +39,10 @@ void ImpliedCheck::on_process(const ProcessEvent& event) {
                        : fmt::format("if that is right: <exit process=\"{}\" code=\"{}\"/>", event.spec.name,
                                      exited->exit.code));
     }
+  } else if (std::holds_alternative<SignalSent>(event.what)) {
+    if (const auto killed = killed_.find(event.label); killed != killed_.end()) {
+      ++killed->second.sent;
+    }
   } else if (const auto* const left = std::get_if<ProcessLeft>(&event.what)) {
     fail(event, fmt::format("{} can't be ended: its pid is {}", event.label, left->pid));
   }
@@ -49,9 +53,12 @@ ImpliedCheck::Kill ImpliedCheck::take_kill(const ProcessEvent& event, int code) 
   if (found == killed_.end()) {
     return Kill::kNone;
   }
-  const int signal = found->second;
+  const Killed killed = found->second;
   killed_.erase(found);
-  return code == -signal || (code == 0 && asks_to_end(signal)) ? Kill::kExpected : Kill::kOther;
+  if (code == -killed.signal || (code == 0 && asks_to_end(killed.signal))) {
+    return Kill::kExpected;
+  }
+  return killed.sent > 1 ? Kill::kNone : Kill::kOther;
 }
 
 bool ImpliedCheck::is_left_out(const ProcessEvent& event) const {

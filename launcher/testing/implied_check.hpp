@@ -22,14 +22,19 @@ class ImpliedCheck {
   void leave_out(const std::string& name) { left_out_.push_back(name); }
 
   // A fault sends a signal to the process: it may end by it, or with 0 if the signal asks to end.
-  void expect_end(const std::string& label, int signal) { killed_[label] = signal; }
-  // Processes end from now on because they are told to.
-  void on_shutdown() { killed_.clear(); }
+  // To be called before the signal is sent.
+  void expect_end(const std::string& label, int signal) { killed_[label] = {signal}; }
 
   void on_process(const ProcessEvent& event);
 
  private:
-  // How the process of the event has ended, if a fault has sent it a signal; takes note of that.
+  // The last signal that a fault has sent to a process.
+  struct Killed {
+    int signal = 0;
+    int sent = 0;  // signals since then, with that one: others are those of the shutdown, or of the launch file
+  };
+  // Whether the process of the event has ended as such a signal lets it end; takes note of the end. kNone: the signal
+  // is not the reason.
   enum class Kill { kNone, kExpected, kOther };
   Kill take_kill(const ProcessEvent& event, int code);
   bool is_left_out(const ProcessEvent& event) const;
@@ -38,7 +43,7 @@ class ImpliedCheck {
   const OutputTail& tail_;
   std::function<void(Failure)> failed_;
   std::vector<std::string> left_out_;
-  std::map<std::string, int> killed_;  // label, signal of a fault
+  std::map<std::string, Killed> killed_;  // by label
 };
 
 }  // namespace launch

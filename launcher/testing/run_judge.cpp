@@ -78,7 +78,6 @@ void RunJudge::on_fault(const FaultEvent& event) {
 }
 
 void RunJudge::on_shutdown() {
-  implied_.on_shutdown();
   for (const std::unique_ptr<Check>& check : checks_) {
     check->on_shutdown();
   }

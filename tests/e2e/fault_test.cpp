@@ -96,6 +96,25 @@ a.launch.xml:3:4: error: p-1 has exited with code 3
 )");
 }
 
+TEST_F(FaultTest, AKillThatEndsTheSystemIsExpectedAndSoIsTheEndOfWhatHasIgnoredIt) {
+  write_file(sandbox_.directory() / "deaf.sh", "trap '' TERM; echo ready; while :; do sleep 0.01; done\n");
+  const std::string file = write(R"xml(
+  <executable name="leader" cmd="cat" on_exit="shutdown"/>
+  <executable name="deaf" cmd="sh $(dirname)/deaf.sh"/>
+  <test name="t">
+    <fault process="deaf" do="kill" signal="SIGTERM">
+      <depends_on process="deaf" condition="output" pattern="ready"/>
+    </fault>
+    <fault process="leader" do="kill" signal="SIGSEGV" at="0.1">
+      <depends_on process="deaf" condition="output" pattern="ready"/>
+    </fault>
+    <output text="ready"/>
+  </test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("(2 of 2 faults)"));
+}
+
 // Says when it stood still, and what its limit of descriptors is whenever that changes.
 constexpr const char* kWitness = R"py(import resource
 import time
