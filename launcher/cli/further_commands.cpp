@@ -21,6 +21,7 @@ const std::vector<CommandInfo>& further_commands() {
       {"graph", "FILE", "draws nodes, namespaces, includes and remapped topics"},
       {"interface", "VERB", "shows the messages, services and actions that are installed"},
       {"lifecycle", "VERB", "shows and changes the states of nodes with a life cycle"},
+      {"loglevel", "NODE", "prints or sets the level of the loggers of nodes"},
       {"logs", "NAME", "prints what the processes of a running launch print"},
       {"node", "VERB", "lists and describes nodes"},
       {"param", "VERB", "lists, prints and sets parameters of nodes"},
@@ -44,7 +45,7 @@ const std::vector<CommandInfo>& further_commands() {
 }
 
 bool is_ros_command(std::string_view command) {
-  constexpr std::array<std::string_view, 8> kCommands = {"action", "component", "interface", "lifecycle",
+  constexpr std::array<std::string_view, 9> kCommands = {"action", "component", "interface", "lifecycle", "loglevel",
                                                          "node",   "param",     "service",   "topic"};
   return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
 }

@@ -57,6 +57,37 @@ TEST(TopicCommand, ListsDescribesAndPrintsTopics) {
   talker.end_gently();
 }
 
+TEST(LoglevelCommand, PrintsAndSetsTheLevelsOfNodes) {
+  Sandbox sandbox;
+  RunningCommand worker(Command{{LOGGER_SERVICE_WORKER}});
+  EXPECT_EQ(ask_until({"loglevel", "/left/worker"}, "unset").out, "/left/worker: unset\n");
+  EXPECT_EQ(worker.err().find("a detail"), std::string::npos);
+  EXPECT_EQ(ask_until({"loglevel", "/left/worker", "debug"}, "debug").out, "/left/worker: debug\n");
+  EXPECT_TRUE(worker.wait_for_output("[left.worker]: a detail", kPatience)) << worker.err();
+  EXPECT_EQ(ask_until({"loglevel", "/left/*"}, "debug").out, "/left/worker: debug\n");
+  EXPECT_EQ(ask_until({"loglevel", "wor*", "error"}, "error").out, "/left/worker: error\n");
+  EXPECT_EQ(ask_until({"complete", "loglevel", "/left/"}, "worker").out, "/left/worker\n");
+  EXPECT_EQ(launch_command({"complete", "loglevel", "/left/worker", "f"}).out, "fatal\n");
+  worker.end_gently();
+}
+
+TEST(LoglevelCommand, SaysWhyItCannot) {
+  Sandbox sandbox;
+  RunningCommand talker(node("talker"));
+  ask_until({"node", "list"}, "/talker");
+  const CommandResult refused = launch_command({"loglevel", "/talker", "debug"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(
+      refused.err,
+      "launch loglevel: error: the node '/talker' has no services for the levels of its loggers\n"
+      "      = help: a program has them with rclcpp::NodeOptions().enable_logger_service(true); 'launch --log-level "
+      "NODE:=LEVEL' sets a level at the start of any node\n");
+  EXPECT_EQ(launch_command({"loglevel", "/talker", "debg"}).err,
+            "launch loglevel: error: there is no level 'debg'\n      = help: did you mean 'debug'?\n");
+  EXPECT_EQ(launch_command({"loglevel", "/nowhere/*"}).err, "launch loglevel: error: no node matches '/nowhere/*'\n");
+  talker.end_gently();
+}
+
 TEST(TopicCommand, MeasuresRates) {
   Sandbox sandbox;
   RunningCommand talker(node("talker"));

@@ -75,7 +75,7 @@ std::vector<std::string> completions_of(const VerbInfo& info, const std::vector<
 }
 
 int run_verb(const VerbInfo& info, std::vector<std::string> words) {
-  const std::string name = fmt::format("launch {} {}", info.command, info.name);
+  const std::string name = fmt::format("launch {}{}{}", info.command, info.name.empty() ? "" : " ", info.name);
   const std::unique_ptr<Verb> verb = info.make();
   CLI::App app(sentence(info.help), name);
   verb->declare(app);
@@ -108,7 +108,9 @@ int complete(const std::vector<std::string>& words) {
     candidates.emplace_back("--help");
   }
   for (const VerbInfo* const verb : verbs_of(words.front())) {
-    if (words.size() == 2) {
+    if (verb->name.empty()) {
+      candidates = completions_of(*verb, {words.begin() + 1, words.end()});
+    } else if (words.size() == 2) {
       candidates.push_back(verb->name);
     } else if (words.size() > 2 && verb->name == words[1]) {
       candidates = completions_of(*verb, {words.begin() + 2, words.end()});
@@ -123,6 +125,9 @@ int complete(const std::vector<std::string>& words) {
 }
 
 int run(const CommandOfVerbs& command, std::vector<std::string> words) {
+  if (const std::vector<const VerbInfo*> verbs = verbs_of(command.name); verbs.front()->name.empty()) {
+    return run_verb(*verbs.front(), std::move(words));
+  }
   if (words.empty() || words.front() == "--help" || words.front() == "-h") {
     fmt::print(words.empty() ? stderr : stdout, "{}", help_of(command));
     return words.empty() ? kWrongCommandLine : 0;

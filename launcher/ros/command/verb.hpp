@@ -53,7 +53,7 @@ const std::vector<CommandOfVerbs>& all_commands();
 
 struct VerbInfo {
   std::string command;  // "topic"
-  std::string name;     // "echo"
+  std::string name;     // "echo"; empty: the command itself, which has no verbs
   std::string help;
   std::unique_ptr<Verb> (*make)();
 };
@@ -103,6 +103,7 @@ std::unique_ptr<Verb> make_action_info();
 std::unique_ptr<Verb> make_action_list();
 std::unique_ptr<Verb> make_action_send_goal();
 std::unique_ptr<Verb> make_action_type();
+std::unique_ptr<Verb> make_loglevel();
 std::unique_ptr<Verb> make_lifecycle_get();
 std::unique_ptr<Verb> make_lifecycle_list();
 std::unique_ptr<Verb> make_lifecycle_nodes();
