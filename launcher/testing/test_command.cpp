@@ -254,7 +254,7 @@ int test_command(std::vector<std::string> words) {
   command.take_text("--shard", options.shard, "I/N: only the I-th of N parts of the tests");
   command.take_text("--engine", options.engine, "hand each test to this command, such as 'srun' or 'ssh HOST'");
   command.take_text("--seed", options.seeds.seed, "from which the random parts of faults are drawn; default: 1");
-  command.take_text("--seeds", options.seeds.seeds, "run each test so often, with the seeds 1, 2, 3, …");
+  command.take_text("--seeds", options.seeds.seeds, "run each test so often, with the seeds from 1 on");
   command.take_text("--faults", options.seeds.faults,
                     "only apply the faults with these numbers, such as 1,3, or none of them");
   command.take_flag("--shrink", options.shrink,
