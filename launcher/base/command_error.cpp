@@ -2,8 +2,10 @@
 #include "launcher/base/command_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "launcher/base/diagnostic.hpp"
 
@@ -40,6 +42,26 @@ std::string unexpected_word_error(std::string_view command, const std::vector<st
     }
   }
   return usage_error(command, message);
+}
+
+std::string wrong_value_error(std::string_view command, std::string_view message) {
+  // "--format: png not in {dot,svg}"
+  constexpr std::string_view kNotIn = " not in {";
+  const std::size_t option_end = message.find(": ");
+  const std::size_t value_end = message.find(kNotIn);
+  if (option_end >= value_end || value_end == std::string_view::npos || !message.ends_with('}')) {
+    return usage_error(command, message);
+  }
+  const std::string value(message.substr(option_end + 2, value_end - option_end - 2));
+  std::istringstream list(std::string(message.substr(value_end + kNotIn.size())));
+  std::vector<std::string> values;
+  for (std::string one; std::getline(list, one, ',');) {
+    values.push_back(one.substr(0, one.find('}')));
+  }
+  return usage_error(
+      command,
+      fmt::format("{} {} is unknown, expected {}", message.substr(0, option_end), value, fmt::join(values, ", ")),
+      did_you_mean(value, values));
 }
 
 }  // namespace launch

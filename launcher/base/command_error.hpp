@@ -33,6 +33,9 @@ struct KnownWords {
 std::string unexpected_word_error(std::string_view command, const std::vector<std::string>& words,
                                   const KnownWords& known, std::string_view message);
 
+// The error for words that a command takes, with CLI11's sentence. A value that is none of a list gets a suggestion.
+std::string wrong_value_error(std::string_view command, std::string_view message);
+
 // The error that CLI11 has thrown for `app`, or for the subcommand of it that was given. A template, so that this
 // library does not need CLI11.
 template <typename App, typename Error>
@@ -41,7 +44,7 @@ std::string usage_error_of(const App& app, const Error& error) {
   const App& chosen = given.empty() ? app : *given.front();
   const std::string command = given.empty() ? app.get_name() : app.get_name() + " " + chosen.get_name();
   if (app.remaining(true).empty()) {
-    return usage_error(command, error.what());
+    return wrong_value_error(command, error.what());
   }
   KnownWords known;
   for (const auto* const option : chosen.get_options({})) {

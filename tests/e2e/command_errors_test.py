@@ -42,6 +42,19 @@ class CommandErrors(unittest.TestCase):
                                      ('lifecycle', 'nodes', 'node'), ('trace', 'start', 'strat')):
             self.assertEqual(launch(command, typed, '/x').stderr.splitlines()[1], f"      = help: did you mean '{verb}'?")
 
+    def test_a_value_that_is_none_of_a_list(self):
+        for words, message, meant in (
+                (('check', '--format', 'jsn', 'x'), '--format jsn is unknown, expected text, json, sarif', 'json'),
+                (('graph', '--format', 'sgv', 'x'), '--format sgv is unknown, expected dot, svg', 'svg'),
+                (('schema', 'dryrun'), 'format dryrun is unknown, expected xsd, json, dry-run', 'dry-run'),
+                (('report', '--sort', 'nme', 'x'), None, 'name')):
+            with self.subTest(words):
+                result = launch(*words)
+                self.assertEqual(result.returncode, 2)
+                if message is not None:
+                    self.assertEqual(result.stderr.splitlines()[0], f'launch {words[0]}: error: {message}')
+                self.assertIn(f"\n      = help: did you mean '{meant}'?\n", result.stderr)
+
     def test_a_value_that_is_missing(self):
         for words, message in ((('check',), 'no launch file given'), (('graph',), 'no launch file given'),
                                (('test',), 'no launch file given'), (('stop',), 'NAME is required'),

@@ -34,5 +34,18 @@ TEST(CommandError, SuggestsOptionsAndCommands) {
             "      = help: see 'launch trace --help'\n");
 }
 
+TEST(CommandError, SuggestsValues) {
+  EXPECT_EQ(wrong_value_error("launch graph", "--format: svgz not in {dot,svg}"),
+            "launch graph: error: --format svgz is unknown, expected dot, svg\n"
+            "      = help: did you mean 'svg'?\n"
+            "      = help: see 'launch graph --help'\n");
+  EXPECT_EQ(wrong_value_error("launch graph", "--format: html not in {dot,svg}"),
+            "launch graph: error: --format html is unknown, expected dot, svg\n"
+            "      = help: see 'launch graph --help'\n");
+  EXPECT_EQ(wrong_value_error("launch report", "directory is required"),
+            "launch report: error: directory is required\n"
+            "      = help: see 'launch report --help'\n");
+}
+
 }  // namespace
 }  // namespace launch

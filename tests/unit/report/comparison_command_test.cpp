@@ -214,7 +214,7 @@ TEST_F(ComparisonCommand, ChecksItsOptions) {
   EXPECT_EQ(usage_error("--diff " + usual + " " + usual + " --confidence 40%"),
             "--confidence: '40%' is no confidence; write a part above 50% and below 100%");
   EXPECT_EQ(usage_error("--diff " + usual + " " + usual + " --fail-on slow"),
-            "--fail-on: slow not in {slower,faster,changed,overall,gone,new,incomplete}");
+            "--fail-on slow is unknown, expected slower, faster, changed, overall, gone, new, incomplete");
   EXPECT_EQ(usage_error("--summary"), "directory is required");
 }
 
