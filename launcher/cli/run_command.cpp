@@ -214,6 +214,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   }
   guardian.wait_until_ready();
   const int exit_code = service.run(*description);
+  output.show_status("");
   if (command.timing) {
     std::vector<TimedStep> steps = {std::move(load)};
     steps.insert(steps.end(), service.timing().begin(), service.timing().end());
