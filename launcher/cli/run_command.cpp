@@ -117,7 +117,7 @@ void print_timing(const std::vector<TimedStep>& steps) {
 }
 
 LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::string>& files, const Guardian& guardian,
-                         const std::string& log_directory, const std::string& log) {
+                         const Isolation& isolation, const std::string& log_directory, const std::string& log) {
   std::error_code unknown;
   std::vector<std::string> paths;
   for (const std::string& file : files) {
@@ -129,7 +129,10 @@ LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::stri
           .directory = std::filesystem::current_path(unknown).string(),
           .log_directory = log_directory,
           .log_file = log,
-          .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()};
+          .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
+          .isolation = isolation.domain       ? fmt::format("ROS_DOMAIN_ID={}", isolation.domain->id())
+                       : isolation.namespaces ? "namespaces"
+                                              : ""};
 }
 
 void tell_isolation(const Isolation& isolation, OutputRouter& output) {
@@ -201,7 +204,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   try {
     socket.emplace(RuntimeDirectory::make(environment), guardian);
     control.emplace(*loop, socket->fd().get(), supervisor, service.steering(),
-                    launch_facts(command, files, guardian, log_directory.path, log));
+                    launch_facts(command, files, guardian, isolation, log_directory.path, log));
   } catch (const std::system_error& error) {
     output.message(LogLevel::kWarning, "launch",
                    fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));

@@ -119,14 +119,18 @@ Json describe(const SteeredProcess& process, const ProcessSupervisor& supervisor
 }
 
 Json describe(const LaunchFacts& facts, bool ending) {
-  return {{"pid", facts.pid},
-          {"state", ending ? "ending" : "running"},
-          {"files", facts.files},
-          {"command", facts.command},
-          {"directory", facts.directory},
-          {"started", facts.started},
-          {"log_directory", facts.log_directory},
-          {"log_file", facts.log_file}};
+  Json json = {{"pid", facts.pid},
+               {"state", ending ? "ending" : "running"},
+               {"files", facts.files},
+               {"command", facts.command},
+               {"directory", facts.directory},
+               {"started", facts.started},
+               {"log_directory", facts.log_directory},
+               {"log_file", facts.log_file}};
+  if (!facts.isolation.empty()) {
+    json["isolation"] = facts.isolation;
+  }
+  return json;
 }
 
 struct EventWriter {

@@ -25,8 +25,9 @@ struct LaunchFacts {
   std::vector<std::string> files;    // launch files
   std::string directory;             // in which it was started
   std::string log_directory;
-  std::string log_file;  // its path
-  double started = 0;    // seconds since 1970
+  std::string log_file;     // its path
+  double started = 0;       // seconds since 1970
+  std::string isolation{};  // "namespaces", "ROS_DOMAIN_ID=29", or empty
 };
 
 struct ControlRequest {

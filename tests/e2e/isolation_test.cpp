@@ -204,7 +204,10 @@ TEST_P(Namespaces, HideALaunchFromNobodyWhoMaySteerIt) {
                                  "output=\"screen\"/>");
   RunningCommand run(launch({"--isolate", file}, prefix()));
   ASSERT_TRUE(run.wait_for_output("ready", kPatience)) << run.out() << run.err();
-  EXPECT_THAT(run_command(launch({"ps"})).out, ContainsRegex("sleeper-1 +running"));
+  EXPECT_THAT(run_command(launch({"ps"})).out,
+              AllOf(ContainsRegex("sleeper-1 +running"),
+                    ContainsRegex("^launch [0-9]+: wait.launch.xml, running for [0-9:]+, 1 process, isolated by "
+                                  "(namespaces|ROS_DOMAIN_ID=[0-9]+)\n")));
   EXPECT_EQ(run_command(launch({"shutdown"}), kPatience).exit_code, 0);
   EXPECT_EQ(run.wait(kPatience).exit_code, 0) << run.out() << run.err();
 }

@@ -68,8 +68,11 @@ std::string heading(const Json& answer) {
   const double age = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -
                      launch["started"].get<double>();
   const std::size_t count = answer["processes"].size();
-  return fmt::format("launch {}: {}, {} for {}, {} process{}\n", launch["pid"].get<pid_t>(), files_of(answer),
-                     launch["state"].get<std::string>(), duration_text(age), count, count == 1 ? "" : "es");
+  const std::string isolation = launch.contains("isolation")
+                                    ? fmt::format(", isolated by {}", launch["isolation"].get<std::string>())
+                                    : std::string();
+  return fmt::format("launch {}: {}, {} for {}, {} process{}{}\n", launch["pid"].get<pid_t>(), files_of(answer),
+                     launch["state"].get<std::string>(), duration_text(age), count, count == 1 ? "" : "es", isolation);
 }
 
 // The launch that `wanted` names, or all.
