@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 #include <rcutils/cmdline_parser.h>
 #include <rcutils/env.h>
+#include <rcutils/error_handling.h>
 #include <rcutils/format_string.h>
 #include <rcutils/logging_macros.h>
 #include <rcutils/process.h>
 #include <rcutils/snprintf.h>
 #include <rcutils/strdup.h>
+#include <rcutils/time.h>
 #include <unistd.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -72,6 +75,35 @@ TEST(Strings, AreMadeInMemoryOfTheAllocator) {
   allocator.deallocate(copy, allocator.state);
   EXPECT_EQ(rcutils_snprintf(nullptr, 0, "%d", 1234), 4);
   EXPECT_EQ(rcutils_snprintf(nullptr, 3, "%d", 1234), -1);
+}
+
+using TimeAsString = rcutils_ret_t (*)(const rcutils_time_point_value_t*, char*, size_t);
+
+std::string written(TimeAsString write, rcutils_time_point_value_t time, size_t size = 40) {
+  char text[40] = "untouched";
+  EXPECT_EQ(write(&time, text, size), RCUTILS_RET_OK);
+  return text;
+}
+
+TEST(Time, IsWrittenAsText) {
+  constexpr rcutils_time_point_value_t kTime = 1'500'000'007;
+  constexpr auto kLeast = std::numeric_limits<rcutils_time_point_value_t>::min();
+  EXPECT_EQ(written(rcutils_time_point_value_as_nanoseconds_string, kTime), "0000000001500000007");
+  EXPECT_EQ(written(rcutils_time_point_value_as_nanoseconds_string, -kTime), "-0000000001500000007");
+  EXPECT_EQ(written(rcutils_time_point_value_as_seconds_string, kTime), "0000000001.500000007");
+  EXPECT_EQ(written(rcutils_time_point_value_as_seconds_string, -kTime), "-0000000001.500000007");
+  EXPECT_EQ(written(rcutils_time_point_value_as_seconds_string, kLeast), "-9223372036.854775808");
+  EXPECT_EQ(written(rcutils_time_point_value_as_seconds_string, kTime, 5), "0000");
+  EXPECT_EQ(written(rcutils_time_point_value_as_seconds_string, kTime, 0), "untouched");
+  EXPECT_EQ(written(rcutils_time_point_value_as_date_string, kTime, 0), "untouched");
+  ASSERT_TRUE(rcutils_set_env("TZ", "UTC"));
+  EXPECT_EQ(written(rcutils_time_point_value_as_date_string, kTime), "1970-01-01 00:00:01.500");
+  EXPECT_EQ(written(rcutils_time_point_value_as_date_string, 1'000'000), "1970-01-01 00:00:00.001");
+  char small[31];
+  EXPECT_EQ(rcutils_time_point_value_as_date_string(&kTime, small, sizeof(small)), RCUTILS_RET_ERROR);
+  rcutils_reset_error();
+  EXPECT_EQ(rcutils_time_point_value_as_seconds_string(nullptr, small, sizeof(small)), RCUTILS_RET_INVALID_ARGUMENT);
+  rcutils_reset_error();
 }
 
 TEST(Environment, IsSetAndRead) {

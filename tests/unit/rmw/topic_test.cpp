@@ -204,6 +204,24 @@ TEST_F(Topic, ReportsItsActualQos) {
   EXPECT_TRUE(rmw_time_equal(actual.liveliness_lease_duration, RMW_DURATION_INFINITE));
 }
 
+TEST_F(Topic, TakesTheBestAvailableQos) {
+  Publisher<String> publisher(sender_, "/chatter", rmw_qos_profile_sensor_data);
+  receiver_.wait_for_graph([this] { return receiver_.count_publishers("/chatter") == 1; });
+  Subscription<String> subscription(receiver_, "/chatter", rmw_qos_profile_best_available);
+  rmw_qos_profile_t actual;
+  ASSERT_EQ(rmw_subscription_get_actual_qos(subscription.handle, &actual), RMW_RET_OK);
+  EXPECT_EQ(actual.reliability, RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT);
+  EXPECT_EQ(actual.durability, RMW_QOS_POLICY_DURABILITY_VOLATILE);
+  EXPECT_EQ(actual.liveliness, RMW_QOS_POLICY_LIVELINESS_AUTOMATIC);
+  EXPECT_TRUE(rmw_time_equal(actual.deadline, RMW_DURATION_INFINITE));
+  wait_for_match(publisher, subscription);
+
+  Publisher<String> best(sender_, "/best", rmw_qos_profile_best_available);
+  ASSERT_EQ(rmw_publisher_get_actual_qos(best.handle, &actual), RMW_RET_OK);
+  EXPECT_EQ(actual.reliability, RMW_QOS_POLICY_RELIABILITY_RELIABLE);
+  EXPECT_EQ(actual.durability, RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL);
+}
+
 // Participants of one process write into each other's memory in Fast DDS: none must end before the other knows about
 // it.
 TEST(Contexts, EndOneAfterAnotherInOneProcess) {

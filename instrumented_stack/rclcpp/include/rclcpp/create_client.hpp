@@ -33,6 +33,17 @@ typename Client<ServiceT>::SharedPtr create_client(
   return create_client<ServiceT>(std::move(node_base), std::move(node_services), service_name, qos, std::move(group));
 }
 
+// The older form, which takes a profile of the middleware.
+template <typename ServiceT>
+[[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Client<ServiceT>::SharedPtr create_client(
+    std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
+    std::shared_ptr<node_interfaces::NodeGraphInterface> /*node_graph*/,
+    std::shared_ptr<node_interfaces::NodeServicesInterface> node_services, const std::string& service_name,
+    const rmw_qos_profile_t& qos_profile, CallbackGroup::SharedPtr group) {
+  return create_client<ServiceT>(std::move(node_base), std::move(node_services), service_name,
+                                 QoS(QoSInitialization::from_rmw(qos_profile), qos_profile), std::move(group));
+}
+
 // `node` is a Node, a pointer to one, or a similar class.
 template <typename ServiceT, typename NodeT>
 typename Client<ServiceT>::SharedPtr create_client(NodeT& node, const std::string& service_name,

@@ -23,6 +23,17 @@ typename Service<ServiceT>::SharedPtr create_service(
   return service;
 }
 
+// The older form, which takes a profile of the middleware.
+template <typename ServiceT, typename CallbackT>
+[[deprecated("use rclcpp::QoS instead of rmw_qos_profile_t")]] typename Service<ServiceT>::SharedPtr create_service(
+    std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
+    std::shared_ptr<node_interfaces::NodeServicesInterface> node_services, const std::string& service_name,
+    CallbackT&& callback, const rmw_qos_profile_t& qos_profile, CallbackGroup::SharedPtr group) {
+  return create_service<ServiceT>(std::move(node_base), std::move(node_services), service_name,
+                                  std::forward<CallbackT>(callback),
+                                  QoS(QoSInitialization::from_rmw(qos_profile), qos_profile), std::move(group));
+}
+
 // `node` is a Node, a pointer to one, or a similar class.
 template <typename ServiceT, typename NodeT, typename CallbackT>
 typename Service<ServiceT>::SharedPtr create_service(NodeT& node, const std::string& service_name, CallbackT&& callback,

@@ -13,14 +13,6 @@ bool equal(const rmw_time_t& left, const rmw_time_t& right) {
   return left.sec == right.sec && left.nsec == right.nsec;
 }
 
-rmw_qos_profile_t best_available_profile() {
-  rmw_qos_profile_t profile = rmw_qos_profile_default;
-  profile.reliability = RMW_QOS_POLICY_RELIABILITY_BEST_AVAILABLE;
-  profile.durability = RMW_QOS_POLICY_DURABILITY_BEST_AVAILABLE;
-  profile.liveliness = RMW_QOS_POLICY_LIVELINESS_BEST_AVAILABLE;
-  return profile;
-}
-
 }  // namespace
 
 QoS::QoS(const QoSInitialization& qos_initialization) : QoS(qos_initialization, rmw_qos_profile_default) {}
@@ -122,7 +114,7 @@ ParameterEventsQoS::ParameterEventsQoS(const QoSInitialization& history)
     : QoS(history, rmw_qos_profile_parameter_events) {}
 RosoutQoS::RosoutQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_rosout_default) {}
 SystemDefaultsQoS::SystemDefaultsQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_system_default) {}
-BestAvailableQoS::BestAvailableQoS(const QoSInitialization& history) : QoS(history, best_available_profile()) {}
+BestAvailableQoS::BestAvailableQoS(const QoSInitialization& history) : QoS(history, rmw_qos_profile_best_available) {}
 
 std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t policy_kind) {
   switch (policy_kind) {

@@ -2,6 +2,7 @@
 // Clock readings and durations in integer nanoseconds.
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "rcutils/types/rcutils_ret.h"
@@ -26,6 +27,21 @@ rcutils_ret_t rcutils_system_time_now(rcutils_time_point_value_t* now);
 
 // CLOCK_MONOTONIC.
 rcutils_ret_t rcutils_steady_time_now(rcutils_time_point_value_t* now);
+
+// These write a time into `str`, cut to `str_size` bytes with the end. They return RCUTILS_RET_INVALID_ARGUMENT for
+// null pointers, and write nothing if `str_size` is 0.
+
+// Nanoseconds with 19 digits: "0000000001500000000".
+rcutils_ret_t rcutils_time_point_value_as_nanoseconds_string(const rcutils_time_point_value_t* time_point, char* str,
+                                                             size_t str_size);
+
+// Seconds with ten digits and nine decimals: "-0000000001.500000000".
+rcutils_ret_t rcutils_time_point_value_as_seconds_string(const rcutils_time_point_value_t* time_point, char* str,
+                                                         size_t str_size);
+
+// Local time with milliseconds: "2026-01-31 12:00:00.500". The sign is ignored. `str` must have 32 bytes at least.
+rcutils_ret_t rcutils_time_point_value_as_date_string(const rcutils_time_point_value_t* time_point, char* str,
+                                                      size_t str_size);
 
 #ifdef __cplusplus
 }

@@ -80,6 +80,17 @@ static const rmw_qos_profile_t rmw_qos_profile_system_default = {RMW_QOS_POLICY_
                                                                  RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
                                                                  false};
 
+// What most of the publishers or subscriptions that are there can match, and as strict as that permits.
+static const rmw_qos_profile_t rmw_qos_profile_best_available = {RMW_QOS_POLICY_HISTORY_KEEP_LAST,
+                                                                 10,
+                                                                 RMW_QOS_POLICY_RELIABILITY_BEST_AVAILABLE,
+                                                                 RMW_QOS_POLICY_DURABILITY_BEST_AVAILABLE,
+                                                                 RMW_QOS_DEADLINE_BEST_AVAILABLE,
+                                                                 RMW_QOS_LIFESPAN_DEFAULT,
+                                                                 RMW_QOS_POLICY_LIVELINESS_BEST_AVAILABLE,
+                                                                 RMW_QOS_LIVELINESS_LEASE_DURATION_BEST_AVAILABLE,
+                                                                 false};
+
 static const rmw_qos_profile_t rmw_qos_profile_unknown = {RMW_QOS_POLICY_HISTORY_UNKNOWN,
                                                           RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT,
                                                           RMW_QOS_POLICY_RELIABILITY_UNKNOWN,

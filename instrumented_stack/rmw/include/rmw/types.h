@@ -164,8 +164,12 @@ typedef enum rmw_qos_liveliness_policy_e {
 } rmw_qos_liveliness_policy_t;
 
 #define RMW_QOS_DEADLINE_DEFAULT RMW_DURATION_UNSPECIFIED
+// A nanosecond less than the infinite duration.
+#define RMW_QOS_DEADLINE_BEST_AVAILABLE \
+  { 9223372036LL, 854775806LL }
 #define RMW_QOS_LIFESPAN_DEFAULT RMW_DURATION_UNSPECIFIED
 #define RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT RMW_DURATION_UNSPECIFIED
+#define RMW_QOS_LIVELINESS_LEASE_DURATION_BEST_AVAILABLE RMW_QOS_DEADLINE_BEST_AVAILABLE
 
 typedef struct rmw_qos_profile_s {
   enum rmw_qos_history_policy_e history;

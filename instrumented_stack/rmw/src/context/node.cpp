@@ -5,9 +5,12 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "context/context_impl.hpp"
 #include "endpoint/endpoint.hpp"
+#include "names/topic_name.hpp"
+#include "qos/best_available.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
 #include "rmw/validate_full_topic_name.h"
@@ -16,6 +19,7 @@
 #include "types/identifier.hpp"
 
 using rmw_fastrtps::EndpointIdentity;
+using rmw_fastrtps::GraphCache;
 using rmw_fastrtps::GraphChannel;
 using rmw_fastrtps::kIdentifier;
 using rmw_fastrtps::Participant;
@@ -42,6 +46,16 @@ void check_node_name(const char* name, const char* namespace_) {
     throw std::invalid_argument(std::string("invalid namespace '") + namespace_ +
                                 "': " + rmw_namespace_validation_result_string(result));
   }
+}
+
+// The endpoints that the profile of a new one depends on.
+std::vector<GraphCache::OwnedEndpoint> other_side(const rmw_context_impl_t& context, GraphCache::Kind kind,
+                                                  const std::string& topic, const rmw_qos_profile_t& profile) {
+  if (!rmw_fastrtps::asks_for_best_available(profile)) {
+    return {};
+  }
+  return context.graph.endpoints(kind,
+                                 profile.avoid_ros_namespace_conventions ? topic : rmw_fastrtps::mangled_topic(topic));
 }
 
 void close_participant(rmw_context_impl_t& context) {
@@ -157,8 +171,10 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
   }
   rmw_context_impl_t& impl = *node->context->impl;
   std::lock_guard lock(impl.mutex);
+  const rmw_qos_profile_t profile = rmw_fastrtps::best_available_for_publisher(
+      *qos_profile, other_side(impl, GraphCache::Kind::kReader, topic_name, *qos_profile));
   rmw_publisher_t* publisher =
-      rmw_fastrtps::create_publisher(*impl.participant, *type_support, topic_name, *qos_profile, *publisher_options);
+      rmw_fastrtps::create_publisher(*impl.participant, *type_support, topic_name, profile, *publisher_options);
   try {
     rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*publisher)});
   } catch (...) {
@@ -198,8 +214,10 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
   }
   rmw_context_impl_t& impl = *node->context->impl;
   std::lock_guard lock(impl.mutex);
-  rmw_subscription_t* subscription = rmw_fastrtps::create_subscription(*impl.participant, *type_support, topic_name,
-                                                                       *qos_policies, *subscription_options);
+  const rmw_qos_profile_t profile = rmw_fastrtps::best_available_for_subscription(
+      *qos_policies, other_side(impl, GraphCache::Kind::kWriter, topic_name, *qos_policies));
+  rmw_subscription_t* subscription =
+      rmw_fastrtps::create_subscription(*impl.participant, *type_support, topic_name, profile, *subscription_options);
   rmw_fastrtps::set_node(*subscription, *node);
   try {
     rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*subscription)});

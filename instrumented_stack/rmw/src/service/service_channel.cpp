@@ -12,6 +12,7 @@
 #include "context/node.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
+#include "qos/best_available.hpp"
 #include "qos/qos.hpp"
 #include "rmw/error_handling.h"
 #include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
@@ -44,7 +45,7 @@ void ServiceChannel::open(End end, const rmw_node_t* node, const rosidl_service_
   rmw_context_impl_t& context = *node->context->impl;
   participant_ = context.participant.get();
   service_name_ = service_name;
-  open_endpoints(end, type_support, profile);
+  open_endpoints(end, type_support, best_available_for_service(profile));
   try {
     enter_graph(node, {reader_identity_, writer_identity_});
   } catch (...) {

@@ -63,8 +63,16 @@ TEST_F(Application, MayGiveServicesAProfileOfTheMiddleware) {
       "go", [](Trigger::Request::SharedPtr, Trigger::Response::SharedPtr response) { response->success = true; },
       rmw_qos_profile_services_default, group);
   const auto client = node_->create_client<Trigger>("go", rmw_qos_profile_services_default, group);
+  // Libraries that know only the interfaces of a node have the same two.
+  const auto other_service = rclcpp::create_service<Trigger>(
+      node_->get_node_base_interface(), node_->get_node_services_interface(), "stop",
+      [](Trigger::Request::SharedPtr, Trigger::Response::SharedPtr) {}, rmw_qos_profile_services_default, group);
+  const auto other_client = rclcpp::create_client<Trigger>(
+      node_->get_node_base_interface(), node_->get_node_graph_interface(), node_->get_node_services_interface(), "stop",
+      rmw_qos_profile_services_default, nullptr);
 #pragma GCC diagnostic pop
   ASSERT_TRUE(client->wait_for_service(kPatience));
+  EXPECT_TRUE(other_client->wait_for_service(kPatience));
   auto future = client->async_send_request(std::make_shared<Trigger::Request>());
   ASSERT_EQ(rclcpp::spin_until_future_complete(node_, future, kPatience), rclcpp::FutureReturnCode::SUCCESS);
   EXPECT_TRUE(future.get()->success);
