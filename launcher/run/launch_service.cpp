@@ -16,13 +16,6 @@
 
 namespace launch {
 
-namespace {
-
-constexpr int kExitCodeOfSignal = 128;  // plus its number, as shells count
-constexpr int kExitCodeOfFailures = 3;
-
-}  // namespace
-
 LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors)
     : context_(context),
       loop_(loop),
@@ -89,7 +82,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
     crashes_.on_snapshot(reasons, directory);
   });
   ros_tasks_.observe_failures(
-      [this](const std::string& what, const SourceRange& where) { failures_.add(what, where); });
+      [this](const std::string& what, const SourceRange& where) { outcome_.on_component_failure(what, where); });
 }
 
 LaunchService::~LaunchService() {
@@ -111,24 +104,10 @@ int LaunchService::run(const LaunchDescription& description) {
     });
   });
   loop_.run();
-  tell_failures();
-  return exit_code();
-}
-
-void LaunchService::tell_failures() {
-  for (const std::string& line : failures_.summary()) {
+  for (const std::string& line : outcome_.summary()) {
     context_.message(LogLevel::kError, "launch", line);
   }
-}
-
-int LaunchService::exit_code() const {
-  if (exit_code_ != 0) {
-    return exit_code_;
-  }
-  if (hurried_by_ != 0) {
-    return kExitCodeOfSignal + hurried_by_;
-  }
-  return failures_.empty() || ignore_failures_ ? 0 : kExitCodeOfFailures;
+  return outcome_.exit_code();
 }
 
 void LaunchService::end(const std::string& reason) {
@@ -155,7 +134,7 @@ void LaunchService::on_interrupt(const std::string& name) {
 }
 
 void LaunchService::on_interrupt_again(int number, const std::string& name) {
-  hurried_by_ = number;
+  outcome_.on_hurry(number);
   const auto say = [&](const std::string& text) {
     context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {} again, {}", name, text));
   };
@@ -198,7 +177,7 @@ void LaunchService::suspend() {
 
 void LaunchService::on_process_event(const ProcessEvent& event) {
   recording_.record(event);
-  failures_.on_process_event(event);
+  outcome_.on_process_event(event);
   crashes_.on_process_event(event);
   processes_.on_event(event);
   faults_.on_event(event);
@@ -215,9 +194,6 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
 void LaunchService::on_end_of_required(const ProcessEvent& event) {
   const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
   const auto* const exited = std::get_if<ProcessExited>(&event.what);
-  if (std::holds_alternative<ProcessLeft>(event.what)) {
-    exit_code_ = 1;
-  }
   // A process that is ended to be started again doesn't end the system.
   const bool restarts = exited != nullptr && exited->expected && exited->will_respawn;
   const bool ends_system = event.spec.shutdown_on_exit || event.spec.required;
@@ -226,10 +202,7 @@ void LaunchService::on_end_of_required(const ProcessEvent& event) {
   }
   context_.message(LogLevel::kInfo, "launch",
                    fmt::format("process[{}] was required: shutting down launched system", event.label));
-  if (event.spec.required && exited != nullptr && !exited->expected && !ignore_failures_ &&
-      !event.spec.allowed_exits.contains(exited->exit.code)) {
-    exit_code_ = exited->exit.code > 0 ? exited->exit.code : kExitCodeOfSignal - exited->exit.code;
-  }
+  outcome_.on_end_by(event);
   shutdown(fmt::format("process[{}] was required", event.label));
 }
 
@@ -358,7 +331,7 @@ void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
 // The end: a farewell, then the processes, then the scopes.
 
 void LaunchService::fail(const LaunchError& error) {
-  exit_code_ = 1;
+  outcome_.on_error();
   errors_(error);
   shutdown("an error");
 }
@@ -449,7 +422,7 @@ void LaunchService::end_scopes() {
   recording_.end();
   scopes_.end(
       [this](const LaunchError& error) {
-        exit_code_ = 1;
+        outcome_.on_error();
         errors_(error);
       },
       [this, last_exit = loop_.now()] {

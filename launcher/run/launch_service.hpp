@@ -21,10 +21,10 @@
 #include "launcher/python/coroutines.hpp"
 #include "launcher/ros/ros_tasks.hpp"
 #include "launcher/run/active_scopes.hpp"
-#include "launcher/run/failures.hpp"
 #include "launcher/run/farewell.hpp"
 #include "launcher/run/faults.hpp"
 #include "launcher/run/handlers.hpp"
+#include "launcher/run/outcome.hpp"
 #include "launcher/run/processes.hpp"
 #include "launcher/run/recording.hpp"
 #include "launcher/run/rounds.hpp"
@@ -76,19 +76,14 @@ class LaunchService {
   void end(const std::string& reason);
 
   // Failures of processes and components don't change the exit code, as with ros2 launch.
-  void ignore_failures() { ignore_failures_ = true; }
+  void ignore_failures() { outcome_.ignore_failures(); }
 
   // Called before the system stops by Ctrl-Z and after it goes on.
   void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
 
-  // Visits the description, runs the loop until nothing is left, and tells what has failed. Returns the exit code:
-  // - 1 after an error of the launch itself, or if a process could not be ended;
-  // - the exit code of the `required` process that has ended the launch, 128+N when signal N ended it;
-  // - 128+N when a second signal N has cut the end short;
-  // - 3 when a process has failed that nobody had asked to end, or a component could not be loaded (failures.hpp);
-  // - else 0, also after a signal.
-  // SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM to what is
-  // left, a third one SIGKILL. A signal less than a second after another one does not count.
+  // Visits the description, runs the loop until nothing is left, and tells what has failed. Returns the exit code
+  // (outcome.hpp). SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM
+  // to what is left, a third one SIGKILL. A signal less than a second after another one does not count.
   int run(const LaunchDescription& description);
 
   // For those who ask the launch from outside.
@@ -117,8 +112,6 @@ class LaunchService {
   void suspend();
   void on_process_event(const ProcessEvent& event);
   void on_end_of_required(const ProcessEvent& event);
-  void tell_failures();
-  int exit_code() const;
   void on_coroutine_step();
 
   // A traversal: visits, then carries out the requests. An error of the visit carries out nothing and ends the launch.
@@ -155,13 +148,10 @@ class LaunchService {
 
   Phase phase_ = Phase::kRunning;
   bool terminated_ = false;  // a second signal has sent SIGTERM
-  int exit_code_ = 0;        // of an error, or of a required process
-  int hurried_by_ = 0;       // the signal that has cut the end short
-  bool ignore_failures_ = false;
   bool check_posted_ = false;
 
   UserSignals signals_;
-  Failures failures_;
+  Outcome outcome_;
   CrashCollector crashes_;
   ActiveScopes scopes_;
   Rounds rounds_;
