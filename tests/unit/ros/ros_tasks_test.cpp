@@ -161,10 +161,12 @@ TEST_F(RosTasksTest, WhatWaitsForAContainerThatIsSkippedIsGivenUp) {
 </node_container>)xml"),
             3);
   EXPECT_EQ(loop_.now(), 3s);
-  EXPECT_THAT(messages_, testing::Contains("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of "
-                                           "type 'p::A' in container '/c': its process does not run "
-                                           "(/test/system.launch.xml:4:2)"));
-  EXPECT_EQ(messages_.back(), "ERROR [launch] component 'a' of type 'p::A' was not loaded (/test/system.launch.xml:4:2)");
+  EXPECT_THAT(messages_,
+              testing::Contains("ERROR [launch_ros.actions.load_composable_nodes] Failed to load node 'a' of "
+                                "type 'p::A' in container '/c': its process does not run "
+                                "(/test/system.launch.xml:4:2)"));
+  EXPECT_EQ(messages_.back(),
+            "ERROR [launch] component 'a' of type 'p::A' was not loaded (/test/system.launch.xml:4:2)");
 }
 
 TEST_F(RosTasksTest, ALongWaitIsToldAndAShutdownEndsIt) {
