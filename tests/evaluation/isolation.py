@@ -80,6 +80,11 @@ class Place:
                     raise OSError('the relay daemon (lttng-relayd) does not start')
                 time.sleep(0.01)
 
+    def relay_seconds(self):
+        """The processor time that the relay daemon has used."""
+        fields = Path(f'/proc/{self._relay.pid}/stat').read_text().rpartition(')')[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
     def close(self):
         if self._relay is not None:
             self._relay.terminate()

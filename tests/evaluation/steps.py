@@ -7,7 +7,7 @@ from typing import Callable
 
 from . import experiment
 from .isolation import Place
-from .measures import calls, discovery, entities, layers, local, losses, reading, sessions, stack, start, tracepoints
+from .measures import calls, discovery, entities, hosts, layers, local, losses, reading, sessions, stack, start, tracepoints
 from .presets import Preset
 from .ros2 import OtherRos2
 from .session import SessionPlan
@@ -65,6 +65,7 @@ STEPS = {
     'local': Step(local.measure, ('latency_local', 'latency_plain_local', 'tracetools_provider')),
     'discovery': Step(discovery.measure, ('latency_discovery', 'latency_bare_discovery', 'tracetools_provider')),
     'losses': Step(losses.measure, ('bench_trace_load', 'tracetools_provider')),
+    'hosts': Step(hosts.measure, ('bench_trace_load', 'tracetools_provider')),
     'start': Step(start.measure, ('bench_launch_start', 'launch-guardian', 'launch-exec')),
     'reading': Step(reading.measure, ('bench_reader',)),
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER]]]]
+// Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER [URL]]]]]
 //
 // Checks whether the default buffers are large enough. NODES processes fire first the events of their creation all at
-// once, then EVENTS_PER_SECOND together. All are recorded with the three context fields.
+// once, then EVENTS_PER_SECOND together. All are recorded with the three context fields. With a URL the trace goes to a relay
+// daemon.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
@@ -126,7 +127,8 @@ struct Bench {
   std::unique_ptr<tracing::Tracer> tracer = tracing::make_lttng_tracer();
 
   double begin(const std::string& name) {
-    config.session_name = name;
+    // Several of these programs may send to one relay daemon.
+    config.session_name = config.url.empty() ? name : fmt::format("{}-{}", name, getpid());
     return milliseconds_of([this] { tracer->start(config); });
   }
 
@@ -157,7 +159,9 @@ struct Bench {
                           {100 * static_cast<double>(losses.discarded_events()) / static_cast<double>(fired)}});
       benchmarks::report({buffers + ", consumer", "% of a processor", {100 * cpu / took}});
     }
-    fs::remove_all(config.trace_directory());
+    if (config.url.empty()) {
+      fs::remove_all(config.trace_directory());
+    }
   }
 };
 
@@ -176,6 +180,9 @@ int main(int argc, char** argv) {
   argument(4, bench.config.subbuffer_size_ust);
   argument(5, bench.config.subbuffer_count_ust);
   argument(6, bench.config.read_timer_ust);
+  if (argc > 7) {
+    bench.config.url = argv[7];
+  }
   std::string directory = (fs::temp_directory_path() / "bench_trace_load-XXXXXX").string();
   if (mkdtemp(directory.data()) == nullptr) {
     fail("cannot create " + directory);

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 from evaluation import curves, drawing, markdown, page, pictures, tables
 from evaluation.experiment import Combination, Samples, aggregate_json, combination_json
-from evaluation.measures import (calls, discovery, entities, layers, local, losses, reading, sessions, stack, start,
+from evaluation.measures import (calls, discovery, entities, hosts, layers, local, losses, reading, sessions, stack, start,
                                  tracepoints)
 from evaluation.results import Figure
 
@@ -213,7 +213,7 @@ class Markdown(unittest.TestCase):
 class Documentation(unittest.TestCase):
 
     def test_marks_name_groups_that_are_measured(self):
-        measured = {module.GROUP for module in (calls, discovery, entities, layers, local, losses, reading, sessions, stack,
+        measured = {module.GROUP for module in (calls, discovery, entities, hosts, layers, local, losses, reading, sessions, stack,
                                                 start, tracepoints)}
         marks = 0
         for name in ('evaluation', 'scale'):
@@ -221,7 +221,7 @@ class Documentation(unittest.TestCase):
                 marks += 1
                 if groups != 'all':
                     self.assertLessEqual(set(groups.split('; ')), measured)
-        self.assertEqual(marks, 6)
+        self.assertEqual(marks, 7)
 
 
 class Numbers(unittest.TestCase):
