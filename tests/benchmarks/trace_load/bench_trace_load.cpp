@@ -2,8 +2,8 @@
 // Usage: bench_trace_load [NODES [EVENTS_PER_SECOND [SECONDS [SUBBUFFER_SIZE SUBBUFFER_COUNT READ_TIMER [URL]]]]]
 //
 // Checks whether the default buffers are large enough. NODES processes fire first the events of their creation all at
-// once, then EVENTS_PER_SECOND together. All are recorded with the three context fields. With a URL the trace goes to a relay
-// daemon.
+// once, then EVENTS_PER_SECOND together. All are recorded with the three context fields. With a URL the trace goes to a
+// relay daemon.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
