@@ -30,7 +30,11 @@ Cell count_cell(std::uint64_t count, Style style = Style::kPlain) {
 }
 
 Cell rate_cell(double rate_hz) {
-  return rate_hz == 0 ? Cell{"-"} : Cell{fmt::format("{:.4g} Hz", rate_hz)};
+  if (rate_hz == 0) {
+    return {"-"};
+  }
+  // Some messages in a burst have a rate of their own.
+  return rate_hz < 9999.5 ? Cell{fmt::format("{:.4g} Hz", rate_hz)} : Cell{fmt::format("{:.4g} kHz", rate_hz / 1000)};
 }
 
 Cell percent_cell(double part) {

@@ -341,7 +341,7 @@ Chains                           count      p50      p99      max  reaction p99 
 
 Callbacks                            rate  count      p50      p99      max  jitter  missed     load
   /slow, timer 100 ms              9.5 Hz     20  50.0 ms  60.0 ms  70.0 ms  100 ms       1  50.00 %
-  /often, subscription /scan      1000 Hz   2000  20.0 us  30.0 us  40.0 us       -       -   2.00 %
+  /often, subscription /scan    17.98 kHz   2000  20.0 us  30.0 us  40.0 us       -       -   2.00 %
   /rare, service /reset                 -     10  1.00 ms  2.00 ms  90.0 ms       -       -   0.50 %
 
 Topics      rate  sent  received  dropped     p50      p99      max
