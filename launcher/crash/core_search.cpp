@@ -84,7 +84,7 @@ FoundCore ask_coredumpctl(pid_t pid, const std::string& scratch) {
       return {"", false,
               fmt::format("systemd-coredump has got the core, and `coredumpctl dump {}` does not find it", pid)};
     }
-    std::this_thread::sleep_for(200ms);
+    std::this_thread::sleep_for(200ms);  // coredumpctl can't wait for a core that is still being stored
   }
 }
 

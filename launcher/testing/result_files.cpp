@@ -14,7 +14,7 @@ namespace launch {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string whole_text(const TestResult& result) {
   std::string text;
@@ -108,9 +108,10 @@ std::string as_tap(const std::vector<TestResult>& results) {
       }
     }
     if (!result.passed()) {
-      text += fmt::format("  ---\n  message: {}\n  duration_ms: {:.0f}\n  details: |\n",
-                          Json(first_message(result)).dump(-1, ' ', false, Json::error_handler_t::replace),
-                          result.seconds * 1000);
+      text +=
+          fmt::format("  ---\n  message: {}\n  duration_ms: {:.0f}\n  details: |\n",
+                      OrderedJson(first_message(result)).dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
+                      result.seconds * 1000);
       std::istringstream lines(whole_text(result));
       for (std::string line; std::getline(lines, line);) {
         text += "    " + line + "\n";
@@ -152,13 +153,13 @@ std::string as_github(const std::vector<TestResult>& results, const std::string&
 }
 
 std::string as_json(const std::vector<TestResult>& results) {
-  Json tests = Json::array();
+  OrderedJson tests = OrderedJson::array();
   std::size_t failed = 0;
   for (const TestResult& result : results) {
-    tests.push_back(Json::parse(to_json(result)));
+    tests.push_back(OrderedJson::parse(to_json(result)));
     failed += result.passed() ? 0 : 1;
   }
-  const Json json = {{"passed", results.size() - failed}, {"failed", failed}, {"tests", tests}};
+  const OrderedJson json = {{"passed", results.size() - failed}, {"failed", failed}, {"tests", tests}};
   return json.dump(2) + "\n";
 }
 

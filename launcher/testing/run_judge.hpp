@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
+#include "launcher/testing/checks/implied_check.hpp"
+#include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/testing/fault_log.hpp"
-#include "launcher/testing/implied_check.hpp"
 #include "launcher/testing/output_tail.hpp"
-#include "launcher/testing/trace_check.hpp"
 #include "launcher/visit/test_request.hpp"
 
 namespace launch {

@@ -12,7 +12,7 @@
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
-#include "launcher/testing/trace_check.hpp"
+#include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "launcher/visit/process_table.hpp"
 

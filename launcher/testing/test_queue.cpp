@@ -25,7 +25,7 @@
 #include "launcher/base/ending_signals.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 #include "launcher/testing/engine.hpp"
 #include "launcher/testing/seeds.hpp"
 #include "launcher/testing/test_process.hpp"

@@ -4,10 +4,8 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <regex>
 
-#include "tests/support/command.hpp"
-#include "tests/support/sandbox.hpp"
+#include "tests/e2e/launch_test_fixture.hpp"
 
 namespace {
 
@@ -27,32 +25,11 @@ while :; do
 done
 )sh";
 
-class FaultTest : public testing::Test {
+class FaultTest : public LaunchTestFixture {
  protected:
   FaultTest() { write_file(sandbox_.directory() / "counter.sh", kCounter); }
 
-  std::string write(const std::string& actions) {
-    const fs::path path = sandbox_.directory() / "a.launch.xml";
-    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
-    return path.string();
-  }
-
-  static CommandResult run(std::vector<std::string> words) {
-    words.insert(words.begin(), {LAUNCH_PROGRAM, "test"});
-    return run_command({.argv = words}, std::chrono::seconds(100));
-  }
-
-  // Without times and directories, which differ.
-  std::string plain(const std::string& text) const {
-    std::string result = std::regex_replace(text, std::regex("(  |, in | at )[0-9.]+ s"), "$1T s");
-    result = std::regex_replace(result, std::regex("files: .*/"), "files: DIR/");
-    for (std::size_t at = 0; (at = result.find(sandbox_.directory().string() + "/", at)) != std::string::npos;) {
-      result.erase(at, sandbox_.directory().string().size() + 1);
-    }
-    return result;
-  }
-
-  Sandbox sandbox_;
+  std::string write(const std::string& actions) { return LaunchTestFixture::write("a.launch.xml", actions); }
 };
 
 TEST_F(FaultTest, AProcessThatItKillsHasNotFailedAndRespawns) {

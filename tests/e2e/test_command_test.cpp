@@ -7,11 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 
-#include "tests/support/command.hpp"
-#include "tests/support/sandbox.hpp"
+#include "tests/e2e/launch_test_fixture.hpp"
 
 namespace {
 
@@ -21,30 +19,8 @@ using testing::Not;
 
 namespace fs = std::filesystem;
 
-class TestCommand : public testing::Test {
+class TestCommand : public LaunchTestFixture {
  protected:
-  std::string write(const std::string& name, const std::string& actions) {
-    const fs::path path = sandbox_.directory() / name;
-    fs::create_directories(path.parent_path());
-    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
-    return path.string();
-  }
-
-  static CommandResult run(std::vector<std::string> words) {
-    words.insert(words.begin(), {LAUNCH_PROGRAM, "test"});
-    return run_command({.argv = words}, std::chrono::seconds(100));
-  }
-
-  // Without times and directories, which differ.
-  std::string plain(const std::string& text) const {
-    std::string result = std::regex_replace(text, std::regex("(  |, in )[0-9.]+ s\n"), "$1T s\n");
-    result = std::regex_replace(result, std::regex("files: .*/"), "files: DIR/");
-    for (std::size_t at = 0; (at = result.find(sandbox_.directory().string() + "/", at)) != std::string::npos;) {
-      result.erase(at, sandbox_.directory().string().size() + 1);
-    }
-    return result;
-  }
-
   // Waits until a process of a test has made the file.
   bool appears(const std::string& name) const {
     const fs::path path = sandbox_.directory() / name;
@@ -54,8 +30,6 @@ class TestCommand : public testing::Test {
     }
     return fs::exists(path);
   }
-
-  Sandbox sandbox_;
 };
 
 TEST_F(TestCommand, TellsWhatHasFailedAtItsPlace) {

@@ -40,14 +40,7 @@ class ActionList final : public Verb {
   int run() override {
     GraphSession session;
     session.discover(look_.time());
-    const NamesAndTypes actions = actions_of_graph(session);
-    if (count_) {
-      put(fmt::format("{}\n", actions.size()));
-      return 0;
-    }
-    for (const auto& [name, types] : actions) {
-      put(show_types_ ? fmt::format("{} [{}]\n", name, fmt::join(types, ", ")) : name + "\n");
-    }
+    put_names(actions_of_graph(session), show_types_, count_);
     return 0;
   }
 

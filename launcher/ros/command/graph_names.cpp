@@ -91,6 +91,16 @@ NamesAndTypes actions_of_graph(GraphSession& session) {
   return actions_with(session.node().get_topic_names_and_types(), kFeedback, "_FeedbackMessage");
 }
 
+void put_names(const NamesAndTypes& names, bool show_types, bool count) {
+  if (count) {
+    put(fmt::format("{}\n", names.size()));
+    return;
+  }
+  for (const auto& [name, types] : names) {
+    put(show_types ? fmt::format("{} [{}]\n", name, fmt::join(types, ", ")) : name + "\n");
+  }
+}
+
 std::string require_node(GraphSession& session, const std::string& name, std::optional<Seconds> time) {
   const std::string full = full_name(name);
   const auto is_there = [&] {

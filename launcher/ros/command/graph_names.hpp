@@ -25,6 +25,9 @@ NamesAndTypes actions_among(const NamesAndTypes& services);
 // All actions of the graph.
 NamesAndTypes actions_of_graph(GraphSession& session);
 
+// Prints the names, a line each, with their types if asked for. `count`: prints only how many there are.
+void put_names(const NamesAndTypes& names, bool show_types, bool count);
+
 // Waits until there is the node, 3 seconds or `time`. Throws CommandError if it does not come. Returns the full name.
 std::string require_node(GraphSession& session, const std::string& name, std::optional<Seconds> time);
 

@@ -56,13 +56,7 @@ class ServiceList final : public Verb {
     session.discover(look_.time());
     NamesAndTypes services = session.node().get_service_names_and_types();
     std::erase_if(services, [this](const auto& service) { return !hidden_ && is_hidden(service.first); });
-    if (count_) {
-      put(fmt::format("{}\n", services.size()));
-      return 0;
-    }
-    for (const auto& [name, types] : services) {
-      put(show_types_ ? fmt::format("{} [{}]\n", name, fmt::join(types, ", ")) : name + "\n");
-    }
+    put_names(services, show_types_, count_);
     return 0;
   }
 

@@ -27,24 +27,16 @@ class TopicList final : public Verb {
     session.discover(look_.time());
     auto topics = session.node().get_topic_names_and_types();
     std::erase_if(topics, [this](const auto& topic) { return !hidden_ && is_hidden(topic.first); });
-    if (count_) {
-      put(fmt::format("{}\n", topics.size()));
-      return 0;
-    }
-    if (verbose_ && !topics.empty()) {
+    if (!count_ && verbose_ && !topics.empty()) {
       put(section(session, topics, true) + "\n" + section(session, topics, false) + "\n");
       return 0;
     }
-    for (const auto& [name, types] : topics) {
-      put(show_types_ ? fmt::format("{} [{}]\n", name, fmt::join(types, ", ")) : name + "\n");
-    }
+    put_names(topics, show_types_, count_);
     return 0;
   }
 
  private:
-  using Topics = std::map<std::string, std::vector<std::string>>;
-
-  static std::string section(GraphSession& session, const Topics& topics, bool publishers) {
+  static std::string section(GraphSession& session, const NamesAndTypes& topics, bool publishers) {
     std::string text = publishers ? "Published topics:\n" : "Subscribed topics:\n";
     for (const auto& [name, types] : topics) {
       const std::size_t count =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/timer_check.hpp"
+#include "launcher/testing/checks/timer_check.hpp"
 
 #include <fmt/format.h>
 

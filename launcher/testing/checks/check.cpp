@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 
 #include <fmt/format.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 // <graph node="…"/>, <graph topic="…"/>, <graph service="…"/>
 #include <fmt/format.h>
 
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 
 namespace launch {
 

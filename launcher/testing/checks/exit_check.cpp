@@ -2,7 +2,7 @@
 // <exit process="…" code="…"/>
 #include <fmt/format.h>
 
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 
 namespace launch {
 

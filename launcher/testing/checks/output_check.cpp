@@ -2,7 +2,7 @@
 // <output …/> and <in_order>
 #include <fmt/format.h>
 
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/chain_times.hpp"
+#include "launcher/testing/checks/chain_times.hpp"
 
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/reader/trace_reader.hpp"

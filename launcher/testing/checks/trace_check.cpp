@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/trace_check.hpp"
+#include "launcher/testing/checks/trace_check.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 
 #include "launch_trace_testing/event_query.hpp"
 #include "launch_trace_testing/expectations.hpp"
-#include "launcher/testing/chain_times.hpp"
-#include "launcher/testing/timer_check.hpp"
+#include "launcher/testing/checks/chain_times.hpp"
+#include "launcher/testing/checks/timer_check.hpp"
 #include "tracing/reader/trace_read_error.hpp"
 
 namespace launch {

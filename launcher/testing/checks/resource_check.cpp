@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/implied_check.hpp"
+#include "launcher/testing/checks/implied_check.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "launcher/base/ending_signals.hpp"
-#include "launcher/testing/check.hpp"
+#include "launcher/testing/checks/check.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {
