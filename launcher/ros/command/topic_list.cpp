@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "launcher/ros/command/graph_names.hpp"
 #include "launcher/ros/command/qos_text.hpp"
 #include "launcher/ros/command/topic_graph.hpp"
 
