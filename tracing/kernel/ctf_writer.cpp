@@ -29,14 +29,7 @@ void append(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-std::array<std::uint8_t, 16> random_uuid() {
-  std::array<std::uint8_t, 16> uuid{};
-  std::random_device random;
-  for (std::uint8_t& byte : uuid) byte = static_cast<std::uint8_t>(random());
-  return uuid;
-}
-
-std::string as_text(const std::array<std::uint8_t, 16>& uuid) {
+std::string as_text(const TraceUuid& uuid) {
   std::string text;
   for (std::size_t i = 0; i < uuid.size(); ++i) {
     text += fmt::format("{}{:02x}", i == 4 || i == 6 || i == 8 || i == 10 ? "-" : "", uuid[i]);
@@ -143,9 +136,16 @@ TraceClock clock_beside(const fs::path& directory) {
           .offset = (real.tv_sec - monotonic.tv_sec) * std::int64_t{1'000'000'000} + real.tv_nsec - monotonic.tv_nsec};
 }
 
-CtfWriter::CtfWriter(fs::path directory, const std::vector<EventFormat>& formats,
+TraceUuid random_uuid() {
+  TraceUuid uuid{};
+  std::random_device random;
+  for (std::uint8_t& byte : uuid) byte = static_cast<std::uint8_t>(random());
+  return uuid;
+}
+
+CtfWriter::CtfWriter(fs::path directory, const TraceUuid& uuid, const std::vector<EventFormat>& formats,
                      const std::vector<std::string>& context_fields, ThreadTable& threads)
-    : directory_(std::move(directory)), context_fields_(context_fields), threads_(threads), uuid_(random_uuid()) {
+    : directory_(std::move(directory)), context_fields_(context_fields), threads_(threads), uuid_(uuid) {
   const auto given = [this](const char* field) {
     return std::find(context_fields_.begin(), context_fields_.end(), field) != context_fields_.end();
   };
@@ -181,32 +181,48 @@ void CtfWriter::append_record(std::string& packet, unsigned cpu, std::uint64_t t
   ++events_;
 }
 
-void CtfWriter::write_page(unsigned cpu, std::span<const std::uint8_t> page) {
-  std::string events;
-  const RingPage read = read_ring_page(page, [&](std::uint64_t time, std::span<const std::uint8_t> record) {
-    append_record(events, cpu, time, record);
+CtfWriter::Content CtfWriter::content_of(unsigned cpu, std::span<const std::uint8_t> page) {
+  Content content;
+  content.page = read_ring_page(page, [&](std::uint64_t time, std::span<const std::uint8_t> record) {
+    append_record(content.events, cpu, time, record);
   });
-  Stream& stream = streams_[cpu];
-  stream.discarded += read.lost_records;
-  lost_events_ += read.lost_records;
-  if (events.empty() && read.lost_records == 0) return;
+  streams_[cpu].discarded += content.page.lost_records;
+  lost_events_ += content.page.lost_records;
+  return content;
+}
 
+void CtfWriter::write_page(unsigned cpu, std::span<const std::uint8_t> page) {
+  const Content content = content_of(cpu, page);
+  if (content.events.empty() && content.page.lost_records == 0) return;
+  write_packet(cpu, packet_of(cpu, streams_[cpu].packets++, content));
+}
+
+std::string CtfWriter::packet_of(unsigned cpu, std::uint64_t number, std::span<const std::uint8_t> page) {
+  return packet_of(cpu, number, content_of(cpu, page));
+}
+
+void CtfWriter::write_packet(unsigned cpu, const std::string& packet) {
+  bytes_ += packet.size();
+  write(directory_ / fmt::format("kernel_{}", cpu), packet, std::ios::app);
+}
+
+std::string CtfWriter::packet_of(unsigned cpu, std::uint64_t number, const Content& content) const {
   std::string packet;
   append(packet, kMagic);
   packet.append(reinterpret_cast<const char*>(uuid_.data()), uuid_.size());
   append(packet, std::uint32_t{0});  // stream id
   append(packet, std::uint64_t{cpu});
-  append(packet, read.begin);
-  append(packet, read.end);
-  const std::uint64_t bits = (packet.size() + 4 * sizeof(std::uint64_t) + sizeof(std::uint32_t) + events.size()) * 8;
+  append(packet, content.page.begin);
+  append(packet, content.page.end);
+  const std::uint64_t bits =
+      (packet.size() + 4 * sizeof(std::uint64_t) + sizeof(std::uint32_t) + content.events.size()) * 8;
   append(packet, bits);  // content
   append(packet, bits);  // packet
-  append(packet, stream.packets++);
-  append(packet, stream.discarded);
+  append(packet, number);
+  append(packet, streams_.at(cpu).discarded);
   append(packet, std::uint32_t{cpu});
-  packet += events;
-  bytes_ += packet.size();
-  write(directory_ / fmt::format("kernel_{}", cpu), packet, std::ios::app);
+  packet += content.events;
+  return packet;
 }
 
 void CtfWriter::write_metadata(const TraceClock& clock) const {

@@ -38,6 +38,7 @@
 #include "tracing/kernel/ctf_writer.hpp"
 #include "tracing/kernel/page_history.hpp"
 #include "tracing/kernel/ring_page.hpp"
+#include "tracing/kernel/snapshot_writer.hpp"
 #include "tracing/kernel/thread_table.hpp"
 #include "tracing/kernel/tracefs.hpp"
 
@@ -198,7 +199,7 @@ void record(TracefsInstance& instance, const fs::path& directory, const Options&
   fs::create_directories(directory);
   const fs::path beside = directory.parent_path();
   ThreadTable threads(instance.watch_event("task/task_newtask"), instance.watch_event("task/task_rename"));
-  CtfWriter writer(directory, instance.formats(), options.context_fields, threads);
+  CtfWriter writer(directory, random_uuid(), instance.formats(), options.context_fields, threads);
   const std::vector<RingBuffer> buffers = open_buffers(instance);
   std::vector<pollfd> watched = {{signals, POLLIN, 0}};
   for (const RingBuffer& buffer : buffers) watched.push_back({buffer.file.get(), POLLIN, 0});
@@ -250,28 +251,12 @@ Request requested(const fs::path& beside) {
   return {directory, what == "clear"};
 }
 
-// The table of threads learns from the snapshot's own events. Older events are overwritten; /proc gives the other
-// threads.
-void write_snapshot(const fs::path& directory, const PageHistory& history, const std::vector<EventFormat>& formats,
-                    const std::vector<std::string>& context_fields, ThreadTable threads) {
-  fs::create_directories(directory / "kernel");
-  CtfWriter writer(directory / "kernel", formats, context_fields, threads);
-  for (const auto& [cpu, processor] : history.processors()) {
-    for (const PageHistory::Page& page : processor.pages) learn(threads, page);
-  }
-  for (const auto& [cpu, processor] : history.processors()) {
-    for (const PageHistory::Page& page : processor.pages) writer.write_page(cpu, page);
-  }
-  writer.write_metadata(clock_beside(directory / "ust"));
-}
-
 void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside, const Options& options, int signals) {
   fs::create_directories(beside);
   instance.keep_newest();
   const ThreadTable no_threads(instance.watch_event("task/task_newtask"), instance.watch_event("task/task_rename"));
-  const std::vector<EventFormat> formats = instance.formats();
+  SnapshotWriter writer(TracefsInstance::kBufferBytes, instance.formats(), options.context_fields, no_threads);
   const std::vector<RingBuffer> buffers = open_buffers(instance);
-  PageHistory history(TracefsInstance::kBufferBytes);
   instance.start();
   tell_state(beside, "recording");
   say(ready(options));
@@ -281,9 +266,10 @@ void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside, const
     if (signal == SIGRTMIN) {
       const auto [snapshot, clear] = requested(beside);
       try {
-        read_buffers(buffers, [&](unsigned cpu, PageHistory::Page page) { history.add(cpu, std::move(page)); });
-        write_snapshot(snapshot, history, formats, options.context_fields, no_threads);
-        if (clear) history.clear();
+        read_buffers(buffers, [&](unsigned cpu, PageHistory::Page page) { writer.add(cpu, std::move(page)); });
+        fs::create_directories(snapshot / "kernel");
+        writer.write(snapshot / "kernel", clock_beside(snapshot / "ust"));
+        if (clear) writer.clear();
         tell_state(beside, snapshot.filename());
       } catch (const std::exception& error) {
         tell_state(beside, fmt::format("failed {}: {}", snapshot.filename().string(), error.what()));

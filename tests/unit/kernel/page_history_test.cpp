@@ -12,6 +12,7 @@
 namespace {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
 using tracing::kernel::forget_lost_records;
 using tracing::kernel::PageHistory;
 using tracing::kernel::read_ring_page;
@@ -26,11 +27,17 @@ PageHistory::Page page(std::uint64_t time, std::uint64_t flags = 0) {
   return bytes;
 }
 
-std::vector<std::uint64_t> times(const PageHistory& history, unsigned cpu) {
+std::vector<std::uint64_t> times(PageHistory& history, unsigned cpu) {
   std::vector<std::uint64_t> result;
-  for (const PageHistory::Page& kept : history.processors().at(cpu).pages) {
-    result.push_back(read_ring_page(kept, [](auto, auto) {}).begin);
+  for (const PageHistory::KeptPage& kept : history.processors().at(cpu).pages) {
+    result.push_back(read_ring_page(kept.bytes, [](auto, auto) {}).begin);
   }
+  return result;
+}
+
+std::vector<std::uint64_t> numbers(PageHistory& history, unsigned cpu) {
+  std::vector<std::uint64_t> result;
+  for (const PageHistory::KeptPage& kept : history.processors().at(cpu).pages) result.push_back(kept.number);
   return result;
 }
 
@@ -51,20 +58,23 @@ TEST(PageHistory, KeepsAPageThatIsLargerThanItsLimit) {
 
 TEST(PageHistory, BeginsAgainAfterOverwrittenRecords) {
   PageHistory history(10 * kSize);
-  history.add(0, page(1));
-  history.add(1, page(1));
-  history.add(0, page(2, kMissed));
-  history.add(0, page(3));
+  EXPECT_FALSE(history.add(0, page(1)));
+  EXPECT_FALSE(history.add(1, page(1)));
+  EXPECT_TRUE(history.add(0, page(2, kMissed)));
+  EXPECT_FALSE(history.add(0, page(3)));
   EXPECT_THAT(times(history, 0), ElementsAre(2, 3));
+  EXPECT_THAT(numbers(history, 0), ElementsAre(2, 3)) << "1 is left out for what was overwritten";
   EXPECT_THAT(times(history, 1), ElementsAre(1));
-  EXPECT_EQ(read_ring_page(history.processors().at(0).pages.front(), [](auto, auto) {}).lost_records, 0u);
+  EXPECT_EQ(read_ring_page(history.processors().at(0).pages.front().bytes, [](auto, auto) {}).lost_records, 0u);
 }
 
 TEST(PageHistory, IsEmptyWhenItWasCleared) {
   PageHistory history(kSize);
   history.add(0, page(1));
   history.clear();
-  EXPECT_TRUE(history.processors().empty());
+  EXPECT_THAT(times(history, 0), IsEmpty());
+  history.add(0, page(2));
+  EXPECT_THAT(numbers(history, 0), ElementsAre(1)) << "no number is given twice";
 }
 
 TEST(RingPage, ForgetsLostRecordsOnce) {
