@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "tracing/findings/hosts.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/findings/result_labels.hpp"
 
@@ -31,6 +32,17 @@ std::string mark(bool doubtful) {
   return doubtful ? " (events were lost)" : "";
 }
 
+// "left: /ping, timer 100 ms" if there are several machines
+std::string label(const Hosts& hosts, const CallbackResult& callback) {
+  return hosts.before(callback.process) + callback_label(callback);
+}
+
+// "/scan to left: /planner"
+std::string label(const Hosts& hosts, const SubscriptionResult& subscription) {
+  return fmt::format("{} to {}{}", subscription.topic, hosts.before(subscription.process),
+                     subscription.node.empty() ? "?" : subscription.node);
+}
+
 // Keeps the finding with the greatest weight.
 void offer(std::optional<Finding>& best, Finding finding) {
   if (!best || finding.weight > best->weight) best = std::move(finding);
@@ -46,18 +58,19 @@ std::optional<Finding> slowest_chain(const TraceResults& results) {
   if (slowest == chains.end()) return std::nullopt;
   const ChainResult& chain = *slowest;
   return Finding{
-      Finding::Kind::kSlowestChain, 45, chain_label(chain),
+      Finding::Kind::kSlowestChain, 45, Hosts(results.overview).before(chain) + chain_label(chain),
       fmt::format("{} steps take {}, at p99 {}, at most {}{}", chain.steps.size(), duration(chain.response.p50_ns),
                   duration(chain.response.p99_ns), duration(chain.response.max_ns), mark(chain.doubtful))};
 }
 
 std::optional<Finding> over_budget(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const ChainResult& chain : results.ros2.chains) {
     if (!chain.budget_ns || chain.over_budget == 0 || chain.response.count == 0) continue;
     const double share = static_cast<double>(chain.over_budget) / static_cast<double>(chain.response.count);
     const double weight = (chain.response.count >= kFrequent ? 70 : 50) + 25 * share;
-    offer(best, {Finding::Kind::kOverBudget, weight, chain_label(chain),
+    offer(best, {Finding::Kind::kOverBudget, weight, hosts.before(chain) + chain_label(chain),
                  fmt::format("{} of {} took longer than the budget of {}, at most {}{}", chain.over_budget,
                              chain.response.count, duration(*chain.budget_ns), duration(chain.response.max_ns),
                              mark(chain.doubtful))});
@@ -66,11 +79,12 @@ std::optional<Finding> over_budget(const TraceResults& results) {
 }
 
 std::optional<Finding> overrun(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (callback.overruns == 0) continue;
     const double share = static_cast<double>(callback.overruns) / static_cast<double>(callback.durations.count);
-    offer(best, {Finding::Kind::kOverrun, 60 + 30 * share, callback_label(callback),
+    offer(best, {Finding::Kind::kOverrun, 60 + 30 * share, label(hosts, callback),
                  fmt::format("{} of {} took longer than the period, at most {}{}", callback.overruns,
                              format_count(callback.durations.count, "run"), duration(callback.durations.max_ns),
                              mark(callback.doubtful)),
@@ -80,6 +94,7 @@ std::optional<Finding> overrun(const TraceResults& results) {
 }
 
 std::optional<Finding> worst_jitter(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (callback.owner != CallbackResult::Owner::kTimer || callback.jitter.count < 2 || callback.period_ns <= 0)
@@ -90,13 +105,14 @@ std::optional<Finding> worst_jitter(const TraceResults& results) {
                                       duration(callback.jitter.p99_ns));
     if (callback.missed > 0) figures += fmt::format("; {} missed", format_count(callback.missed, "period"));
     const double weight = 20 + 50 * std::min(1.0, ratio) + (callback.missed > 0 ? 20 : 0) + std::min(ratio, 9.0);
-    offer(best, {Finding::Kind::kWorstJitter, weight, callback_label(callback), figures + mark(callback.doubtful),
+    offer(best, {Finding::Kind::kWorstJitter, weight, label(hosts, callback), figures + mark(callback.doubtful),
                  callback.id});
   }
   return best;
 }
 
 std::optional<Finding> busiest_executor(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const ExecutorResult& executor : results.ros2.executors) {
     if (executor.callbacks < 2 || executor.process >= results.overview.processes.size()) continue;
@@ -105,13 +121,15 @@ std::optional<Finding> busiest_executor(const TraceResults& results) {
       figures += fmt::format(", once for {}", duration(executor.longest_busy_ns));
       if (!executor.longest_callback.empty()) figures += " in " + executor.longest_callback;
     }
-    offer(best, {Finding::Kind::kBusiestExecutor, 90 * std::min(1.0, executor.utilisation),
-                 executor_label(executor, results), figures + mark(executor.doubtful)});
+    offer(best,
+          {Finding::Kind::kBusiestExecutor, 90 * std::min(1.0, executor.utilisation),
+           hosts.before(executor.process) + executor_label(executor, results), figures + mark(executor.doubtful)});
   }
   return best;
 }
 
 std::optional<Finding> dropped_messages(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   std::uint64_t most = 0;
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
@@ -129,7 +147,7 @@ std::optional<Finding> dropped_messages(const TraceResults& results) {
     place(subscription.not_executed, "not executed");
     best = Finding{Finding::Kind::kDroppedMessages,
                    55 + 40 * std::min(1.0, static_cast<double>(dropped) * 4 / static_cast<double>(sent)),
-                   fmt::format("{} to {}", subscription.topic, subscription.node.empty() ? "?" : subscription.node),
+                   label(hosts, subscription),
                    fmt::format("{} of {}: {}{}", dropped, sent, places, mark(subscription.doubtful)),
                    {},
                    subscription.topic};
@@ -138,6 +156,7 @@ std::optional<Finding> dropped_messages(const TraceResults& results) {
 }
 
 std::optional<Finding> longest_wait(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
     if (subscription.executor.count == 0 || subscription.executor.p99_ns < kLongWait) continue;
@@ -146,7 +165,7 @@ std::optional<Finding> longest_wait(const TraceResults& results) {
     const double milliseconds = static_cast<double>(subscription.executor.p99_ns) / 1e6;
     offer(best, {Finding::Kind::kLongestWait,
                  25 + 25 * std::min(1.0, share) + std::min(20.0, 5 * std::log10(1 + milliseconds)),
-                 fmt::format("{} to {}", subscription.topic, subscription.node.empty() ? "?" : subscription.node),
+                 label(hosts, subscription),
                  fmt::format("messages wait {} for a busy executor, at p99 {} of {} in all{}",
                              duration(subscription.executor.p50_ns), duration(subscription.executor.p99_ns),
                              duration(subscription.latency.p99_ns), mark(subscription.doubtful)),
@@ -157,13 +176,14 @@ std::optional<Finding> longest_wait(const TraceResults& results) {
 }
 
 std::optional<Finding> long_tail(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (callback.durations.count < 10 || callback.durations.max_ns < kLongTail) continue;
     const double ratio = static_cast<double>(callback.durations.max_ns) /
                          static_cast<double>(std::max<std::int64_t>(callback.durations.p50_ns, 1));
     if (ratio < kLongTailRatio) continue;
-    offer(best, {Finding::Kind::kLongTail, std::min(60.0, 20 + 10 * std::log10(ratio)), callback_label(callback),
+    offer(best, {Finding::Kind::kLongTail, std::min(60.0, 20 + 10 * std::log10(ratio)), label(hosts, callback),
                  fmt::format("usually takes {}, at p99 {}, at most {}{}", duration(callback.durations.p50_ns),
                              duration(callback.durations.p99_ns), duration(callback.durations.max_ns),
                              mark(callback.doubtful)),
@@ -173,13 +193,14 @@ std::optional<Finding> long_tail(const TraceResults& results) {
 }
 
 std::optional<Finding> starved(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (callback.longest_runnable_ns < kLongTail) continue;
     const std::string other = callback.ran_instead.empty() ? "" : fmt::format(" while '{}' ran", callback.ran_instead);
     const double milliseconds = static_cast<double>(callback.longest_runnable_ns) / 1e6;
     offer(best, {Finding::Kind::kStarvedCallback, std::min(95.0, 50 + 15 * std::log10(1 + milliseconds)),
-                 callback_label(callback),
+                 label(hosts, callback),
                  fmt::format("waited {} for a processor{}; at p99 {}{}", duration(callback.longest_runnable_ns), other,
                              duration(callback.runnable.p99_ns), mark(callback.doubtful)),
                  callback.id});
@@ -201,13 +222,14 @@ std::optional<Finding> slowest_start(const TraceResults& results) {
 
 // A node whose callbacks ask for memory while it is active does what real-time systems avoid.
 std::optional<Finding> memory_in_active(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const LifecycleResult& state : results.ros2.lifecycle) {
     if (state.state != "active" || state.allocations.value_or(0) == 0) continue;
     const double milliseconds = static_cast<double>(state.end_ns - state.begin_ns) / 1e6;
     offer(best, {Finding::Kind::kMemoryInActive,
                  std::min(50.0, 30 + 5 * std::log10(1 + static_cast<double>(*state.allocations) / milliseconds)),
-                 state.node.empty() ? "?" : state.node,
+                 hosts.before(state.process) + (state.node.empty() ? "?" : state.node),
                  fmt::format("its callbacks ask {} for memory while it is active, {} bytes",
                              format_count(*state.allocations, "time"), state.allocated_bytes)});
   }
@@ -215,25 +237,27 @@ std::optional<Finding> memory_in_active(const TraceResults& results) {
 }
 
 std::optional<Finding> unanswered(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallResult& call : results.ros2.calls) {
     const std::uint64_t open = call.requests - call.responses;
     if (open == 0) continue;
     offer(best, {Finding::Kind::kUnanswered, 40 + 40 * static_cast<double>(open) / static_cast<double>(call.requests),
                  call.service,
-                 fmt::format("{} of {} from {} got no response", open, format_count(call.requests, "request"),
-                             call.client.empty() ? "?" : call.client)});
+                 fmt::format("{} of {} from {}{} got no response", open, format_count(call.requests, "request"),
+                             hosts.before(call.client_process), call.client.empty() ? "?" : call.client)});
   }
   return best;
 }
 
 std::optional<Finding> unfinished(const TraceResults& results) {
+  const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (callback.unfinished < 2) continue;  // one may be the last one of the trace
     offer(best,
           {Finding::Kind::kUnfinished, 50 + std::min(30.0, static_cast<double>(callback.unfinished)),
-           callback_label(callback),
+           label(hosts, callback),
            fmt::format("{} have no end: an exception, or lost events", format_count(callback.unfinished, "begin")),
            callback.id});
   }

@@ -32,10 +32,11 @@ std::string node_section(const TraceResults& results) {
   if (results.ros2.nodes.empty()) return "";
   std::map<ProcessIndex, std::size_t> nodes_of_process;
   for (const NodeResult& node : results.ros2.nodes) ++nodes_of_process[node.process];
+  const Hosts hosts(results.overview);
   const TextTable table(56, {12, 14});
   std::string text = "\n" + table.row("Nodes", {"callbacks", "in callbacks"});
   for (const NodeResult& node : results.ros2.nodes) {
-    std::string label = fmt::format("  {}", node.name);
+    std::string label = "  " + hosts.before(node.process) + node.name;
     if (node.process < results.overview.processes.size()) {
       label += ", " + process_label(results.overview.processes[node.process]);
     }

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "tracing/findings/hosts.hpp"
 #include "tracing/report/report.hpp"
 
 namespace tracing {
@@ -22,7 +23,7 @@ std::string start_details(const TraceResults& results);
 std::string details(const Report& report);
 
 // The steps of one chain with their times.
-std::string chain_details(const ChainResult& chain);
+std::string chain_details(const ChainResult& chain, const Hosts& hosts);
 
 // What limits the results.
 std::string notes(const Report& report);

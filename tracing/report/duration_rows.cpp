@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tracing/findings/hosts.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/findings/result_labels.hpp"
 
@@ -10,7 +11,7 @@ namespace tracing {
 
 std::string node_label(const std::string& node, ProcessIndex process, const TraceOverview& overview) {
   const std::string label = process < overview.processes.size() ? process_label(overview.processes[process]) : "?";
-  return node.empty() ? fmt::format("node unknown, {}", label) : fmt::format("{}, {}", node, label);
+  return fmt::format("{}{}, {}", Hosts(overview).before(process), node.empty() ? "node unknown" : node, label);
 }
 
 TextTable duration_table() {

@@ -32,9 +32,11 @@ std::string loss_section(const Report& report) {
                       {nothing_counted ? "some" : fmt::format("{}{}", loss.events, loss.uncounted ? "+" : ""),
                        fmt::format("{}", loss.packets), since_begin(loss.begin_ns), since_begin(loss.end_ns)});
   }
+  const Hosts hosts(overview);
   std::string doubtful;
-  for (const ProcessResult& process : overview.processes) {
-    if (process.doubtful) doubtful += (doubtful.empty() ? "" : ", ") + process_label(process);
+  for (ProcessIndex process = 0; process < overview.processes.size(); ++process) {
+    if (!overview.processes[process].doubtful) continue;
+    doubtful += (doubtful.empty() ? "" : ", ") + hosts.before(process) + process_label(overview.processes[process]);
   }
   return text + fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful);
 }
@@ -49,13 +51,14 @@ struct EventColumn {
 std::vector<EventColumn> event_columns(const TraceOverview& overview) {
   std::vector<EventColumn> columns;
   EventColumn others;
+  const Hosts hosts(overview);
   for (std::size_t process = 0; process < overview.processes.size(); ++process) {
     const bool has_events_of_its_own =
         std::any_of(overview.event_counts.begin(), overview.event_counts.end(), [process](const EventCount& count) {
           return count.name.find(':') != std::string::npos && count.by_process[process] > 0;
         });
     if (has_events_of_its_own || overview.event_counts.empty()) {
-      columns.push_back({process_label(overview.processes[process]), {process}});
+      columns.push_back({hosts.before(process) + process_label(overview.processes[process]), {process}});
     } else {
       others.processes.push_back(process);
     }

@@ -75,22 +75,26 @@ std::string delivery_section(const TraceResults& results) {
          "  (from the first publish function to callback_start)\n";
 }
 
-std::string chain_section(const Ros2Results& ros2) {
+std::string chain_section(const TraceResults& results) {
+  const Ros2Results& ros2 = results.ros2;
+  const Hosts hosts(results.overview);
   if (ros2.chains.empty()) return "";
   std::string text = "\n" + duration_table().row("Chains", duration_titles());
-  for (const ChainResult& chain : ros2.chains) text += chain_details(chain);
+  for (const ChainResult& chain : ros2.chains) text += chain_details(chain, hosts);
   if (!ros2.has_all_chains) text += "  (there were more chains than a report holds)\n";
   return text +
          "  (response: from an input to the first output; age: to the last one; reaction: from the input before)\n";
 }
 
-std::string call_section(const Ros2Results& ros2) {
+std::string call_section(const TraceResults& results) {
+  const Ros2Results& ros2 = results.ros2;
+  const Hosts hosts(results.overview);
   if (ros2.calls.empty()) return "";
   const TextTable table = duration_table();
   std::string text = "\n" + table.row("Services", duration_titles());
   for (const CallResult& call : ros2.calls) {
-    const auto name = [](const std::string& node, const std::optional<ProcessIndex>& process) {
-      return process ? node : std::string("unknown");
+    const auto name = [&hosts](const std::string& node, const std::optional<ProcessIndex>& process) {
+      return process ? hosts.before(process) + node : std::string("unknown");
     };
     text += fmt::format("{}, {} asks {}\n", call.service, name(call.client, call.client_process),
                         name(call.server, call.server_process));
@@ -135,7 +139,7 @@ std::string execution_section(const TraceResults& results) {
 
 }  // namespace
 
-std::string chain_details(const ChainResult& chain) {
+std::string chain_details(const ChainResult& chain, const Hosts& hosts) {
   const TextTable table = duration_table();
   std::string text;
   for (const ChainResult::Step& step : chain.steps) {
@@ -143,7 +147,8 @@ std::string chain_details(const ChainResult& chain) {
       text += table.row("    until it publishes", duration_cells(step.until_publish));
       text += table.row(fmt::format("    {} on its way", step.topic), duration_cells(step.transfer));
     }
-    text += fmt::format("  {}, {}\n", step.node.empty() ? "node unknown" : step.node, step.callback);
+    text += fmt::format("  {}{}, {}\n", hosts.before(step.process), step.node.empty() ? "node unknown" : step.node,
+                        step.callback);
   }
   if (chain.is_loop) text += "    (a loop: the chain is not followed further)\n";
   text += table.row("  response", duration_cells(chain.response));
@@ -152,8 +157,8 @@ std::string chain_details(const ChainResult& chain) {
 }
 
 std::string message_details(const TraceResults& results) {
-  return topic_section(results.ros2) + delivery_section(results) + chain_section(results.ros2) +
-         call_section(results.ros2) + execution_section(results);
+  return topic_section(results.ros2) + delivery_section(results) + chain_section(results) + call_section(results) +
+         execution_section(results);
 }
 
 }  // namespace tracing

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "tracing/analysis/derived_results.hpp"
+#include "tracing/findings/hosts.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/findings/result_labels.hpp"
 #include "tracing/objects/callback_symbol.hpp"
@@ -46,35 +48,6 @@ Cell percent_cell(double part) {
 std::string marked(std::string label, bool doubtful) {
   return doubtful ? label + " *" : label;
 }
-
-// "left: " before what a process on the machine of this name does, if the trace has several machines.
-class Hosts {
- public:
-  explicit Hosts(const TraceOverview& overview) : processes_(overview.processes) {
-    for (const ProcessResult& process : processes_) several_ = several_ || process.host != processes_.front().host;
-  }
-
-  std::string before(ProcessIndex process) const {
-    return several_ && process < processes_.size() ? processes_[process].host + ": " : "";
-  }
-
-  // "left -> right: " for a chain from one machine to another.
-  std::string before(const ChainResult& chain) const {
-    if (!several_) return "";
-    std::string text;
-    std::string last;
-    for (const ChainResult::Step& step : chain.steps) {
-      if (step.process >= processes_.size() || processes_[step.process].host == last) continue;
-      last = processes_[step.process].host;
-      text += (text.empty() ? "" : " -> ") + last;
-    }
-    return text.empty() ? "" : text + ": ";
-  }
-
- private:
-  const std::vector<ProcessResult>& processes_;
-  bool several_ = false;
-};
 
 void sort_by(Row& row, const DurationSummary& took) {
   if (took.count == 0) return;
@@ -228,13 +201,15 @@ std::string executor_table(const TraceResults& results, const ReportOptions& opt
   return table.text(options);
 }
 
-std::string service_table(const Ros2Results& ros2, const ReportOptions& options) {
+std::string service_table(const TraceResults& results, const ReportOptions& options) {
   if (!options.topic.empty()) return "";
+  const Hosts hosts(results.overview);
   ScreenTable table("Services", {"calls", "unanswered", "p50", "p99", "max"}, "p99");
-  for (const CallResult& call : ros2.calls) {
+  for (const CallResult& call : results.ros2.calls) {
     if (is_of_action(call.service)) continue;
     if (!matches(options.node, call.client) && !matches(options.node, call.server)) continue;
-    Row row{.label = fmt::format("{}, asked by {}", call.service, call.client.empty() ? "?" : call.client)};
+    Row row{.label = fmt::format("{}, asked by {}{}", call.service, hosts.before(call.client_process),
+                                 call.client.empty() ? "?" : call.client)};
     sort_by(row, call.round_trip);
     row.count = static_cast<double>(call.requests);
     row.cells = {count_cell(call.requests), count_cell(call.requests - call.responses, Style::kBad),
@@ -246,12 +221,14 @@ std::string service_table(const Ros2Results& ros2, const ReportOptions& options)
   return table.text(options);
 }
 
-std::string action_table(const Ros2Results& ros2, const ReportOptions& options) {
+std::string action_table(const TraceResults& results, const ReportOptions& options) {
   if (!options.topic.empty()) return "";
+  const Hosts hosts(results.overview);
   ScreenTable table("Actions", {"goals", "results", "cancels", "feedback", "p50", "p99", "max"}, "p99");
-  for (const ActionResult& action : ros2.actions) {
+  for (const ActionResult& action : results.ros2.actions) {
     if (!matches(options.node, action.client) && !matches(options.node, action.server)) continue;
-    Row row{.label = fmt::format("{}, asked by {}", action.name, action.client.empty() ? "?" : action.client)};
+    Row row{.label = fmt::format("{}, asked by {}{}", action.name, hosts.before(action.client_process),
+                                 action.client.empty() ? "?" : action.client)};
     sort_by(row, action.execution);
     row.count = static_cast<double>(action.goals);
     row.cells = {count_cell(action.goals),
@@ -266,8 +243,10 @@ std::string action_table(const Ros2Results& ros2, const ReportOptions& options) 
   return table.text(options);
 }
 
-std::string lifecycle_table(const Ros2Results& ros2, const ReportOptions& options) {
+std::string lifecycle_table(const TraceResults& results, const ReportOptions& options) {
   if (!options.topic.empty()) return "";
+  const Ros2Results& ros2 = results.ros2;
+  const Hosts hosts(results.overview);
   const bool with_memory = std::any_of(ros2.lifecycle.begin(), ros2.lifecycle.end(),
                                        [](const LifecycleResult& result) { return result.process_allocations > 0; });
   std::vector<std::string> columns{"state at the end", "time in active", "changes"};
@@ -279,10 +258,10 @@ std::string lifecycle_table(const Ros2Results& ros2, const ReportOptions& option
     std::uint64_t changes = 0;
     std::uint64_t allocations = 0;
   };
-  std::map<std::string, Node> nodes;
+  std::map<std::pair<std::string, ProcessIndex>, Node> nodes;
   for (const LifecycleResult& result : ros2.lifecycle) {
     if (!matches(options.node, result.node)) continue;
-    Node& node = nodes[result.node.empty() ? "?" : result.node];
+    Node& node = nodes[{result.node.empty() ? "?" : result.node, result.process}];
     node.state = result.state;
     if (result.state == "active") {
       node.active_ns += result.end_ns - result.begin_ns;
@@ -291,7 +270,7 @@ std::string lifecycle_table(const Ros2Results& ros2, const ReportOptions& option
     if (result.ended) ++node.changes;
   }
   for (const auto& [name, node] : nodes) {
-    Row row{.label = name};
+    Row row{.label = hosts.before(name.second) + name.first};
     row.cells = {Cell{node.state}, Cell{format_duration(static_cast<double>(node.active_ns))},
                  count_cell(node.changes)};
     if (with_memory) row.cells.push_back(count_cell(node.allocations, Style::kWarning));

@@ -15,8 +15,8 @@ std::string chain_table(const TraceResults& results, const ReportOptions& option
 std::string callback_table(const TraceResults& results, const ReportOptions& options);
 std::string topic_table(const Ros2Results& ros2, const ReportOptions& options);
 std::string executor_table(const TraceResults& results, const ReportOptions& options);
-std::string service_table(const Ros2Results& ros2, const ReportOptions& options);
-std::string action_table(const Ros2Results& ros2, const ReportOptions& options);
-std::string lifecycle_table(const Ros2Results& ros2, const ReportOptions& options);
+std::string service_table(const TraceResults& results, const ReportOptions& options);
+std::string action_table(const TraceResults& results, const ReportOptions& options);
+std::string lifecycle_table(const TraceResults& results, const ReportOptions& options);
 
 }  // namespace tracing

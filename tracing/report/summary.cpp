@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tracing/findings/hosts.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/findings/result_labels.hpp"
 #include "tracing/report/report.hpp"
@@ -34,11 +35,13 @@ constexpr std::size_t kMostNamed = 5;
 std::string doubtful_phrase(const TraceOverview& overview) {
   std::set<std::size_t> doubtful;
   for (const LossResult& loss : overview.losses) doubtful.insert(loss.processes.begin(), loss.processes.end());
+  const Hosts hosts(overview);
   std::string text;
   std::size_t named = 0;
   for (const std::size_t process : doubtful) {
     if (named++ == kMostNamed) break;
-    text += fmt::format("{}{}", text.empty() ? "; doubtful: " : ", ", process_label(overview.processes.at(process)));
+    text += fmt::format("{}{}{}", text.empty() ? "; doubtful: " : ", ", hosts.before(process),
+                        process_label(overview.processes.at(process)));
   }
   if (doubtful.size() > kMostNamed) text += fmt::format(" and {} more", doubtful.size() - kMostNamed);
   return text;

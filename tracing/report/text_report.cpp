@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tracing/findings/finding.hpp"
+#include "tracing/findings/hosts.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/report/details.hpp"
 #include "tracing/report/duration_rows.hpp"
@@ -102,7 +103,8 @@ std::string chosen_chains(const Ros2Results& ros2, const ReportOptions& options)
   std::string text;
   for (const ChainResult& chain : ros2.chains) {
     if (!is_chosen(chain, options)) continue;
-    text += "\n" + duration_table().row("Step by step", duration_titles()) + chain_details(chain);
+    text +=
+        "\n" + duration_table().row("Step by step", duration_titles()) + chain_details(chain, Hosts(results.overview));
   }
   if (!text.empty()) return text;
   return fmt::format("\nNo chain leads from {} to {}.\n", options.chain.first, options.chain.second);
@@ -118,8 +120,8 @@ std::string text_report(const Report& report, const ReportOptions& options) {
   }
   if (options.node.empty() && options.topic.empty()) text += finding_section(report, options);
   text += chain_table(results, options) + callback_table(results, options) + topic_table(results.ros2, options) +
-          executor_table(results, options) + service_table(results.ros2, options) +
-          action_table(results.ros2, options) + lifecycle_table(results.ros2, options);
+          executor_table(results, options) + service_table(results, options) + action_table(results, options) +
+          lifecycle_table(results, options);
   if (options.all) {
     text += details(report);
   } else if (options.events) {

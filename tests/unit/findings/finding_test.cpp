@@ -34,6 +34,38 @@ TEST(Finding, SaysWhichCallbackOrTopicItIsAbout) {
   EXPECT_EQ(findings[1].topic, "");
 }
 
+TEST(Finding, NamesTheMachineIfThereAreSeveral) {
+  TraceResults results;
+  results.overview.processes = {{71, "ping", 1, false, "left"}, {71, "ping", 1, false, "right"}};
+  CallbackResult timer;
+  timer.process = 1;
+  timer.node = "/ping";
+  timer.owner = CallbackResult::Owner::kTimer;
+  timer.period_ns = 100'000'000;
+  timer.jitter.count = 20;
+  timer.jitter.max_ns = 50'000'000;
+  results.ros2.callbacks = {timer};
+  SubscriptionResult subscription;
+  subscription.node = "/pong";
+  subscription.topic = "/scan";
+  subscription.delivered = 10;
+  subscription.lost = 2;
+  results.ros2.subscriptions = {subscription};
+  CallResult call;
+  call.service = "/add";
+  call.client = "/asker";
+  call.client_process = 1;
+  call.requests = 4;
+  results.ros2.calls = {call};
+
+  const std::vector<Finding> findings = find_worth_a_look(results);
+
+  ASSERT_EQ(findings.size(), 3u);
+  EXPECT_EQ(findings[0].figures, "4 of 4 requests from right: /asker got no response");
+  EXPECT_EQ(findings[1].subject, "/scan to left: /pong");
+  EXPECT_EQ(findings[2].subject, "right: /ping, timer 100 ms");
+}
+
 TEST(Finding, ThereIsNoneInAnEmptyTrace) {
   EXPECT_TRUE(find_worth_a_look({}).empty());
 }

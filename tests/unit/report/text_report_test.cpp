@@ -144,17 +144,35 @@ TEST(TextReport, NamesTheMachineInRowsIfThereAreSeveral) {
   chain.steps[1].node = "/ping";
   chain.steps[2].node = "/pong";
   chain.steps[2].process = 1;
+  LifecycleResult state;
+  state.node = "/ping";
+  state.state = "active";
   for (const std::size_t process : {0, 1}) {
-    callback.process = executor.process = process;
+    callback.process = executor.process = state.process = process;
     report.results.ros2.callbacks.push_back(callback);
     report.results.ros2.executors.push_back(executor);
+    report.results.ros2.lifecycle.push_back(state);
+    report.results.ros2.nodes.push_back({process, "/ping", 7, 7'000});
   }
+  CallResult call;
+  call.service = "/add";
+  call.client = "/ping";
+  call.client_process = 1;
+  call.requests = 1;
+  report.results.ros2.calls = {call};
   report.results.ros2.chains = {chain};
   report.results.overview = overview_of(2, {{71, "ping", 1, false, "left"}, {71, "ping", 1, false, "right"}});
   const std::string text = text_report(report);
   for (const char* row : {"left: /ping, timer 10 ms", "right: /ping, timer 10 ms", "left: /ping [71]",
-                          "right: /ping [71]", "left -> right: reaction: /ping -> /ping -> /pong"}) {
+                          "right: /ping [71]", "left -> right: reaction: /ping -> /ping -> /pong",
+                          "/add, asked by right: /ping", "\n  left: /ping  ", "\n  right: /ping  "}) {
     EXPECT_THAT(text, HasSubstr(row));
+  }
+  const std::string all = text_report(report, {.all = true});
+  for (const char* row :
+       {"\n  left: /ping, ping [71] ", "\nright: /ping, ping [71]\n  timer 10 ms", "\n  right: /pong, ",
+        "left: ping [71]  right: ping [71]", "/add, right: /ping asks unknown"}) {
+    EXPECT_THAT(all, HasSubstr(row));
   }
   report.results.overview.processes[1].host = "left";
   EXPECT_THAT(text_report(report), Not(HasSubstr("left")));

@@ -144,14 +144,21 @@ function callbackLabel(data, callback) {
   }
 }
 
+// With several machines in the trace, what runs on one of them is called after it: "left: /camera".
 function nodeName(data, node) {
-  return node === null || node === undefined ? '' : data.nodes[node].name;
+  if (node === null || node === undefined) return '';
+  const {name, process} = data.nodes[node];
+  return hostOf(data, process) + name;
 }
 
 function processName(data, process) {
-  const {name, vpid, host} = data.processes[process];
-  const isOneHost = data.processes.every(other => other.host === host);
-  return `${isOneHost ? '' : `${host} `}${name} [${vpid}]`;
+  const {name, vpid} = data.processes[process];
+  return `${hostOf(data, process)}${name} [${vpid}]`;
+}
+
+function hostOf(data, process) {
+  data.hasSeveralHosts ??= data.processes.some(({host}) => host !== data.processes[0].host);
+  return data.hasSeveralHosts && data.processes[process] ? `${data.processes[process].host}: ` : '';
 }
 
 function topicOf(data, message) {

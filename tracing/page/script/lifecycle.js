@@ -30,7 +30,7 @@ function lifecycleView(data) {
 
 // How much memory was asked for in each state, if the trace has the events of LTTng's libc wrapper.
 function stateMemory(data) {
-  const rows = data.state_memory.filter(row => selection.node === null || row.node === nodeName(data, selection.node));
+  const rows = data.state_memory.filter(row => selection.node === null || row.node === data.nodes[selection.node].name);
   if (rows.length === 0) return null;
   const count = (title, value) => ({title, value, show: row => formatCount(value(row))});
   return panel('Memory by state', dataTable(rows, [

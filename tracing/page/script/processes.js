@@ -13,7 +13,7 @@ function processesView(data) {
   const columns = [
     {title: 'Process', value: row => row.start?.name ?? row.process.name},
     {title: 'Id', value: row => row.process.vpid},
-    {title: 'Nodes', value: row => row.nodes.map(({node}) => node.name).join(', ') || '–', wide: true},
+    {title: 'Nodes', value: row => row.nodes.map(({node_id}) => nodeName(data, node_id)).join(', ') || '–', wide: true},
     {title: 'Events', value: row => row.process.events, show: row => formatCount(row.process.events) + (row.process.doubtful ? ' (some lost)' : '')},
     {title: 'In callbacks', value: row => row.busy, show: row => formatDuration(row.busy)},
     after('First node after', row => row.start?.node_after), after('Ready after', row => row.start?.ready_after),
@@ -34,7 +34,7 @@ const kStartPhases = [['init_after', 'until rcl_init', 265], ['node_after', 'unt
 function barPart(begin, end, whole, hue, name) {
   return end > begin ? element('div', {
     style: `left: ${100 * begin / whole}%; width: ${100 * (end - begin) / whole}%; background: hsl(${hue} 50% ${color('bar-lightness')})`,
-    title: `${name}\n${formatDuration(end - begin)}`}, name) : null;
+    title: `${name}\n${formatDuration(end - begin)}`}, (end - begin) / whole > 0.05 ? name : '') : null;
 }
 
 // From the first spawn on: a bar for each process, with the phases of its start.

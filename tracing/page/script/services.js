@@ -2,7 +2,7 @@
 // Who asks which service and which action, and how long the answers take. Of the whole trace.
 
 function servicesView(data) {
-  const ofNode = row => selection.node === null || [row.client, row.server].includes(nodeName(data, selection.node));
+  const ofNode = row => selection.node === null || [row.client, row.server].includes(data.nodes[selection.node].name);
   const calls = data.calls.filter(ofNode);
   const actions = data.actions.filter(ofNode);
   const known = name => name || '?';

@@ -36,8 +36,8 @@ function timeChartRows(data, by) {
 
 // With one node in the process its name says more than the program's.
 function processHeading(data, process) {
-  const nodes = data.nodes.filter(node => node.process === process);
-  return nodes.length === 1 ? nodes[0].name : processName(data, process);
+  const nodes = [...data.nodes.keys()].filter(node => data.nodes[node].process === process);
+  return nodes.length === 1 ? nodeName(data, nodes[0]) : processName(data, process);
 }
 
 // Row of each instance, for the ends of arrows: rowOf(instance) and rowOfThread(thread); -1 if it has none.
