@@ -279,10 +279,13 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RmwTakeResponse& event) 
 void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorGetNextReady&) {
   Thread& spinning = thread(origin);
   spinning.execution.reset();
-  if (spinning.woken_ns != 0) return;
+  const ThreadId thread{origin.process, origin.vtid};
+  if (spinning.woken_ns != 0) {
+    sink_->on_executor_look({thread, origin.time_ns});
+    return;
+  }
   spinning.woken_ns = origin.time_ns;
-  if (spinning.free_ns == 0) return;
-  sink_->on_executor_wait({{origin.process, origin.vtid}, spinning.free_ns, origin.time_ns});
+  if (spinning.free_ns != 0) sink_->on_executor_wait({thread, spinning.free_ns, origin.time_ns});
 }
 
 void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorWaitForWork&) {

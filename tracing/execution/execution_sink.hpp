@@ -92,6 +92,13 @@ struct ExecutorWait {
   std::int64_t end_ns = 0;    // rclcpp_executor_get_next_ready
 };
 
+// A thread of an executor looks for something that is ready. Of the threads of one executor only one at a time looks or
+// waits. Told before the wait that follows if nothing is ready.
+struct ExecutorLook {
+  ThreadId thread;
+  std::int64_t time_ns = 0;  // rclcpp_executor_get_next_ready
+};
+
 // User code has declared which subscriptions cause what these publishers send: each message depends on the last one
 // that each subscription got.
 struct MessageLink {
@@ -143,6 +150,7 @@ class ExecutionSink {
   virtual void on_message_link(const MessageLink&) {}
   virtual void on_call(const ServiceCall&) {}
   virtual void on_executor_wait(const ExecutorWait&) {}
+  virtual void on_executor_look(const ExecutorLook&) {}
   virtual void on_lifecycle_state(const LifecycleInterval&) {}
   virtual void on_thread_state(const ThreadInterval&) {}
   virtual void on_allocation(const Allocation&) {}

@@ -5,6 +5,32 @@
 
 namespace tracing {
 
+namespace {
+
+// The thread looked for work again and again in this time, or another one did so for it.
+void add_wait(ExecutorRecord& record, std::int64_t begin_ns, std::int64_t end_ns) {
+  if (record.first_ns == 0) record.first_ns = begin_ns;
+  record.last_ns = std::max(record.last_ns, end_ns);
+  ++record.waits;
+  record.waited_ns += end_ns - begin_ns;
+  if (record.busy_since_ns != 0 && begin_ns - record.busy_since_ns > record.longest_busy_ns) {
+    record.longest_busy_ns = begin_ns - record.busy_since_ns;
+    record.longest_busy_begin_ns = record.busy_since_ns;
+    record.longest_callback = record.candidate;
+  }
+  record.busy_since_ns = end_ns;
+  record.candidate = kNoObject;
+  record.candidate_ns = 0;
+  record.free_since_ns = 0;
+}
+
+}  // namespace
+
+std::int64_t& ExecutorLoad::waited_of(ProcessId process) {
+  if (process >= waited_ns_.size()) waited_ns_.resize(process + 1);
+  return waited_ns_[process];
+}
+
 void ExecutorLoad::on_callback(const CallbackInstance& instance) {
   if (instance.nested || !instance.finished) return;
   ExecutorRecord& record = records_[instance.thread];
@@ -17,22 +43,24 @@ void ExecutorLoad::on_callback(const CallbackInstance& instance) {
     record.candidate = instance.callback;
     record.candidate_ns = took;
   }
+  record.free_since_ns = instance.end_ns;
+  record.process_waited_ns = waited_of(instance.thread.process);
 }
 
 void ExecutorLoad::on_executor_wait(const ExecutorWait& wait) {
-  ExecutorRecord& record = records_[wait.thread];
-  if (record.first_ns == 0) record.first_ns = wait.begin_ns;
-  record.last_ns = std::max(record.last_ns, wait.end_ns);
-  ++record.waits;
-  record.waited_ns += wait.end_ns - wait.begin_ns;
-  if (record.busy_since_ns != 0 && wait.begin_ns - record.busy_since_ns > record.longest_busy_ns) {
-    record.longest_busy_ns = wait.begin_ns - record.busy_since_ns;
-    record.longest_busy_begin_ns = record.busy_since_ns;
-    record.longest_callback = record.candidate;
-  }
-  record.busy_since_ns = wait.end_ns;
-  record.candidate = kNoObject;
-  record.candidate_ns = 0;
+  add_wait(records_[wait.thread], wait.begin_ns, wait.end_ns);
+  waited_of(wait.thread.process) += wait.end_ns - wait.begin_ns;
+}
+
+// With several threads, the one that waits for work holds a lock, at which the others wait to look for work. So a
+// thread does nothing from its last callback until this look for as long as others have waited meanwhile.
+void ExecutorLoad::on_executor_look(const ExecutorLook& look) {
+  ExecutorRecord& record = records_[look.thread];
+  if (record.free_since_ns == 0) return;
+  const std::int64_t idle =
+      std::min(waited_of(look.thread.process) - record.process_waited_ns, look.time_ns - record.free_since_ns);
+  record.free_since_ns = 0;
+  if (idle > 0) add_wait(record, look.time_ns - idle, look.time_ns);
 }
 
 }  // namespace tracing

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "tracing/execution/execution_sink.hpp"
 #include "tracing/execution/thread_map.hpp"
@@ -23,17 +24,24 @@ struct ExecutorRecord {
   std::int64_t busy_since_ns = 0;
   ObjectId candidate = kNoObject;  // the longest callback since then
   std::int64_t candidate_ns = 0;
+  // After a callback, until the thread looks for work. Then another thread of the executor may wait for both.
+  std::int64_t free_since_ns = 0;      // 0: it is not so
+  std::int64_t process_waited_ns = 0;  // at that time
 };
 
 class ExecutorLoad : public ExecutionSink {
  public:
   void on_callback(const CallbackInstance& instance) override;
   void on_executor_wait(const ExecutorWait& wait) override;
+  void on_executor_look(const ExecutorLook& look) override;
 
   const ThreadMap<ExecutorRecord>& records() const { return records_; }
 
  private:
+  std::int64_t& waited_of(ProcessId process);
+
   ThreadMap<ExecutorRecord> records_;
+  std::vector<std::int64_t> waited_ns_;  // of all threads of a process, by ProcessId
 };
 
 }  // namespace tracing

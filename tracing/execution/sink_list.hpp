@@ -21,6 +21,7 @@ class SinkList : public ExecutionSink {
   void on_message_link(const MessageLink& link) override { tell(&ExecutionSink::on_message_link, link); }
   void on_call(const ServiceCall& call) override { tell(&ExecutionSink::on_call, call); }
   void on_executor_wait(const ExecutorWait& wait) override { tell(&ExecutionSink::on_executor_wait, wait); }
+  void on_executor_look(const ExecutorLook& look) override { tell(&ExecutionSink::on_executor_look, look); }
   void on_lifecycle_state(const LifecycleInterval& state) override { tell(&ExecutionSink::on_lifecycle_state, state); }
   void on_thread_state(const ThreadInterval& interval) override { tell(&ExecutionSink::on_thread_state, interval); }
   void on_allocation(const Allocation& allocation) override { tell(&ExecutionSink::on_allocation, allocation); }

@@ -33,6 +33,24 @@ TEST(ExecutorLoad, IsTheTimeWithoutWaiting) {
   EXPECT_EQ(executor.longest_callback, "/busy, timer 100 ns");
 }
 
+// One thread waits for work with a lock; the other one waits for the lock.
+TEST(ExecutorLoad, AThreadIsNotBusyWhileAnotherThreadOfTheExecutorWaitsForWork) {
+  Feed feed;
+  feed.at(1'000).in(0, 71)(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'100).in(0, 71)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'110).in(0, 72)(ros2::RclcppExecutorGetNextReady{})(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'120).in(0, 71)(ros2::CallbackStart{1, false}).at(1'150)(ros2::CallbackEnd{1});
+  feed.at(1'900).in(0, 72)(ros2::RclcppExecutorGetNextReady{}).at(1'910)(ros2::CallbackStart{2, false});
+  feed.at(1'905).in(0, 71)(ros2::RclcppExecutorGetNextReady{})(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'950).in(0, 72)(ros2::CallbackEnd{2});
+  feed.at(2'000).in(0, 71)(ros2::RclcppExecutorGetNextReady{});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.executors.size(), 2u);
+  EXPECT_EQ(results.executors[0].waited_ns, 100 + 755 + 85);
+  EXPECT_DOUBLE_EQ(results.executors[0].utilisation, 0.06);
+  EXPECT_EQ(results.executors[0].longest_busy_ns, 50);
+}
+
 TEST(ExecutorLoad, IsTheTimeInCallbacksOfAnExecutorThatRecordsNoWaits) {
   Feed feed;
   feed.at(1'000)(ros2::CallbackStart{1, false}).at(1'100)(ros2::CallbackStart{2, false});
