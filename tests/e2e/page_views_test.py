@@ -58,6 +58,8 @@ class Views(page_case.PageTest):
                          [['100', 'µs'], ['148', 'µs'], ['2.00', 'µs'], ['50.0', 'µs'],
                           ['447', 'µs'], ['148', 'µs'], ['2.00', 'µs'], ['50.0', 'µs'], ['50.0', 'µs']])
         self.assertEqual(self.browser.evaluate('document.querySelector(".hops").children.length'), 9)
+        self.assertTrue(self.browser.evaluate(
+            '[...document.querySelectorAll(".hops")].every(bar => bar.clientWidth <= bar.parentElement.clientWidth)'))
 
     def test_the_longest_run_of_a_chain_is_shown_in_the_time_chart(self):
         self.show('chains')

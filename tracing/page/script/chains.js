@@ -12,7 +12,7 @@ function chainsView(data) {
   const list = element('div');
   const draw = () => {
     const shown = chains.slice().sort((a, b) => b.response[order.value] - a.response[order.value]).slice(0, 20);
-    const longest = Math.max(1, ...shown.map(chain => chain.response.mean));
+    const longest = Math.max(1, ...shown.map(chain => timeOf(hopsOf(data, chain))));
     list.replaceChildren(...shown.map(chain => chainBar(data, chain, longest)));
   };
   draw();
@@ -21,7 +21,7 @@ function chainsView(data) {
     ...[['callback', 'callback, until it publishes'], ['transport', 'on the way'], ['executor', 'waiting for the executor'], ['taken', 'taken, before the callback']].map(swatch))),
   ...data.unseen_chains.map(name => element('p', {class: 'bad'}, `Chain ${name}: no callbacks were seen that cause one another in this order.`)),
   chains.length === 0 ? element('p', {class: 'faint'}, 'No message that a callback published reached another callback.') : list,
-  element('p', {class: 'note'}, 'The bars show mean times of each part. Response: from the begin of the first callback to the first end of the last one that it causes. ' +
+  element('p', {class: 'note'}, 'The bars show mean times of each part, of all outputs. Response: from the begin of the first callback to the first end of the last one that it causes. ' +
     'Reaction: the same, for something that just missed the input. Age: to the last end that it causes.' +
     (data.has_all_chains ? '' : ' The trace has more chains than are followed.')))];
 }
@@ -49,6 +49,12 @@ function hopsOf(data, chain) {
   return hops;
 }
 
+// A message that is kept may cause several outputs. The parts are the mean of all of them, so their sum can be more than
+// the mean response, which ends with the first output.
+function timeOf(hops) {
+  return hops.reduce((sum, hop) => sum + hop.mean, 0);
+}
+
 // The instance at the end of the longest run, or -1 when the page does not hold it.
 function longestRun(data, chain) {
   const {end} = data.instances;
@@ -60,7 +66,6 @@ function chainBar(data, chain, longest) {
   const hops = hopsOf(data, chain);
   const nodeOf = step => nodeName(data, data.callbacks[step.callback].node);
   const slowest = longestRun(data, chain);
-  const total = hops.reduce((sum, hop) => sum + hop.mean, 0);
   const label = hops.map(hop => `${hop.name} ${formatDuration(hop.mean)}`).join('; ');
   const times = (name, {mean, p99, max}) => `${name} mean ${formatDuration(mean)}, p99 ${formatDuration(p99)}, max ${formatDuration(max)}`;
   return element('div', {class: 'chain'},
@@ -69,7 +74,7 @@ function chainBar(data, chain, longest) {
       element('span', {}, times('response', chain.response)),
       chain.budget === null ? null : element('span', {class: chain.over_budget > 0 ? 'bad' : 'good'}, `${formatCount(chain.over_budget)} over the budget of ${formatDuration(chain.budget)}`),
       element('button', {disabled: slowest < 0, onclick: () => showInTime(data, slowest)}, 'longest run')),
-    element('div', {class: 'hops', role: 'img', 'aria-label': label, style: `width: ${Math.max(2, 100 * total / longest)}%`},
+    element('div', {class: 'hops', role: 'img', 'aria-label': label, style: `width: ${Math.max(2, 100 * timeOf(hops) / longest)}%`},
       ...hops.map(hop => element('div', {title: `${hop.name}\n${formatDuration(hop.mean)}`,
         style: `flex: ${Math.max(hop.mean, 1)} 1 0; background: ${hopColor(hop.kind)}`},
       hop.mean / longest > 0.05 ? `${hop.name.split(' · ')[0].split(':')[0]} ${formatDuration(hop.mean)}` : ''))),

@@ -29,9 +29,10 @@ function color(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-// A colour for the number of an object. Neighbours differ much: the golden angle lies between them.
-function barColor(number, lightness = color('bar-lightness')) {
-  return `hsl(${(number * 137.508 + 212) % 360} 55% ${lightness})`;
+// A colour for the number of a callback. Neighbours differ much: the golden angle lies between them. All are as bright
+// to the eye, so a dark text on them can be read.
+function barColor(number, lightness) {
+  return `oklch(${lightness} 0.12 ${(number * 137.508 + 252) % 360})`;
 }
 
 // Moves the focus among `items` with the arrow keys.

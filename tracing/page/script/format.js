@@ -23,9 +23,10 @@ function formatTime(ns, step = 1000) {
   return `${(ns / 1e9).toFixed(digits)} s`;
 }
 
-function formatRate(count, ns) {
-  if (count < 2 || ns <= 0) return '–';
-  return `${threeDigits(count * 1e9 / ns)} Hz`;
+// Of `count` things between the first one and the last one, as in the report on the terminal.
+function formatRate(count, first, last) {
+  if (count < 2 || last <= first) return '–';
+  return `${threeDigits((count - 1) * 1e9 / (last - first))} Hz`;
 }
 
 function formatCount(count) {

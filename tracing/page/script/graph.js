@@ -4,24 +4,29 @@
 const graphOptions = {internal: false};
 const kSmallestScale = 0.7;  // at which texts can still be read
 
-// What flows along each edge: [{node, topic, publishes, count, latencies}].
+// What flows along each edge: [{node, topic, publishes, count, first, last, latencies}].
 function graphEdges(data) {
   const edges = new Map();
   const edge = (node, topic, publishes) => {
     const key = `${node} ${topic} ${publishes}`;
-    if (!edges.has(key)) edges.set(key, {node, topic, publishes, count: 0, latencies: []});
+    if (!edges.has(key)) edges.set(key, {node, topic, publishes, count: 0, first: Infinity, last: -Infinity, latencies: []});
     return edges.get(key);
   };
   for (const end of data.publishers) if (end.node !== null) edge(end.node, end.topic, true);
   for (const end of data.subscriptions) if (end.node !== null) edge(end.node, end.topic, false);
+  const count = (line, time) => {
+    ++line.count;
+    line.first = Math.min(line.first, time);
+    line.last = Math.max(line.last, time);
+  };
   const {messages, instances} = data;
   for (let i = 0; i < messages.count; ++i) {
     const publisher = data.publishers[messages.publisher[i]];
     const subscription = data.subscriptions[messages.subscription[i]];
-    if (publisher && publisher.node !== null && !messages.repeated[i]) ++edge(publisher.node, publisher.topic, true).count;
+    if (publisher && publisher.node !== null && !messages.repeated[i]) count(edge(publisher.node, publisher.topic, true), messages.published[i]);
     if (!subscription || subscription.node === null) continue;
     const taken = edge(subscription.node, subscription.topic, false);
-    ++taken.count;
+    count(taken, messages.taken[i]);
     if (messages.to[i] >= 0) taken.latencies.push(instances.start[messages.to[i]] - messages.published[i]);
   }
   return [...edges.values()];
@@ -58,8 +63,8 @@ function drawGraph(data, edges) {
   const topics = topicStatistics(data);
   const lines = edges.map(edge => {
     const topic = topics[edge.topic];
-    const rate = formatRate(topic.published, data.duration) + (topic.latency.count ? ` · p99 ${formatDuration(topic.latency.p99)}` : '');
-    const node = box('node', edge.node, data.nodes[edge.node].name, '');
+    const rate = topic.rate + (topic.latency.count ? ` · p99 ${formatDuration(topic.latency.p99)}` : '');
+    const node = box('node', edge.node, nodeName(data, edge.node), '');
     const other = box('topic', edge.topic, topic.name, topic.published ? rate : 'no messages');
     return edge.publishes ? {...edge, from: node, to: other} : {...edge, from: other, to: node};
   });
@@ -122,7 +127,7 @@ function drawLine(data, line, boxes, dim) {
     path += line.isDown ? ` C${a.x} ${y} ${b.x} ${y} ${b.x} ${b.y}` : ` C${x} ${a.y} ${x} ${b.y} ${b.x} ${b.y}`;
   }
   const latency = summary(Float64Array.from(line.latencies));
-  const text = `${line.publishes ? 'published' : 'taken'} ${formatCount(line.count)}, ${formatRate(line.count, data.duration)}` +
+  const text = `${line.publishes ? 'published' : 'taken'} ${formatCount(line.count)}, ${formatRate(line.count, line.first, line.last)}` +
     (latency.count ? `; latency p50 ${formatDuration(latency.p50)}, p99 ${formatDuration(latency.p99)}` : '');
   return svgElement('path', {d: path, class: dim ? 'dim' : null, 'marker-end': 'url(#tip)', 'stroke-dasharray': line.count === 0 ? '3 4' : null}, svgElement('title', {}, text));
 }

@@ -44,6 +44,7 @@ function topicStatistics(data) {
   }
   for (const topic of topics) {
     topic.latency = summary(Float64Array.from(topic.values));
+    topic.rate = formatRate(topic.published, topic.publishedAt[0], topic.publishedAt[topic.published - 1]);
     topic.between = intervals(topic.publishedAt);
     computed.topics.set(topic.id, topic);
   }

@@ -66,7 +66,7 @@ function timeChartView(data) {
   }
 
   const span = () => chart.view.end - chart.view.begin;
-  const timeAt = x => chart.view.begin + (x - kLabelWidth) / (chart.width - kLabelWidth) * span();
+  const timeAt = x => chart.view.begin + (x - labelWidth(chart)) / (chart.width - labelWidth(chart)) * span();
   const zoom = (factor, time = (chart.view.begin + chart.view.end) / 2) =>
     setView(time - (time - chart.view.begin) * factor, time + (chart.view.end - time) * factor);
   const pan = share => setView(chart.view.begin + share * span(), chart.view.end + share * span());
@@ -79,14 +79,14 @@ function timeChartView(data) {
 
   function instanceAt(x, y) {
     const row = chart.rows[rowAt(y)];
-    if (!row?.intervals || x < kLabelWidth) return -1;
-    return row.intervals.at(timeAt(x), 4 * span() / (chart.width - kLabelWidth));
+    if (!row?.intervals || x < labelWidth(chart)) return -1;
+    return row.intervals.at(timeAt(x), 4 * span() / (chart.width - labelWidth(chart)));
   }
 
   // What the thread of a row or of an instance did at a place, or -1.
   function stateAt(x, y, instance) {
     const row = chart.rows[rowAt(y)];
-    if (!row || x < kLabelWidth) return -1;
+    if (!row || x < labelWidth(chart)) return -1;
     const states = instance < 0 ? row.states : statesOf(data, data.instances.thread[instance]);
     return states?.at(timeAt(x)) ?? -1;
   }
@@ -151,7 +151,7 @@ function timeChartView(data) {
   canvas.addEventListener('wheel', event => {
     event.preventDefault();
     const isZoom = event.ctrlKey || event.metaKey || (!event.shiftKey && chart.rowsHeight + 8 <= chart.height - kMapHeight - kScaleHeight);
-    if (isZoom) zoom(1.0015 ** event.deltaY, timeAt(Math.max(event.offsetX, kLabelWidth)));
+    if (isZoom) zoom(1.0015 ** event.deltaY, timeAt(Math.max(event.offsetX, labelWidth(chart))));
     else if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) pan((event.deltaX || event.deltaY) / 1000);
     else setView(chart.view.begin, chart.view.end, chart.view.top + event.deltaY);
   }, {passive: false});
@@ -163,7 +163,7 @@ function timeChartView(data) {
     if (drag.inMap) moveMap(event.offsetX);
   });
   const moveMap = x => {
-    const middle = (x - kLabelWidth) / (chart.width - kLabelWidth) * chart.duration;
+    const middle = (x - labelWidth(chart)) / (chart.width - labelWidth(chart)) * chart.duration;
     setView(middle - span() / 2, middle + span() / 2);
   };
   canvas.addEventListener('pointermove', event => {
@@ -171,7 +171,7 @@ function timeChartView(data) {
     if (drag) {
       const [dx, dy] = [event.offsetX - drag.x, event.offsetY - drag.y];
       if (Math.abs(dx) + Math.abs(dy) > 3) drag.moved = true;
-      const shift = -dx / (chart.width - kLabelWidth) * (drag.end - drag.begin);
+      const shift = -dx / (chart.width - labelWidth(chart)) * (drag.end - drag.begin);
       if (drag.moved) setView(drag.begin + shift, drag.end + shift, drag.top - dy);
       return;
     }
@@ -192,7 +192,7 @@ function timeChartView(data) {
     drag = null;
   });
   canvas.addEventListener('pointerleave', () => { tip.hidden = true; });
-  canvas.addEventListener('dblclick', event => zoom(0.25, timeAt(Math.max(event.offsetX, kLabelWidth))));
+  canvas.addEventListener('dblclick', event => zoom(0.25, timeAt(Math.max(event.offsetX, labelWidth(chart)))));
 
   const by = element('select', {'aria-label': 'Rows', onchange: () => { timeChartOptions.by = by.value; refresh(); }},
     element('option', {value: 'thread'}, 'threads'), element('option', {value: 'callback'}, 'callbacks'));

@@ -5,7 +5,7 @@ const kRowHeight = 22;
 const kHeadHeight = 24;      // of a heading
 const kScaleHeight = 26;     // of the time scale
 const kMapHeight = 34;       // of the whole trace above it
-const kLabelWidth = 200;
+const kLabelWidth = 200;     // of the names of rows; less where there is little room
 const kStateHeight = 4;      // of the strip that tells what a thread did
 const kMostArrows = 400;
 
@@ -15,7 +15,7 @@ function drawTimeChart(context, chart) {
   const {width, height} = chart;
   const style = {};
   for (const name of ['panel', 'text', 'faint', 'line', 'row', 'accent', 'arrow', 'bad', ...kStates.map(state => state.color)]) style[name] = color(name);
-  style.lightness = color('bar-lightness');
+  style.lightness = color('callback-lightness');
   context.fillStyle = style.panel;
   context.fillRect(0, 0, width, height);
   context.font = '12px system-ui, "DejaVu Sans", sans-serif';
@@ -36,25 +36,29 @@ function rowTop(chart, i) {
   return kMapHeight + kScaleHeight + chart.tops[i] - chart.view.top;
 }
 
+function labelWidth(chart) {
+  return Math.min(kLabelWidth, Math.round(chart.width * 0.35));
+}
+
 function timeX(chart, time) {
   const {begin, end} = chart.view;
-  return kLabelWidth + (time - begin) / (end - begin) * (chart.width - kLabelWidth);
+  return labelWidth(chart) + (time - begin) / (end - begin) * (chart.width - labelWidth(chart));
 }
 
 // How busy the whole trace is, with the part that is shown.
 function drawMap(context, chart, style) {
   const {map, width, view} = chart;
-  const span = width - kLabelWidth;
+  const span = width - labelWidth(chart);
   const most = Math.max(...map, 1e-9);
   context.fillStyle = style.row;
-  context.fillRect(kLabelWidth, 0, span, kMapHeight - 6);
+  context.fillRect(labelWidth(chart), 0, span, kMapHeight - 6);
   context.fillStyle = style.faint;
   map.forEach((share, i) => {
     const height = share / most * (kMapHeight - 8);
-    context.fillRect(kLabelWidth + i * span / map.length, kMapHeight - 6 - height, Math.max(1, span / map.length), height);
+    context.fillRect(labelWidth(chart) + i * span / map.length, kMapHeight - 6 - height, Math.max(1, span / map.length), height);
   });
-  const x0 = kLabelWidth + view.begin / chart.duration * span;
-  const x1 = kLabelWidth + view.end / chart.duration * span;
+  const x0 = labelWidth(chart) + view.begin / chart.duration * span;
+  const x1 = labelWidth(chart) + view.end / chart.duration * span;
   context.globalAlpha = 0.18;
   context.fillStyle = style.accent;
   context.fillRect(x0, 0, Math.max(2, x1 - x0), kMapHeight - 6);
@@ -73,7 +77,7 @@ function niceStep(least) {
 
 function drawScale(context, chart, style) {
   const {begin, end} = chart.view;
-  const step = Math.max(1, niceStep((end - begin) / Math.max(2, (chart.width - kLabelWidth) / 110)));
+  const step = Math.max(1, niceStep((end - begin) / Math.max(2, (chart.width - labelWidth(chart)) / 110)));
   const middle = kMapHeight + kScaleHeight / 2;
   context.textAlign = 'center';
   for (let time = Math.ceil(begin / step) * step; time <= end; time += step) {
@@ -89,7 +93,7 @@ function drawScale(context, chart, style) {
 
 function drawRows(context, chart, style) {
   const {rows, view, width, data} = chart;
-  const span = width - kLabelWidth;
+  const span = width - labelWidth(chart);
   rows.forEach((row, i) => {
     const top = rowTop(chart, i);
     const height = row.heading ? kHeadHeight : kRowHeight;
@@ -110,7 +114,7 @@ function drawRows(context, chart, style) {
       context.globalAlpha = 1;
     }
     context.fillStyle = row.alone ? style.text : style.faint;
-    context.fillText(fitted(context, row.text, kLabelWidth - (row.alone ? 14 : 22)), row.alone ? 6 : 14, top + height / 2);
+    context.fillText(fitted(context, row.text, labelWidth(chart) - (row.alone ? 14 : 22)), row.alone ? 6 : 14, top + height / 2);
     context.fillStyle = style.line;
     context.fillRect(0, top + height - 1, width, 1);
     const barHeight = heightOfBars(data);
@@ -118,15 +122,15 @@ function drawRows(context, chart, style) {
     const draw = (intervals, inset) => intervals.draw(view.begin, view.end, span, (from, to, id, share) => {
       const x = Math.max(from, 0);
       const w = Math.max(Math.min(to, span) - x, 1);
-      context.globalAlpha = share;
+      context.globalAlpha = 0.25 + 0.75 * share;  // what is short can be seen, too
       context.fillStyle = barColor(data.instances.callback[id], style.lightness);
-      context.fillRect(kLabelWidth + x, top + 3 + inset, w, barHeight - inset);
+      context.fillRect(labelWidth(chart) + x, top + 3 + inset, w, barHeight - inset);
       if (data.states.count > 0 && row.callback !== undefined && share === 1 && w > 2) {
         drawStates(context, chart, style, statesOf(data, data.instances.thread[id]), top + height - 2 - kStateHeight, id);
       }
       if (w > 60 && share === 1 && inset === 0) {
         context.fillStyle = '#10151d';
-        context.fillText(fitted(context, data.callbacks[data.instances.callback[id]].label, w - 10), kLabelWidth + x + 5, top + 3 + barHeight / 2);
+        context.fillText(fitted(context, data.callbacks[data.instances.callback[id]].label, w - 10), labelWidth(chart) + x + 5, top + 3 + barHeight / 2);
       }
     });
     for (let intervals = row.intervals, inset = 0; intervals; intervals = intervals.nested, inset = Math.min(inset + 5, 10)) draw(intervals, inset);
@@ -143,7 +147,7 @@ function heightOfBars(data) {
 function drawStates(context, chart, style, states, top, instance = -1) {
   if (!states) return;
   const {view, width, data: {instances}} = chart;
-  const span = width - kLabelWidth;
+  const span = width - labelWidth(chart);
   const begin = instance < 0 ? view.begin : Math.max(view.begin, instances.start[instance]);
   const end = instance < 0 ? view.end : Math.min(view.end, instances.end[instance]);
   if (end <= begin) return;
@@ -200,12 +204,12 @@ function drawArrows(context, chart, style) {
   const visible = [];
   for (let i = first; i < last; ++i) {
     const ends = arrowEnds(chart, i);
-    if (ends && ends.x1 >= kLabelWidth) visible.push(ends);
+    if (ends && ends.x1 >= labelWidth(chart)) visible.push(ends);
   }
   if (visible.length > kMostArrows) return visible.length;
   context.save();
   context.beginPath();
-  context.rect(kLabelWidth, 0, chart.width, chart.height);
+  context.rect(labelWidth(chart), 0, chart.width, chart.height);
   context.clip();
   context.strokeStyle = context.fillStyle = style.arrow;
   context.globalAlpha = visible.length > 150 ? 0.4 : 0.75;
@@ -221,7 +225,7 @@ function drawChosen(context, chart, style) {
   const {before, after, messages} = causes(data, selection.instance);
   context.save();
   context.beginPath();
-  context.rect(kLabelWidth, 0, chart.width, chart.height);
+  context.rect(labelWidth(chart), 0, chart.width, chart.height);
   context.clip();
   context.strokeStyle = context.fillStyle = style.accent;
   for (const instance of [selection.instance, ...before, ...after]) {

@@ -11,7 +11,7 @@ function topicsView(data) {
     {title: 'Topic', value: row => row.name, wide: true},
     count('Publishers', row => row.publishers), count('Subscriptions', row => row.subscriptions),
     count('Published', row => row.published), count('Taken', row => row.taken), count('Not taken', row => row.missed),
-    {title: 'Rate', value: row => row.published, show: row => formatRate(row.published, data.duration)},
+    {title: 'Rate', value: row => row.published, show: row => row.rate},
     latency('Latency mean', l => l.mean), latency('p50', l => l.p50), latency('p90', l => l.p90), latency('p99', l => l.p99), latency('Max', l => l.max),
   ], {name: 'topic', sort: 10, descending: true, isActive: row => row.id === selection.topic,
     choose: row => select({topic: row.id === selection.topic ? null : row.id})});
