@@ -2,7 +2,8 @@
 // Chrome's trace event format, as far as Perfetto's trace processor reads it. Its times are microseconds. They count
 // from what is first in the file, because a double can't hold microseconds since the epoch to the nanosecond, and
 // because Perfetto reads the digits behind the point of a negative time as positive ones. There is no displayTimeUnit:
-// former releases of Perfetto take it for the unit of all times.
+// former releases of Perfetto take it for the unit of all times. Ids are texts with hexadecimal numbers, because
+// releases of 2022 end at an id that is a number.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -169,7 +170,8 @@ class PerfettoWriter {
       if (!message.repeated) write_publication(message);
       if (message.receiving_instance == kNone) continue;
       const Instance& receiver = timeline_.instances[message.receiving_instance];
-      const std::string flow = fmt::format("\"cat\":\"message\",\"name\":{},\"id\":{}", names[message.topic], id);
+      const std::string flow =
+          fmt::format("\"cat\":\"message\",\"name\":{},\"id\":\"{:#x}\"", names[message.topic], id);
       event(fmt::format(R"("ph":"s",{},{},"ts":{})", flow, place(message.publishing_thread), time(message.called_ns)));
       event(fmt::format(R"("ph":"f","bp":"e",{},{},"ts":{})", flow, place(receiver.thread), time(receiver.start_ns)));
       const std::int64_t latency = receiver.start_ns - message.published_ns;
@@ -192,8 +194,8 @@ class PerfettoWriter {
       const timeline::LifecycleState& interval = timeline_.lifecycle[id];
       const timeline::Node& node = timeline_.nodes[interval.node];
       const std::int64_t vpid = pids_[node.process];
-      const std::string what = fmt::format(R"("cat":"lifecycle","id":{},"name":{},"pid":{},"tid":{})", interval.node,
-                                           json_text(node.name + " " + interval.state), vpid, vpid);
+      const std::string what = fmt::format(R"("cat":"lifecycle","id":"{:#x}","name":{},"pid":{},"tid":{})",
+                                           interval.node, json_text(node.name + " " + interval.state), vpid, vpid);
       event(fmt::format(R"("ph":"b",{},"ts":{})", what, time(interval.begin_ns)));
       event(fmt::format(R"("ph":"e",{},"ts":{})", what, time(interval.end_ns)));
     }
