@@ -45,9 +45,13 @@ void DeliveryStatistics::on_publication(const Publication& publication) {
 // Messages of one publisher arrive in their order: those between the last one and this one will not come.
 void DeliveryStatistics::find_gaps(const MessageFlow& message) {
   Publisher& publisher = at(sent_, message.publication.publisher);
-  const auto sent =
-      std::lower_bound(publisher.newest.begin(), publisher.newest.end(), message.publication.number,
-                       [](const Sent& candidate, std::uint64_t number) { return candidate.number < number; });
+  // Usually it is the last one or one of the last.
+  constexpr std::size_t kLast = 8;
+  const auto& newest = publisher.newest;
+  const auto is_before = [](const Sent& candidate, std::uint64_t number) { return candidate.number < number; };
+  const bool is_late = newest.size() > kLast && (newest.end() - kLast)->number <= message.publication.number;
+  const auto sent = std::lower_bound(is_late ? newest.end() - kLast : newest.begin(), newest.end(),
+                                     message.publication.number, is_before);
   if (sent == publisher.newest.end() || sent->number != message.publication.number) return;
   const auto index = static_cast<std::uint64_t>(sent - publisher.newest.begin());
   const std::uint64_t place = publisher.count - publisher.newest.size() + 1 + index;

@@ -14,19 +14,9 @@ void MessageMatcher::publish(const Publication& publication, std::int64_t source
   }
   Flight& flight = flights_[publication.topic];
   const bool received = !flight.unknown.empty() && was_taken_early(topic_record, flight, publication, source_timestamp);
-  if (flight.oldest_first.size() < kRemembered) {
-    const auto [entry, is_new] = flight.by_source_timestamp.try_emplace(source_timestamp);
-    entry->second = {publication, received};
-    if (is_new) flight.oldest_first.push_back(source_timestamp);
-    return;
-  }
-  // From here on the newest publication reuses the memory of the oldest one.
-  auto node = flight.by_source_timestamp.extract(flight.oldest_first.front());
-  flight.oldest_first.pop_front();
-  if (!node.mapped().received) ++topic_record.published_only;
-  node.key() = source_timestamp;
-  node.mapped() = {publication, received};
-  if (flight.by_source_timestamp.insert(std::move(node)).inserted) flight.oldest_first.push_back(source_timestamp);
+  flight.recent.add({source_timestamp, publication, received}, [&](const RecentPublication& oldest) {
+    if (!oldest.received) ++topic_record.published_only;
+  });
 }
 
 bool MessageMatcher::was_taken_early(TopicRecord& topic_record, Flight& flight, const Publication& publication,
@@ -50,15 +40,14 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
   TakenMessage message{subscription, {}, time_ns};
   message.publication.topic = topic;
   Flight& flight = flights_[topic];
-  auto& publications = flight.by_source_timestamp;
-  const auto found = publications.find(source_timestamp);
-  if (found == publications.end()) {
+  RecentPublication* const found = flight.recent.find(source_timestamp);
+  if (found == nullptr) {
     ++(topic_record.untimed > 0 ? topic_record.untimed_taken : topic_record.received_only);
     if (topic_record.untimed == 0 && source_timestamp != 0) flight.unknown.emplace_back(source_timestamp, time_ns);
     if (flight.unknown.size() > kUnknown) flight.unknown.pop_front();
   } else {
-    found->second.received = true;
-    message.publication = found->second.publication;
+    found->received = true;
+    message.publication = found->publication;
   }
   return message;
 }
@@ -70,7 +59,7 @@ void MessageMatcher::deliver(const TakenMessage& message, std::int64_t callback_
 
 void MessageMatcher::finish() {
   for (std::size_t topic = 0; topic < flights_.size(); ++topic) {
-    for (const auto& [timestamp, remembered] : flights_[topic].by_source_timestamp) {
+    for (const RecentPublication& remembered : flights_[topic].recent.all()) {
       if (!remembered.received) ++records_[topic].published_only;
     }
     flights_[topic] = {};

@@ -4,12 +4,12 @@
 
 #include <cstdint>
 #include <deque>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "tracing/execution/duration_statistics.hpp"
 #include "tracing/execution/execution_sink.hpp"
+#include "tracing/messages/recent_publications.hpp"
 #include "tracing/objects/object_model.hpp"
 
 namespace tracing {
@@ -56,14 +56,9 @@ class MessageMatcher {
   const std::vector<TopicRecord>& records() const { return records_; }
 
  private:
-  struct Remembered {
-    Publication publication;
-    bool received = false;
-  };
   // Two publishers of a topic with the same nanosecond would count as one: the trace can't tell them apart.
   struct Flight {
-    std::unordered_map<std::int64_t, Remembered> by_source_timestamp;
-    std::deque<std::int64_t> oldest_first;
+    RecentPublications recent{kRemembered};
     // The newest messages that were taken without a publication: source timestamp, time.
     std::deque<std::pair<std::int64_t, std::int64_t>> unknown;
   };

@@ -132,8 +132,7 @@ std::optional<std::string_view> FieldValue::enumeration_label() const {
   return count == 0 ? std::nullopt : std::optional<std::string_view>(labels[0]);
 }
 
-FieldValue Event::field(std::size_t index) const {
-  if (record != nullptr) return FieldValue((*record)[index]);
+FieldValue Event::foreign_field(std::size_t index) const {
   return FieldValue(bt_field_structure_borrow_member_field_by_index_const(foreign_payload, index));
 }
 

@@ -113,10 +113,15 @@ struct Event {
   const bt_field* foreign_event_context = nullptr;
 
   std::string_view name() const { return event_class->name; }
-  FieldValue field(std::size_t index) const;  // index < event_class->fields.size()
+  FieldValue field(std::size_t index) const {  // index < event_class->fields.size()
+    return record != nullptr ? FieldValue((*record)[index]) : foreign_field(index);
+  }
   std::optional<FieldValue> field(std::string_view field_name) const;
   FieldValue context(std::size_t index) const;  // index < event_class->contexts.size()
   std::optional<FieldValue> context(std::string_view context_name) const;
+
+ private:
+  FieldValue foreign_field(std::size_t index) const;
 };
 
 // Events that the tracer could not keep, according to the trace itself.
