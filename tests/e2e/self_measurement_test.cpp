@@ -112,8 +112,10 @@ struct SelfMeasurement : testing::Test {
     launch_file << "</launch>\n" << std::flush;
     const CommandResult run = run_command({LAUNCH_PROGRAM, file.string()});
     EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
-    const CommandResult read = run_command({LAUNCH_PROGRAM, "report", "--json", "--csv", tables().string(), trace()});
+    const CommandResult read = run_command({LAUNCH_PROGRAM, "report", "--json", trace()});
     EXPECT_EQ(read.exit_code, 0) << read.err;
+    const CommandResult exported = run_command({LAUNCH_PROGRAM, "report", "--csv", tables().string(), trace()});
+    EXPECT_EQ(exported.exit_code, 0) << exported.err;
     nlohmann::json report = nlohmann::json::parse(read.out, nullptr, false);
     EXPECT_TRUE(report["losses"].empty()) << report["losses"];
     return report;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tracing/findings/printable.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/objects/object_names.hpp"
 #include "tracing/report/screen_table.hpp"
@@ -26,9 +27,10 @@ Cell count_cell(std::uint64_t count) {
   return {count == 0 ? "-" : std::to_string(count), count == 0 ? Style::kPlain : Style::kBad};
 }
 
-Row row_of(std::string label, std::string remark, std::uint64_t count, const DurationSummary& took, double seconds) {
-  Row row{.label = std::move(label)};
-  row.remark = std::move(remark);
+Row row_of(const std::string& label, const std::string& remark, std::uint64_t count, const DurationSummary& took,
+           double seconds) {
+  Row row{.label = printable(label)};
+  row.remark = printable(remark);
   row.count = static_cast<double>(count);
   row.rate = row.count / seconds;
   row.cells = {{hertz_text(row.rate)}};

@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "tracing/findings/printable.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/findings/result_labels.hpp"
 #include "tracing/report/duration_rows.hpp"
@@ -121,6 +122,12 @@ std::string notes(const Report& report) {
     note(
         "Events that LTTng has not described yet are left out; it describes them when a traced program ends or the "
         "session is stopped.");
+  }
+  if (!report.sessions.empty()) {
+    note(
+        fmt::format("{} sessions of one machine are read as one, from the first event to the last: {}. Loads count the "
+                    "time between them, too.",
+                    report.sessions.size(), printable(fmt::format("{}", fmt::join(report.sessions, ", ")))));
   }
   const auto has_event = [&results](std::string_view begin) {
     const auto fits = [begin](const EventCount& count) { return count.name.starts_with(begin); };

@@ -22,6 +22,7 @@
 #include "tracing/live/live_report.hpp"
 #include "tracing/report/comparison_command.hpp"
 #include "tracing/report/output_files.hpp"
+#include "tracing/report/recorded_sessions.hpp"
 #include "tracing/report/recorded_processes.hpp"
 #include "tracing/report/report.hpp"
 
@@ -220,6 +221,7 @@ int print_report(const Arguments& arguments) {
     exit_code = kFailure;
   }
   report.lacks_descriptions = reader.lacks_descriptions();
+  report.sessions = tracing::several_sessions(reader.traces());
   print_out(arguments.json ? json_report(report) : text_report(report, text_options(arguments)));
   return exit_code;
 }

@@ -19,6 +19,7 @@ struct Report {
   RecordedVerdict verdict = {};
   std::vector<std::filesystem::path> open = {};  // traces that were still being written
   bool lacks_descriptions = false;               // TraceReader::lacks_descriptions()
+  std::vector<std::string> sessions = {};        // of one machine, if it has several
 };
 
 // What was not there: the sentences of the verdicts, and chains with names that never were gone through.

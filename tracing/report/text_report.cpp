@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tracing/findings/finding.hpp"
 #include "tracing/findings/hosts.hpp"
+#include "tracing/findings/printable.hpp"
 #include "tracing/findings/quantity_text.hpp"
 #include "tracing/report/details.hpp"
 #include "tracing/report/duration_rows.hpp"
@@ -99,9 +101,9 @@ std::string finding_section(const Report& report, const ReportOptions& options) 
 }
 
 // The chains that the user asked for, step by step.
-std::string chosen_chains(const Ros2Results& ros2, const ReportOptions& options) {
+std::string chosen_chains(const TraceResults& results, const ReportOptions& options) {
   std::string text;
-  for (const ChainResult& chain : ros2.chains) {
+  for (const ChainResult& chain : results.ros2.chains) {
     if (!is_chosen(chain, options)) continue;
     text +=
         "\n" + duration_table().row("Step by step", duration_titles()) + chain_details(chain, Hosts(results.overview));
@@ -112,11 +114,13 @@ std::string chosen_chains(const Ros2Results& ros2, const ReportOptions& options)
 
 }  // namespace
 
-std::string text_report(const Report& report, const ReportOptions& options) {
+std::string text_report(const Report& of, const ReportOptions& options) {
+  Report report = of;
+  report.results = printable(std::move(report.results));
   const TraceResults& results = report.results;
   std::string text = head(report, options.color) + absence_section(absences_of(report), options.color);
   if (!options.chain.first.empty()) {
-    return text + chain_table(results, options) + chosen_chains(results.ros2, options);
+    return text + chain_table(results, options) + chosen_chains(results, options);
   }
   if (options.node.empty() && options.topic.empty()) text += finding_section(report, options);
   text += chain_table(results, options) + callback_table(results, options) + topic_table(results.ros2, options) +

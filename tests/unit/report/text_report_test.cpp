@@ -6,12 +6,15 @@
 
 #include "tests/unit/report/example_reports.hpp"
 #include "tracing/findings/quantity_text.hpp"
+#include "tracing/report/recorded_sessions.hpp"
 #include "tracing/report/report.hpp"
 
 namespace tracing {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 TEST(TextReport, OfAnEmptyTraceSaysSo) {
@@ -176,6 +179,40 @@ TEST(TextReport, NamesTheMachineInRowsIfThereAreSeveral) {
   }
   report.results.overview.processes[1].host = "left";
   EXPECT_THAT(text_report(report), Not(HasSubstr("left")));
+}
+
+TEST(TextReport, SaysThatSeveralSessionsAreReadAsOne) {
+  Report report{"/traces", {}, ""};
+  report.results.overview = overview_of(2, {{71, "ping", 1, false, "left"}});
+  EXPECT_THAT(text_report(report), Not(HasSubstr("sessions")));
+  report.sessions = {"monday", "tuesday"};
+  EXPECT_THAT(text_report(report),
+              HasSubstr("\n  2 sessions of one machine are read as one, from the first event to the last: monday, "
+                        "tuesday. Loads count the time between them, too.\n"));
+}
+
+TEST(SeveralSessions, AreOnesOfOneMachineOfDifferentNamesOrTimes) {
+  const auto trace = [](const char* host, const char* name, const char* time) {
+    TraceDescription description;
+    description.environment = {{"hostname", host}, {"trace_name", name}, {"trace_creation_datetime", time}};
+    return description;
+  };
+  EXPECT_THAT(several_sessions({trace("left", "run", "1"), trace("right", "run", "1")}), IsEmpty());
+  EXPECT_THAT(several_sessions({trace("left", "run-snapshot", "1"), trace("left", "run-runtime", "2")}), IsEmpty());
+  EXPECT_THAT(several_sessions({trace("left", "run", "1"), trace("left", "run", "2"), trace("right", "other", "1")}),
+              ElementsAre("run", "run"));
+}
+
+TEST(TextReport, HasNoControlCharactersOfNames) {
+  Report report{"/traces/run", {}, ""};
+  CallbackResult callback;
+  callback.node = "/ping\n\x1b[2J";
+  callback.owner = CallbackResult::Owner::kTimer;
+  callback.durations = {7, 1'000.0, 0.0, 1'000, 1'000, 1'000, 1'000, 1'000, true};
+  report.results.ros2.callbacks = {callback};
+  report.results.overview = overview_of(2, {{71, "ping", 1, false, "left"}});
+  EXPECT_THAT(text_report(report, {.all = true}),
+              ::testing::AllOf(HasSubstr("\n  /ping??[2J, timer"), Not(HasSubstr("\x1b"))));
 }
 
 TEST(TextReport, ShowsEverythingOnDemand) {

@@ -32,7 +32,7 @@ function color(name) {
 // A colour for the number of a callback. Neighbours differ much: the golden angle lies between them. All are as bright
 // to the eye, so a dark text on them can be read.
 function barColor(number, lightness) {
-  return `oklch(${lightness} 0.12 ${(number * 137.508 + 252) % 360})`;
+  return `oklch(${lightness} 0.13 ${(number * 137.508 + 252) % 360})`;
 }
 
 // Moves the focus among `items` with the arrow keys.

@@ -122,7 +122,7 @@ function drawRows(context, chart, style) {
     const draw = (intervals, inset) => intervals.draw(view.begin, view.end, span, (from, to, id, share) => {
       const x = Math.max(from, 0);
       const w = Math.max(Math.min(to, span) - x, 1);
-      context.globalAlpha = 0.25 + 0.75 * share;  // what is short can be seen, too
+      context.globalAlpha = 0.35 + 0.65 * share;  // what is short can be seen, too
       context.fillStyle = barColor(data.instances.callback[id], style.lightness);
       context.fillRect(labelWidth(chart) + x, top + 3 + inset, w, barHeight - inset);
       if (data.states.count > 0 && row.callback !== undefined && share === 1 && w > 2) {
