@@ -21,3 +21,14 @@ bool rcutils_allocator_is_valid(const rcutils_allocator_t* allocator) {
   return allocator != nullptr && allocator->allocate != nullptr && allocator->deallocate != nullptr &&
          allocator->reallocate != nullptr && allocator->zero_allocate != nullptr;
 }
+
+void* rcutils_reallocf(void* pointer, size_t size, rcutils_allocator_t* allocator) {
+  if (!rcutils_allocator_is_valid(allocator)) {
+    return nullptr;
+  }
+  void* memory = allocator->reallocate(pointer, size, allocator->state);
+  if (memory == nullptr) {
+    allocator->deallocate(pointer, allocator->state);
+  }
+  return memory;
+}

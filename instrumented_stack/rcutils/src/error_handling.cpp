@@ -25,6 +25,11 @@ void set_place(const char* file, size_t line) {
 
 }  // namespace
 
+rcutils_ret_t rcutils_initialize_error_handling_thread_local_storage(rcutils_allocator_t allocator) {
+  RCUTILS_CHECK_ALLOCATOR_WITH_MSG(&allocator, "invalid allocator", return RCUTILS_RET_INVALID_ARGUMENT)
+  return RCUTILS_RET_OK;
+}
+
 bool rcutils_error_is_set(void) {
   return is_set;
 }

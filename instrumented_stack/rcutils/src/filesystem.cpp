@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rcutils/filesystem.h"
 
+#include <dirent.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -111,4 +113,49 @@ rcutils_ret_t rcutils_calculate_directory_size_with_recursion(const char* direct
 size_t rcutils_get_file_size(const char* file_path) {
   std::error_code error;
   return rcutils_is_file(file_path) ? static_cast<size_t>(fs::file_size(file_path, error)) : 0;
+}
+
+struct rcutils_dir_iter_state_s {
+  DIR* directory;
+};
+
+rcutils_dir_iter_t* rcutils_dir_iter_start(const char* directory_path, const rcutils_allocator_t allocator) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(directory_path, nullptr);
+  RCUTILS_CHECK_ALLOCATOR_WITH_MSG(&allocator, "allocator is invalid", return nullptr)
+  DIR* const directory = opendir(directory_path);
+  if (directory == nullptr) {
+    RCUTILS_SET_ERROR_MSG_WITH_FORMAT_STRING("cannot open directory '%s': %s", directory_path,
+                                             std::generic_category().message(errno).c_str());
+    return nullptr;
+  }
+  // Iterator and state in one piece of memory.
+  struct Both {
+    rcutils_dir_iter_t iterator;
+    rcutils_dir_iter_state_s state;
+  };
+  auto* both = static_cast<Both*>(allocator.zero_allocate(1, sizeof(Both), allocator.state));
+  if (both == nullptr) {
+    closedir(directory);
+    RCUTILS_SET_ERROR_MSG("out of memory for a directory iterator");
+    return nullptr;
+  }
+  both->state.directory = directory;
+  both->iterator = {nullptr, allocator, &both->state};
+  (void)rcutils_dir_iter_next(&both->iterator);
+  return &both->iterator;
+}
+
+bool rcutils_dir_iter_next(rcutils_dir_iter_t* iter) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(iter, false);
+  RCUTILS_CHECK_FOR_NULL_WITH_MSG(iter->state, "iter is invalid", return false);
+  const dirent* const entry = readdir(iter->state->directory);
+  iter->entry_name = entry == nullptr ? nullptr : entry->d_name;
+  return entry != nullptr;
+}
+
+void rcutils_dir_iter_end(rcutils_dir_iter_t* iter) {
+  if (iter != nullptr) {
+    closedir(iter->state->directory);
+    iter->allocator.deallocate(iter, iter->allocator.state);
+  }
 }

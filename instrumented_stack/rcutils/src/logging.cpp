@@ -101,6 +101,21 @@ void log_valist(const rcutils_log_location_t* location, int severity, const char
 
 }  // namespace
 
+bool g_rcutils_logging_initialized = false;
+
+const char* const g_rcutils_log_severity_names[RCUTILS_LOG_SEVERITY_FATAL + 1] = {
+    "UNSET", nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,  // 0
+    "DEBUG", nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,  // 10
+    "INFO",  nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,  // 20
+    "WARN",  nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,  // 30
+    "ERROR", nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,  // 40
+    "FATAL"};
+
+rcutils_ret_t rcutils_logging_initialize_with_allocator(rcutils_allocator_t allocator) {
+  RCUTILS_CHECK_ALLOCATOR_WITH_MSG(&allocator, "Provided allocator is invalid.", return RCUTILS_RET_INVALID_ARGUMENT)
+  return rcutils_logging_initialize();
+}
+
 rcutils_ret_t rcutils_logging_initialize(void) {
   Logging& log = logging();
   if (log.initialized.load(std::memory_order_acquire)) {
@@ -111,6 +126,7 @@ rcutils_ret_t rcutils_logging_initialize(void) {
     return RCUTILS_RET_OK;
   }
   const rcutils_ret_t result = read_environment(log);
+  g_rcutils_logging_initialized = true;
   log.initialized.store(true, std::memory_order_release);
   return result;
 }
@@ -123,6 +139,7 @@ rcutils_ret_t rcutils_logging_shutdown(void) {
   log.default_level = RCUTILS_DEFAULT_LOGGER_DEFAULT_LEVEL;
   log.handler = rcutils_logging_console_output_handler;
   log.initialized = false;
+  g_rcutils_logging_initialized = false;
   return RCUTILS_RET_OK;
 }
 
@@ -146,12 +163,17 @@ void rcutils_logging_set_default_logger_level(int level) {
 
 int rcutils_logging_get_logger_level(const char* name) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(name, -1);
-  if (*name == '\0') {
+  return rcutils_logging_get_logger_leveln(name, std::strlen(name));
+}
+
+int rcutils_logging_get_logger_leveln(const char* name, size_t name_length) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(name, -1);
+  if (name_length == 0) {
     return rcutils_logging_get_default_logger_level();
   }
   Logging& log = logging();
   std::shared_lock lock(log.mutex);
-  const auto found = log.levels.find(std::string_view(name));
+  const auto found = log.levels.find(std::string_view(name, name_length));
   return found == log.levels.end() ? static_cast<int>(RCUTILS_LOG_SEVERITY_UNSET) : found->second;
 }
 
@@ -291,4 +313,17 @@ void rcutils_logging_console_output_handler(const rcutils_log_location_t* locati
     stream = log.stream;
   }
   std::fwrite(line.data(), 1, line.size(), stream);
+}
+
+rcutils_ret_t rcutils_logging_format_message(const rcutils_log_location_t* location, int severity, const char* name,
+                                             rcutils_time_point_value_t timestamp, const char* msg,
+                                             rcutils_char_array_t* logging_output) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(msg, RCUTILS_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(logging_output, RCUTILS_RET_INVALID_ARGUMENT);
+  RCUTILS_LOGGING_AUTOINIT;
+  Logging& log = logging();
+  std::shared_lock lock(log.mutex);
+  std::string line = log.line.fill(location, severity, name, timestamp, msg, false);
+  line.pop_back();  // the newline
+  return rcutils_char_array_strncat(logging_output, line.data(), line.size());
 }

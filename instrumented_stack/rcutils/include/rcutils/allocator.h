@@ -25,6 +25,20 @@ rcutils_allocator_t rcutils_get_default_allocator(void);
 // True when every function is set.
 bool rcutils_allocator_is_valid(const rcutils_allocator_t* allocator);
 
+// Reallocates; if that fails, the old memory is freed and null returned.
+void* rcutils_reallocf(void* pointer, size_t size, rcutils_allocator_t* allocator);
+
+#define RCUTILS_CHECK_ALLOCATOR(allocator, fail_statement) \
+  if (!rcutils_allocator_is_valid(allocator)) {            \
+    fail_statement;                                        \
+  }
+
+#define RCUTILS_CHECK_ALLOCATOR_WITH_MSG(allocator, msg, fail_statement) \
+  if (!rcutils_allocator_is_valid(allocator)) {                          \
+    RCUTILS_SET_ERROR_MSG(msg);                                          \
+    fail_statement;                                                      \
+  }
+
 #ifdef __cplusplus
 }
 #endif

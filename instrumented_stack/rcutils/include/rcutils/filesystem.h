@@ -35,6 +35,21 @@ rcutils_ret_t rcutils_calculate_directory_size(const char* directory_path, uint6
                                                rcutils_allocator_t allocator);
 rcutils_ret_t rcutils_calculate_directory_size_with_recursion(const char* directory_path, size_t max_depth,
                                                               uint64_t* size, rcutils_allocator_t allocator);
+// What a directory holds, `.` and `..` included, in no order:
+//   iter = rcutils_dir_iter_start(path, allocator);            null if it is no directory; the error is set
+//   do { … iter->entry_name … } while (rcutils_dir_iter_next(iter));
+//   rcutils_dir_iter_end(iter);
+struct rcutils_dir_iter_state_s;
+typedef struct rcutils_dir_iter_s {
+  const char* entry_name;  // null after the last one
+  rcutils_allocator_t allocator;
+  struct rcutils_dir_iter_state_s* state;
+} rcutils_dir_iter_t;
+
+rcutils_dir_iter_t* rcutils_dir_iter_start(const char* directory_path, const rcutils_allocator_t allocator);
+bool rcutils_dir_iter_next(rcutils_dir_iter_t* iter);
+void rcutils_dir_iter_end(rcutils_dir_iter_t* iter);
+
 // 0 if it is no file.
 size_t rcutils_get_file_size(const char* file_path);
 

@@ -20,7 +20,10 @@
 #include <stddef.h>
 
 #include "rcutils/allocator.h"
+#include "rcutils/error_handling.h"
+#include "rcutils/macros.h"
 #include "rcutils/time.h"
+#include "rcutils/types/char_array.h"
 #include "rcutils/types/rcutils_ret.h"
 
 #ifdef __cplusplus
@@ -55,6 +58,10 @@ typedef void (*rcutils_logging_output_handler_t)(const rcutils_log_location_t* l
 // RCUTILS_RET_INVALID_ARGUMENT if a variable has an invalid value; logging then works with defaults.
 rcutils_ret_t rcutils_logging_initialize(void);
 
+// The same; the memory here comes from no allocator, but it must be a valid one.
+rcutils_ret_t rcutils_logging_initialize_with_allocator(rcutils_allocator_t allocator);
+extern bool g_rcutils_logging_initialized;
+
 // Forgets levels and settings, and restores the console output handler.
 rcutils_ret_t rcutils_logging_shutdown(void);
 
@@ -69,6 +76,9 @@ void rcutils_logging_set_default_logger_level(int level);
 // The level set for exactly this name, UNSET if there is none, -1 on error. The empty name is the default logger.
 int rcutils_logging_get_logger_level(const char* name);
 
+// The same for the first `name_length` characters of a name.
+int rcutils_logging_get_logger_leveln(const char* name, size_t name_length);
+
 rcutils_ret_t rcutils_logging_set_logger_level(const char* name, int level);
 
 // The level of the nearest ancestor that has one; else the default level.
@@ -82,6 +92,14 @@ rcutils_ret_t rcutils_logging_severity_level_from_string(const char* severity_st
 
 // `DEBUG`, `INFO`…; null if the number is not a severity.
 const char* rcutils_logging_severity_name(int severity);
+
+// The names by number; null where the number is not a severity.
+extern const char* const g_rcutils_log_severity_names[RCUTILS_LOG_SEVERITY_FATAL + 1];
+
+// Replaces `logging_output` by the line for a message in the configured format, without colours and a newline.
+rcutils_ret_t rcutils_logging_format_message(const rcutils_log_location_t* location, int severity, const char* name,
+                                             rcutils_time_point_value_t timestamp, const char* msg,
+                                             rcutils_char_array_t* logging_output);
 
 // Passes a message to the output handler if the logger is enabled for the severity.
 #if defined(__GNUC__)
@@ -101,6 +119,7 @@ void rcutils_logging_console_output_handler(const rcutils_log_location_t* locati
                                             rcutils_time_point_value_t timestamp, const char* format, va_list* args);
 
 #define RCUTILS_LOGGING_AUTOINIT (void)rcutils_logging_initialize()
+#define RCUTILS_LOGGING_AUTOINIT_WITH_ALLOCATOR(alloc) (void)rcutils_logging_initialize_with_allocator(alloc)
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "rcutils/allocator.h"
+#include "rcutils/macros.h"
 #include "rcutils/types/rcutils_ret.h"
 
 #ifdef __cplusplus
@@ -25,6 +26,17 @@ rcutils_ret_t rcutils_string_array_init(rcutils_string_array_t* array, size_t si
 
 // Frees every string and the array.
 rcutils_ret_t rcutils_string_array_fini(rcutils_string_array_t* array);
+
+// Frees the strings behind the new end, or makes room for more, all null.
+RCUTILS_WARN_UNUSED rcutils_ret_t rcutils_string_array_resize(rcutils_string_array_t* array, size_t new_size);
+
+// The result is less than, equal to or more than 0. The first strings that differ decide, then the sizes.
+RCUTILS_WARN_UNUSED rcutils_ret_t rcutils_string_array_cmp(const rcutils_string_array_t* lhs,
+                                                           const rcutils_string_array_t* rhs, int* res);
+
+// By the bytes of the strings; null comes last.
+RCUTILS_WARN_UNUSED int rcutils_string_array_sort_compare(const void* lhs, const void* rhs);
+RCUTILS_WARN_UNUSED rcutils_ret_t rcutils_string_array_sort(rcutils_string_array_t* array);
 
 #ifdef __cplusplus
 }
