@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -55,7 +56,20 @@ class WaitResult final {
   std::shared_ptr<SubscriptionBase> next_ready_subscription() { return next(findings_.subscriptions); }
   std::shared_ptr<ServiceBase> next_ready_service() { return next(findings_.services); }
   std::shared_ptr<ClientBase> next_ready_client() { return next(findings_.clients); }
-  std::shared_ptr<Waitable> next_ready_waitable() { return next(findings_.waitables); }
+  // Throws what is_ready() of a waitable has thrown; the next call goes on behind that waitable.
+  std::shared_ptr<Waitable> next_ready_waitable() {
+    require_ready();
+    for (detail::ReadyWaitable& ready : findings_.waitables) {
+      if (ready.waitable) {
+        const std::shared_ptr<Waitable> waitable = std::exchange(ready.waitable, nullptr);
+        if (ready.error) {
+          std::rethrow_exception(ready.error);
+        }
+        return waitable;
+      }
+    }
+    return nullptr;
+  }
 
  private:
   void require_ready() const {

@@ -238,10 +238,10 @@ void WaitSetEntities::changed() {
 WaitSetEntities::Owned WaitSetEntities::own() {
   Owned owned;
   const std::lock_guard lock(mutex_);
-  own_living(timers_, owned.entities.timers);
-  own_living(subscriptions_, owned.entities.subscriptions);
-  own_living(services_, owned.entities.services);
-  own_living(clients_, owned.entities.clients);
+  own_living(timers_, owned.timers);
+  own_living(subscriptions_, owned.subscriptions);
+  own_living(services_, owned.services);
+  own_living(clients_, owned.clients);
   own_living(guard_conditions_, owned.guard_conditions);
   waitables_.erase(std::remove_if(waitables_.begin(), waitables_.end(),
                                   [&owned](const AssociatedWaitable& associated) {
@@ -250,7 +250,7 @@ WaitSetEntities::Owned WaitSetEntities::own() {
                                     if (!waitable || (associated.has_associated_entity && !entity)) {
                                       return true;
                                     }
-                                    owned.entities.waitables.push_back(std::move(waitable));
+                                    owned.waitables.push_back(std::move(waitable));
                                     owned.associated_entities.push_back(std::move(entity));
                                     return false;
                                   }),
@@ -291,13 +291,13 @@ WaitResultKind WaitSetEntities::wait(nanoseconds time_to_wait, WaitSetFindings& 
 }
 
 void WaitSetEntities::fill(const Owned& owned) {
-  size_t timers = owned.entities.timers.size();
-  size_t subscriptions = owned.entities.subscriptions.size();
-  size_t services = owned.entities.services.size();
-  size_t clients = owned.entities.clients.size();
+  size_t timers = owned.timers.size();
+  size_t subscriptions = owned.subscriptions.size();
+  size_t services = owned.services.size();
+  size_t clients = owned.clients.size();
   size_t events = 0;
   size_t guard_conditions = owned.guard_conditions.size() + (interrupt_ ? 1 : 0);
-  for (const std::shared_ptr<Waitable>& waitable : owned.entities.waitables) {
+  for (const std::shared_ptr<Waitable>& waitable : owned.waitables) {
     timers += waitable->get_number_of_ready_timers();
     subscriptions += waitable->get_number_of_ready_subscriptions();
     services += waitable->get_number_of_ready_services();
@@ -307,18 +307,18 @@ void WaitSetEntities::fill(const Owned& owned) {
   }
   require_ok(rcl_wait_set_resize(&wait_set_, subscriptions, guard_conditions, timers, clients, services, events),
              "Couldn't resize the wait set");
-  for (const auto& timer : owned.entities.timers) {
+  for (const auto& timer : owned.timers) {
     require_ok(rcl_wait_set_add_timer(&wait_set_, timer->get_timer_handle().get(), nullptr), "Couldn't fill wait set");
   }
-  for (const auto& subscription : owned.entities.subscriptions) {
+  for (const auto& subscription : owned.subscriptions) {
     require_ok(rcl_wait_set_add_subscription(&wait_set_, subscription->get_subscription_handle().get(), nullptr),
                "Couldn't fill wait set");
   }
-  for (const auto& service : owned.entities.services) {
+  for (const auto& service : owned.services) {
     require_ok(rcl_wait_set_add_service(&wait_set_, service->get_service_handle().get(), nullptr),
                "Couldn't fill wait set");
   }
-  for (const auto& client : owned.entities.clients) {
+  for (const auto& client : owned.clients) {
     require_ok(rcl_wait_set_add_client(&wait_set_, client->get_client_handle().get(), nullptr),
                "Couldn't fill wait set");
   }
@@ -327,7 +327,7 @@ void WaitSetEntities::fill(const Owned& owned) {
                "Couldn't fill wait set");
   }
   // After the entities of the user, which the user finds by their index.
-  for (const auto& waitable : owned.entities.waitables) {
+  for (const auto& waitable : owned.waitables) {
     waitable->add_to_wait_set(wait_set_);
   }
   if (interrupt_) {
@@ -337,13 +337,19 @@ void WaitSetEntities::fill(const Owned& owned) {
 }
 
 void WaitSetEntities::find_ready(const Owned& owned, WaitSetFindings& findings) const {
-  append_ready(owned.entities.timers, wait_set_.timers, findings.timers);
-  append_ready(owned.entities.subscriptions, wait_set_.subscriptions, findings.subscriptions);
-  append_ready(owned.entities.services, wait_set_.services, findings.services);
-  append_ready(owned.entities.clients, wait_set_.clients, findings.clients);
-  for (const std::shared_ptr<Waitable>& waitable : owned.entities.waitables) {
-    if (waitable->is_ready(wait_set_)) {
-      findings.waitables.push_back(waitable);
+  append_ready(owned.timers, wait_set_.timers, findings.timers);
+  append_ready(owned.subscriptions, wait_set_.subscriptions, findings.subscriptions);
+  append_ready(owned.services, wait_set_.services, findings.services);
+  append_ready(owned.clients, wait_set_.clients, findings.clients);
+  for (const std::shared_ptr<Waitable>& waitable : owned.waitables) {
+    // What the wait has found is told only once, so an exception must not lose it. The program gets the exception when
+    // it comes to this waitable.
+    try {
+      if (waitable->is_ready(wait_set_)) {
+        findings.waitables.push_back({waitable, nullptr});
+      }
+    } catch (...) {
+      findings.waitables.push_back({waitable, std::current_exception()});
     }
   }
 }

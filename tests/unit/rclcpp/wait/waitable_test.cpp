@@ -137,6 +137,30 @@ TEST_F(WaitableTest, RunsThoughAnotherOneThrewWhenTheSameWaitAskedIt) {
   }
 }
 
+TEST_F(WaitableTest, IsFoundInAWaitSetThoughAnotherOneThrewWhenTheSameWaitAskedIt) {
+  const auto before = std::make_shared<Counter>();
+  const auto thrower = std::make_shared<Thrower>("no room");
+  const auto after = std::make_shared<Counter>();
+  const auto condition = std::make_shared<rclcpp::GuardCondition>();
+  rclcpp::WaitSet wait_set({}, {condition}, {}, {}, {}, {{before}, {thrower}, {after}});
+  condition->trigger();
+  for (const std::shared_ptr<Counter>& waitable : {before, std::shared_ptr<Counter>(thrower), after}) {
+    waitable->trigger();
+  }
+  auto result = wait_set.wait(kPatience);
+  ASSERT_EQ(result.kind(), rclcpp::WaitResultKind::Ready);
+  EXPECT_NE(wait_set.get_rcl_wait_set().guard_conditions[0], nullptr);
+  EXPECT_EQ(result.next_ready_waitable(), before);
+  try {
+    result.next_ready_waitable();
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "no room");
+  }
+  EXPECT_EQ(result.next_ready_waitable(), after);
+  EXPECT_EQ(result.next_ready_waitable(), nullptr);
+}
+
 TEST_F(WaitableTest, BelongsToAGroupOfItsNode) {
   const auto other = std::make_shared<rclcpp::Node>("other");
   const auto group = other->create_callback_group(rclcpp::CallbackGroupType::Reentrant);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -24,13 +25,19 @@
 
 namespace rclcpp::detail {
 
+// A waitable that is ready, or one whose is_ready() threw this exception.
+struct ReadyWaitable {
+  std::shared_ptr<Waitable> waitable;
+  std::exception_ptr error;
+};
+
 // The entities that a wait has found ready. It owns them, so that they exist as long as the result.
 struct WaitSetFindings {
   std::vector<std::shared_ptr<TimerBase>> timers;
   std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
   std::vector<std::shared_ptr<ServiceBase>> services;
   std::vector<std::shared_ptr<ClientBase>> clients;
-  std::vector<std::shared_ptr<Waitable>> waitables;
+  std::vector<ReadyWaitable> waitables;
 };
 
 // The class holds weak references to its entities.
@@ -79,7 +86,11 @@ class WaitSetEntities {
   };
   // Owns the entities during a wait.
   struct Owned {
-    WaitSetFindings entities;
+    std::vector<std::shared_ptr<TimerBase>> timers;
+    std::vector<std::shared_ptr<SubscriptionBase>> subscriptions;
+    std::vector<std::shared_ptr<ServiceBase>> services;
+    std::vector<std::shared_ptr<ClientBase>> clients;
+    std::vector<std::shared_ptr<Waitable>> waitables;
     std::vector<std::shared_ptr<GuardCondition>> guard_conditions;
     std::vector<std::shared_ptr<void>> associated_entities;
   };
