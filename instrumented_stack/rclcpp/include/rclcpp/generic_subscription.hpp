@@ -31,8 +31,9 @@ class GenericSubscription : public SubscriptionBase {
     trace_creation(any_callback_);
   }
 
- protected:
   std::shared_ptr<void> create_message() override { return std::make_shared<SerializedMessage>(); }
+
+ protected:
   AnySubscriptionCallbackBase& callback() override { return any_callback_; }
 
  private:

@@ -2,6 +2,7 @@
 // A name for log lines. Names are hierarchical: "a.b" has the level of "a" until it gets one of its own.
 #pragma once
 
+#include <rcl/node.h>
 #include <rcutils/logging.h>
 
 #include <filesystem>
@@ -36,8 +37,11 @@ class Logger {
 };
 
 Logger get_logger(const std::string& name);
+// The logger of a node of rcl. For an invalid node it is the logger "rclcpp", which logs the error.
+Logger get_node_logger(const rcl_node_t* node);
 
-// The folder of this process's log files, even before any exist.
+// The folder of this process's log files, even before any exist. The second name is that of versions before 29.
+std::filesystem::path get_log_directory();
 std::filesystem::path get_logging_directory();
 
 }  // namespace rclcpp

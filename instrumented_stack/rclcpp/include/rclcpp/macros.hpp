@@ -32,3 +32,18 @@
   RCLCPP_SMART_PTR_DEFINITIONS(__VA_ARGS__)
 
 #define RCLCPP_SHARED_PTR_DEFINITIONS(...) RCLCPP_SMART_PTR_DEFINITIONS(__VA_ARGS__)
+
+#define RCLCPP_WEAK_PTR_DEFINITIONS(...)      \
+  using WeakPtr = std::weak_ptr<__VA_ARGS__>; \
+  using ConstWeakPtr = std::weak_ptr<const __VA_ARGS__>;
+
+#define RCLCPP_UNIQUE_PTR_DEFINITIONS(...)                             \
+  using UniquePtr = std::unique_ptr<__VA_ARGS__>;                      \
+  template <typename... Args>                                          \
+  static std::unique_ptr<__VA_ARGS__> make_unique(Args&&... args) {    \
+    return std::make_unique<__VA_ARGS__>(std::forward<Args>(args)...); \
+  }
+
+// One word of two, after macros in them are replaced.
+#define RCLCPP_DO_STRING_JOIN(left, right) left##right
+#define RCLCPP_STRING_JOIN(left, right) RCLCPP_DO_STRING_JOIN(left, right)

@@ -24,6 +24,7 @@
 #include "rclcpp/client.hpp"
 #include "rclcpp/create_subscription.hpp"
 #include "rclcpp/executors.hpp"
+#include "rclcpp/node_interfaces/node_graph_interface.hpp"
 #include "rclcpp/node_interfaces/node_services_interface.hpp"
 #include "rclcpp/node_interfaces/node_topics_interface.hpp"
 #include "rclcpp/parameter.hpp"
@@ -49,6 +50,14 @@ class AsyncParametersClient {
                         node_interfaces::NodeServicesInterface::SharedPtr node_services,
                         const std::string& remote_node_name = "", const QoS& qos = ParametersQoS(),
                         CallbackGroup::SharedPtr group = nullptr);
+  AsyncParametersClient(node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                        node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                        const node_interfaces::NodeGraphInterface::SharedPtr& /*node_graph*/,
+                        node_interfaces::NodeServicesInterface::SharedPtr node_services,
+                        const std::string& remote_node_name = "", const QoS& qos = ParametersQoS(),
+                        CallbackGroup::SharedPtr group = nullptr)
+      : AsyncParametersClient(std::move(node_base), std::move(node_topics), std::move(node_services), remote_node_name,
+                              qos, std::move(group)) {}
   template <typename NodeT>
   explicit AsyncParametersClient(const std::shared_ptr<NodeT>& node, const std::string& remote_node_name = "",
                                  const QoS& qos = ParametersQoS(), CallbackGroup::SharedPtr group = nullptr)
@@ -147,6 +156,14 @@ class SyncParametersClient {
   SyncParametersClient(Executor::SharedPtr executor, NodeT* node, const std::string& remote_node_name = "",
                        const QoS& qos = ParametersQoS())
       : executor_(std::move(executor)), client_(node, remote_node_name, qos) {}
+  SyncParametersClient(Executor::SharedPtr executor, node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                       node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                       const node_interfaces::NodeGraphInterface::SharedPtr& node_graph,
+                       node_interfaces::NodeServicesInterface::SharedPtr node_services,
+                       const std::string& remote_node_name = "", const QoS& qos = ParametersQoS())
+      : executor_(std::move(executor)),
+        client_(std::move(node_base), std::move(node_topics), node_graph, std::move(node_services), remote_node_name,
+                qos) {}
 
   template <typename RepT = int64_t, typename RatioT = std::milli>
   std::vector<Parameter> get_parameters(

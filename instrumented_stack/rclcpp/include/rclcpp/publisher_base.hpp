@@ -50,6 +50,8 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   const rmw_gid_t& get_gid() const { return gid_; }
   bool operator==(const rmw_gid_t& gid) const;
 
+  bool is_durability_transient_local() const;
+
   // Matched subscriptions, in this process and elsewhere.
   size_t get_subscription_count() const;
   // The number of subscriptions reached without the middleware: in this context, with intra-process communication.
@@ -76,6 +78,11 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   // The handlers of the callbacks in the options, and the default one.
   using EventHandlers = std::unordered_map<rcl_publisher_event_type_t, std::shared_ptr<EventHandlerBase>>;
   const EventHandlers& get_event_handlers() const { return event_handlers_; }
+  // Sets the function that is called when an event of the type happens, with the number of events. It must only take
+  // note. Without a handler for the type, a warning is logged and nothing happens. Throws std::invalid_argument for an
+  // empty function.
+  void set_on_new_qos_event_callback(std::function<void(size_t)> callback, rcl_publisher_event_type_t event_type);
+  void clear_on_new_qos_event_callback(rcl_publisher_event_type_t event_type);
   // The group that serves the event handlers.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 

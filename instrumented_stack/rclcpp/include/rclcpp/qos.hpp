@@ -55,8 +55,11 @@ struct QoSInitialization {
   rmw_qos_history_policy_t history_policy;
   size_t depth;
 
-  constexpr QoSInitialization(rmw_qos_history_policy_t history, size_t history_depth)
-      : history_policy(history), depth(history_depth) {}
+  // `print_depth_warning` is for sources that pass it: here a depth of 0 gives no warning at this place.
+  constexpr QoSInitialization(rmw_qos_history_policy_t history, size_t history_depth, bool print_depth_warning = true)
+      : history_policy(history), depth(history_depth) {
+    (void)print_depth_warning;
+  }
 
   static QoSInitialization from_rmw(const rmw_qos_profile_t& rmw_qos) { return {rmw_qos.history, rmw_qos.depth}; }
 };
@@ -66,7 +69,8 @@ struct KeepAll : QoSInitialization {
 };
 
 struct KeepLast : QoSInitialization {
-  explicit KeepLast(size_t history_depth) : QoSInitialization(RMW_QOS_POLICY_HISTORY_KEEP_LAST, history_depth) {}
+  explicit KeepLast(size_t history_depth, bool print_depth_warning = true)
+      : QoSInitialization(RMW_QOS_POLICY_HISTORY_KEEP_LAST, history_depth, print_depth_warning) {}
 };
 
 class QoS {

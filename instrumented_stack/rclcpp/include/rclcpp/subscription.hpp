@@ -59,11 +59,12 @@ class Subscription : public SubscriptionBase {
     return true;
   }
 
- protected:
   // Reading a message sets every member, so the message needs no initial values.
   std::shared_ptr<void> create_message() override {
     return allocator::make_shared<ROSMessageType>(allocator_, rosidl_runtime_cpp::MessageInitialization::SKIP);
   }
+
+ protected:
   [[gnu::hot]] AnySubscriptionCallbackBase& callback() override { return any_callback_; }
 
  private:

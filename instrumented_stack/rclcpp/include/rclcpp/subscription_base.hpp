@@ -83,6 +83,17 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
 
   // Executors call it for a subscription that is ready. It takes one message and runs the callback.
   void execute();
+  // For executors of others that take messages themselves: make one, take it, run the callback, return it. For
+  // is_serialized(), the message is a SerializedMessage for take_serialized().
+  bool is_serialized() { return callback().is_serialized_message_callback(); }
+  virtual std::shared_ptr<void> create_message() = 0;
+  std::shared_ptr<SerializedMessage> create_serialized_message() { return std::make_shared<SerializedMessage>(); }
+  void handle_message(const std::shared_ptr<void>& message, const MessageInfo& message_info);
+  void handle_serialized_message(const std::shared_ptr<SerializedMessage>& message, const MessageInfo& message_info) {
+    dispatch(message, message_info);
+  }
+  void return_message(std::shared_ptr<void>& message) { message.reset(); }
+  void return_serialized_message(std::shared_ptr<SerializedMessage>& message) { message.reset(); }
 
   // The handlers of the callbacks in the options, and the default one.
   using EventHandlers = std::unordered_map<rcl_subscription_event_type_t, std::shared_ptr<EventHandlerBase>>;
@@ -96,6 +107,12 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // note. Throws std::invalid_argument for an empty callback. Do not call either function from the callback.
   void set_on_new_message_callback(std::function<void(size_t)> callback);
   void clear_on_new_message_callback();
+  // The same for events, see PublisherBase, and for messages of intra-process communication. Without a handler for the
+  // type, or without intra-process communication, a warning is logged and nothing happens.
+  void set_on_new_qos_event_callback(std::function<void(size_t)> callback, rcl_subscription_event_type_t event_type);
+  void clear_on_new_qos_event_callback(rcl_subscription_event_type_t event_type);
+  void set_on_new_intra_process_message_callback(std::function<void(size_t)> callback);
+  void clear_on_new_intra_process_message_callback();
   // Sets whether a wait set uses this subscription; returns the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
@@ -106,7 +123,6 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
  protected:
-  virtual std::shared_ptr<void> create_message() = 0;
   virtual AnySubscriptionCallbackBase& callback() = 0;
 
   // Call it in the most derived constructor, when the callback has its final address.
@@ -133,7 +149,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   void add_event_handler(const EventCallbackT& callback, rcl_subscription_event_type_t event_type);
   // A message, or serialized message, for the callback; it is returned after the callback.
   std::shared_ptr<void> borrow_message();
-  void return_message(std::shared_ptr<void> message);
+  void keep_message(std::shared_ptr<void> message);
 
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;

@@ -56,4 +56,7 @@ inline Time operator+(const Duration& duration, const Time& time) {
   return time + duration;
 }
 
+// A message, for a time of any sign within its range; times outside become the first or the last that it can hold.
+builtin_interfaces::msg::Time convert_rcl_time_to_sec_nanos(const rcl_time_point_value_t& time_point);
+
 }  // namespace rclcpp

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,32 @@ inline const char* get_c_string(const char* string) {
 }
 inline const char* get_c_string(const std::string& string) {
   return string.c_str();
+}
+// The pointers are valid as long as the strings are.
+inline std::vector<const char*> get_c_vector_string(const std::vector<std::string>& strings) {
+  std::vector<const char*> pointers;
+  for (const std::string& string : strings) {
+    pointers.push_back(string.c_str());
+  }
+  return pointers;
+}
+
+// Whether a sum or a difference leaves the range of its type.
+template <typename T>
+bool add_will_overflow(const T x, const T y) {
+  return y > 0 && x > std::numeric_limits<T>::max() - y;
+}
+template <typename T>
+bool add_will_underflow(const T x, const T y) {
+  return y < 0 && x < std::numeric_limits<T>::min() - y;
+}
+template <typename T>
+bool sub_will_overflow(const T x, const T y) {
+  return y < 0 && x > std::numeric_limits<T>::max() + y;
+}
+template <typename T>
+bool sub_will_underflow(const T x, const T y) {
+  return y > 0 && x < std::numeric_limits<T>::min() + y;
 }
 
 }  // namespace rclcpp

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
@@ -32,8 +33,23 @@ Logger::Level Logger::get_effective_level() const {
   return static_cast<Level>(level);
 }
 
-std::filesystem::path get_logging_directory() {
+Logger get_node_logger(const rcl_node_t* node) {
+  const char* const name = rcl_node_get_logger_name(node);
+  if (name == nullptr) {
+    Logger logger = get_logger("rclcpp");
+    RCLCPP_ERROR(logger, "failed to get the name of a node's logger: %s", rcl_get_error_string().str);
+    rcl_reset_error();
+    return logger;
+  }
+  return get_logger(name);
+}
+
+std::filesystem::path get_log_directory() {
   return rcl::logging_directory();
+}
+
+std::filesystem::path get_logging_directory() {
+  return get_log_directory();
 }
 
 }  // namespace rclcpp

@@ -213,4 +213,8 @@ Duration Time::operator-(const Time& other) const {
   return Duration::from_nanoseconds(difference(nanoseconds_, other.nanoseconds_, "time"));
 }
 
+builtin_interfaces::msg::Time convert_rcl_time_to_sec_nanos(const rcl_time_point_value_t& time_point) {
+  return to_message<builtin_interfaces::msg::Time>(time_point);
+}
+
 }  // namespace rclcpp

@@ -79,6 +79,10 @@ QoS PublisherBase::get_actual_qos() const {
   return QoS(QoSInitialization::from_rmw(*profile), *profile);
 }
 
+bool PublisherBase::is_durability_transient_local() const {
+  return get_actual_qos().durability() == DurabilityPolicy::TransientLocal;
+}
+
 size_t PublisherBase::get_subscription_count() const {
   size_t count = 0;
   const rcl_ret_t ret = rcl_publisher_get_subscription_count(publisher_handle_.get(), &count);

@@ -5,6 +5,7 @@
 
 #include "rclcpp/logging.hpp"
 #include "rclcpp/publisher_base.hpp"
+#include "topic/on_event.hpp"
 
 namespace rclcpp {
 
@@ -48,6 +49,15 @@ void PublisherBase::add_event_handler(const EventCallbackT& callback, rcl_publis
   event_handlers_.insert_or_assign(event_type,
                                    std::make_shared<EventHandler<EventCallbackT, std::shared_ptr<rcl_publisher_t>>>(
                                        callback, rcl_publisher_event_init, publisher_handle_, event_type));
+}
+
+void PublisherBase::set_on_new_qos_event_callback(std::function<void(size_t)> callback,
+                                                  rcl_publisher_event_type_t event_type) {
+  detail::set_on_event(event_handlers_, event_type, std::move(callback), "publisher");
+}
+
+void PublisherBase::clear_on_new_qos_event_callback(rcl_publisher_event_type_t event_type) {
+  detail::clear_on_event(event_handlers_, event_type);
 }
 
 }  // namespace rclcpp

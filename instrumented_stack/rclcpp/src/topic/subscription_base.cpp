@@ -229,7 +229,13 @@ void SubscriptionBase::execute_loaned() {
   if (taken && !is_delivered_twice(message_info)) {
     dispatch(message, message_info);
   }
-  return_message(std::move(message));
+  keep_message(std::move(message));
+}
+
+void SubscriptionBase::handle_message(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
+  if (!is_delivered_twice(message_info)) {
+    dispatch(message, message_info);
+  }
 }
 
 [[gnu::hot]] void SubscriptionBase::dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
@@ -263,7 +269,7 @@ void SubscriptionBase::set_topic_statistics(std::shared_ptr<topic_statistics::Su
   return message;
 }
 
-[[gnu::hot]] void SubscriptionBase::return_message(std::shared_ptr<void> message) {
+[[gnu::hot]] void SubscriptionBase::keep_message(std::shared_ptr<void> message) {
   if (callback().takes_reference() && !is_spare_in_use_.test_and_set(std::memory_order_acquire)) {
     message.swap(spare_message_);
     is_spare_in_use_.clear(std::memory_order_release);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The event handlers of subscriptions.
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "rclcpp/logging.hpp"
 #include "rclcpp/subscription_base.hpp"
+#include "topic/on_event.hpp"
 
 namespace rclcpp {
 
@@ -52,6 +54,38 @@ void SubscriptionBase::add_event_handler(const EventCallbackT& callback, rcl_sub
   event_handlers_.insert_or_assign(event_type,
                                    std::make_shared<EventHandler<EventCallbackT, std::shared_ptr<rcl_subscription_t>>>(
                                        callback, rcl_subscription_event_init, subscription_handle_, event_type));
+}
+
+void SubscriptionBase::set_on_new_qos_event_callback(std::function<void(size_t)> callback,
+                                                     rcl_subscription_event_type_t event_type) {
+  detail::set_on_event(event_handlers_, event_type, std::move(callback), "subscription");
+}
+
+void SubscriptionBase::clear_on_new_qos_event_callback(rcl_subscription_event_type_t event_type) {
+  detail::clear_on_event(event_handlers_, event_type);
+}
+
+void SubscriptionBase::set_on_new_intra_process_message_callback(std::function<void(size_t)> callback) {
+  if (!callback) {
+    throw std::invalid_argument("The callback passed to set_on_new_intra_process_message_callback is not callable.");
+  }
+  const std::shared_ptr<Waitable> waitable = get_intra_process_waitable();
+  if (!waitable) {
+    RCLCPP_WARN(get_logger("rclcpp"),
+                "Calling set_on_new_intra_process_message_callback for subscription with IPC disabled");
+    return;
+  }
+  waitable->set_on_ready_callback([callback = std::move(callback)](size_t count, int) { callback(count); });
+}
+
+void SubscriptionBase::clear_on_new_intra_process_message_callback() {
+  const std::shared_ptr<Waitable> waitable = get_intra_process_waitable();
+  if (!waitable) {
+    RCLCPP_WARN(get_logger("rclcpp"),
+                "Calling clear_on_new_intra_process_message_callback for subscription with IPC disabled");
+    return;
+  }
+  waitable->clear_on_ready_callback();
 }
 
 }  // namespace rclcpp

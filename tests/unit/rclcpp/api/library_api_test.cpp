@@ -8,6 +8,7 @@
 #include <rclcpp/expand_topic_or_service_name.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
 
@@ -214,6 +215,76 @@ TEST_F(Library, MayHaveARateOnAClockOfCpp) {
   EXPECT_TRUE(sleeps_at(100));  // time has jumped back
   rate.reset();
   EXPECT_TRUE(sleeps_at(900));
+}
+
+// Like executors of others: they take the messages themselves.
+TEST_F(Library, TakesAndHandlesMessagesOfAnySubscription) {
+  std::string received;
+  const auto subscription = node_->create_subscription<String>(
+      "text", 10, [&](const String::ConstSharedPtr& message) { received = message->data; });
+  const auto publisher = node_->create_publisher<String>("text", 10);
+  EXPECT_FALSE(publisher->is_durability_transient_local());
+  String message;
+  message.data = "taken by hand";
+  publisher->publish(message);
+  rclcpp::SubscriptionBase& base = *subscription;
+  ASSERT_FALSE(base.is_serialized());
+  rclcpp::WaitSet wait_set({subscription});
+  ASSERT_EQ(wait_set.wait(kPatience).kind(), rclcpp::WaitResultKind::Ready);
+  std::shared_ptr<void> taken = base.create_message();
+  rclcpp::MessageInfo info;
+  ASSERT_TRUE(base.take_type_erased(taken.get(), info));
+  base.handle_message(taken, info);
+  base.return_message(taken);
+  EXPECT_EQ(received, "taken by hand");
+  EXPECT_EQ(taken, nullptr);
+}
+
+TEST_F(Library, IsToldOfEventsBesideTheirHandlers) {
+  size_t matches = 0;
+  rclcpp::PublisherOptions options;
+  options.event_callbacks.matched_callback = [](rclcpp::MatchedInfo&) {};
+  const auto publisher = node_->create_publisher<String>("text", 10, options);
+  publisher->set_on_new_qos_event_callback([&matches](size_t count) { matches += count; }, RCL_PUBLISHER_MATCHED);
+  const auto subscription = node_->create_subscription<String>("text", 10, [](const String&) {});
+  rclcpp::executors::SingleThreadedExecutor executor;
+  EXPECT_TRUE(spin_until(executor, [&] { return matches == 1; }));
+  publisher->clear_on_new_qos_event_callback(RCL_PUBLISHER_MATCHED);
+  EXPECT_EQ(error_of([&] { publisher->set_on_new_qos_event_callback(nullptr, RCL_PUBLISHER_MATCHED); }),
+            "The callback passed to set_on_new_qos_event_callback is not callable.");
+  // Without a handler, it warns and does nothing.
+  subscription->set_on_new_qos_event_callback([](size_t) { FAIL(); }, RCL_SUBSCRIPTION_MESSAGE_LOST);
+  subscription->set_on_new_intra_process_message_callback([](size_t) { FAIL(); });
+}
+
+TEST_F(Library, ReadsParametersWithTheInterfacesOfANode) {
+  node_->declare_parameter("speed", 7);
+  const auto client_node = std::make_shared<rclcpp::Node>("client");
+  rclcpp::executors::SingleThreadedExecutor executor;
+  executor.add_node(node_);
+  executor.add_node(client_node);
+  rclcpp::AsyncParametersClient client(client_node->get_node_base_interface(), client_node->get_node_topics_interface(),
+                                       client_node->get_node_graph_interface(),
+                                       client_node->get_node_services_interface(), "/ns/library");
+  ASSERT_TRUE(client.wait_for_service(kPatience));
+  const auto answer = client.get_parameters({"speed"});
+  ASSERT_EQ(executor.spin_until_future_complete(answer, kPatience), rclcpp::FutureReturnCode::SUCCESS);
+  EXPECT_EQ(answer.get().at(0).as_int(), 7);
+}
+
+TEST(SmallFunctions, AreThoseOfRclcpp) {
+  EXPECT_TRUE(rclcpp::add_will_overflow<int64_t>(INT64_MAX, 1));
+  EXPECT_TRUE(rclcpp::add_will_underflow<int64_t>(INT64_MIN, -1));
+  EXPECT_TRUE(rclcpp::sub_will_overflow<int64_t>(1, -INT64_MAX));
+  EXPECT_TRUE(rclcpp::sub_will_underflow<int64_t>(-2, INT64_MAX));
+  EXPECT_FALSE(rclcpp::add_will_overflow(1, 2));
+  const std::vector<std::string> words{"one", "two"};
+  EXPECT_STREQ(rclcpp::get_c_vector_string(words).at(1), "two");
+  const builtin_interfaces::msg::Time time = rclcpp::convert_rcl_time_to_sec_nanos(-500'000'000);
+  EXPECT_EQ(time.sec, -1);
+  EXPECT_EQ(time.nanosec, 500'000'000u);
+  EXPECT_EQ(rclcpp::get_log_directory(), rclcpp::get_logging_directory());
+  EXPECT_STREQ(rclcpp::get_node_logger(nullptr).get_name(), "rclcpp");
 }
 
 }  // namespace

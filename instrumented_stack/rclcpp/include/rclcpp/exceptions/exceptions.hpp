@@ -56,6 +56,32 @@ class InvalidNodeError : public std::runtime_error {
   InvalidNodeError() : std::runtime_error("node is invalid") {}
 };
 
+class InvalidServiceTypeError : public std::runtime_error {
+ public:
+  InvalidServiceTypeError() : std::runtime_error("Service type is invalid.") {}
+  explicit InvalidServiceTypeError(const std::string& message) : std::runtime_error(message) {}
+};
+
+class UnknownTypeError : public std::runtime_error {
+ public:
+  explicit UnknownTypeError(const std::string& type) : std::runtime_error("Unknown type: " + type) {}
+};
+
+class EventNotRegisteredError : public std::runtime_error {
+ public:
+  EventNotRegisteredError() : std::runtime_error("event already registered") {}
+};
+
+class MissingGroupNodeException : public std::runtime_error {
+ public:
+  explicit MissingGroupNodeException(const std::string& kind)
+      : std::runtime_error("cannot create: " + kind + " , callback group not in node") {}
+};
+
+class QoSCheckCompatibleException : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class UnimplementedError : public std::runtime_error {
  public:
   UnimplementedError() : std::runtime_error("This code is unimplemented.") {}
