@@ -7,8 +7,15 @@
 
 namespace tracing::ctf {
 
-// Plain text is returned as it is. A packet that is not complete, as in a trace that is still being written, is left
-// out with everything after it. Throws UnsupportedTrace when the file can't be read or is no CTF 1.8.
+struct MetadataText {
+  std::string text;
+  // A packet is not complete, as in a trace that is still being written or in a damaged file. It is left out with
+  // everything after it.
+  bool is_cut = false;
+};
+
+// Plain text is returned as it is. Throws UnsupportedTrace when the file can't be read or is no CTF 1.8.
+MetadataText read_metadata_text(const std::filesystem::path& file);
 std::string read_metadata(const std::filesystem::path& file);
 
 }  // namespace tracing::ctf

@@ -108,6 +108,19 @@ ctf::TraceClass parse_growing_metadata(const std::string& text) {
   }
 }
 
+// libbabeltrace2 does not come to an end with such metadata.
+ctf::TraceClass parse_cut_metadata(const fs::path& file, const std::string& text) {
+  ctf::TraceClass declarations;
+  try {
+    declarations = parse_growing_metadata(text);
+  } catch (const ctf::UnsupportedTrace&) {
+  }
+  if (declarations.streams.empty()) {
+    throw TraceReadError(fmt::format("'{}' is damaged or ends early, before it describes an event", file.string()), "");
+  }
+  return declarations;
+}
+
 void add_names(const ctf::FieldClassPtr& structure, std::vector<std::string>& names) {
   if (!structure) return;
   for (const ctf::FieldMember& member : structure->members) names.push_back(member.name);
@@ -194,9 +207,14 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
   std::map<std::string, std::size_t> by_identity;
   std::vector<std::size_t> length;  // of the metadata that each trace uses
   for (const fs::path& path : traces) {
-    const std::string text = ctf::read_metadata(path / "metadata");
+    const auto [text, is_cut] = ctf::read_metadata_text(path / "metadata");
     const bool is_open = std::find(open.begin(), open.end(), path) != open.end();
-    ctf::TraceClass declarations = is_open ? parse_growing_metadata(text) : ctf::parse_metadata(text);
+    ctf::TraceClass declarations = is_open  ? parse_growing_metadata(text)
+                                   : is_cut ? parse_cut_metadata(path / "metadata", text)
+                                            : ctf::parse_metadata(text);
+    if (is_cut && !is_open) {
+      note(fmt::format("'{}' is damaged or ends early: it does not describe all events", (path / "metadata").string()));
+    }
     const std::string identity = declarations.uuid.empty() ? path.string() : declarations.uuid;
     const auto [known, is_new] = by_identity.try_emplace(identity, traces_.size());
     if (is_new) {

@@ -26,7 +26,7 @@ using tracing::kernel::TraceClock;
 
 constexpr std::uint64_t kOverwritten = std::uint64_t{1} << 31;
 // No kernel gives such a high number, so /proc has nothing about it.
-constexpr std::int32_t kThread = 0x7f000001;
+constexpr std::int32_t kTalker = 0x7f000001;
 
 EventFormat event(const char* name, int id, const char* fields) {
   return parse_event_format("name: " + std::string(name) + "\nID: " + std::to_string(id) + "\n" + fields);
@@ -59,21 +59,21 @@ PageHistory::Page page_of(std::uint64_t time, const std::vector<std::uint8_t>& r
   return page;
 }
 
-PageHistory::Page page(std::uint64_t time, std::int32_t value, std::uint64_t flags = 0) {
+PageHistory::Page tick_page(std::uint64_t time, std::int32_t value, std::uint64_t flags = 0) {
   std::vector<std::uint8_t> record(12);
   const std::uint16_t id = 7;
   std::memcpy(record.data(), &id, sizeof id);
-  std::memcpy(record.data() + 4, &kThread, sizeof kThread);
+  std::memcpy(record.data() + 4, &kTalker, sizeof kTalker);
   std::memcpy(record.data() + 8, &value, sizeof value);
   return page_of(time, record, flags);
 }
 
 // Begins the thread.
-PageHistory::Page newtask(std::uint64_t time, const char* name) {
+PageHistory::Page newtask_page(std::uint64_t time, const char* name) {
   std::vector<std::uint8_t> record(40);
   const std::uint16_t id = 205;
   std::memcpy(record.data(), &id, sizeof id);
-  std::memcpy(record.data() + 8, &kThread, sizeof kThread);
+  std::memcpy(record.data() + 8, &kTalker, sizeof kTalker);
   std::memcpy(record.data() + 12, name, std::strlen(name));
   return page_of(time, record, 0);
 }
@@ -107,10 +107,10 @@ struct SnapshotWriterTest : testing::Test {
 };
 
 TEST_F(SnapshotWriterTest, WhatIsInTwoSnapshotsIsReadOnce) {
-  writer.add(0, page(100, 1));
-  writer.add(1, page(150, 2));
+  writer.add(0, tick_page(100, 1));
+  writer.add(1, tick_page(150, 2));
   write_snapshot("snapshot-1");
-  writer.add(0, page(200, 3));
+  writer.add(0, tick_page(200, 3));
   write_snapshot("snapshot-2");
   EXPECT_THAT(read("run/snapshot-1"), ElementsAre("1", "2"));
   EXPECT_THAT(read("run/snapshot-2"), ElementsAre("1", "2", "3"));
@@ -119,32 +119,32 @@ TEST_F(SnapshotWriterTest, WhatIsInTwoSnapshotsIsReadOnce) {
 }
 
 TEST_F(SnapshotWriterTest, WhatWasOverwrittenBetweenTwoSnapshotsIsALossOfBoth) {
-  writer.add(0, page(100, 1));
+  writer.add(0, tick_page(100, 1));
   write_snapshot("snapshot-1");
-  writer.add(0, page(300, 3, kOverwritten));
+  writer.add(0, tick_page(300, 3, kOverwritten));
   write_snapshot("snapshot-2");
   EXPECT_THAT(read("run/snapshot-2"), ElementsAre("3")) << "a snapshot alone lost nothing within";
   EXPECT_THAT(read("run"), ElementsAre("1", "lost 1", "3"));
 }
 
 TEST_F(SnapshotWriterTest, WhatWasClearedIsNotInTheNextSnapshotAndIsNoLoss) {
-  writer.add(0, page(100, 1));
+  writer.add(0, tick_page(100, 1));
   write_snapshot("snapshot-1");
   writer.clear();
-  writer.add(0, page(200, 2));
+  writer.add(0, tick_page(200, 2));
   write_snapshot("snapshot-2");
   EXPECT_THAT(read("run/snapshot-2"), ElementsAre("2"));
   EXPECT_THAT(read("run"), ElementsAre("1", "2"));
 }
 
 TEST_F(SnapshotWriterTest, AThreadKeepsTheNameThatAnEarlierSnapshotHasLearnt) {
-  writer.add(0, newtask(50, "talker"));
-  writer.add(0, page(100, 1));
+  writer.add(0, newtask_page(50, "talker"));
+  writer.add(0, tick_page(100, 1));
   write_snapshot("snapshot-1");
   writer.clear();
-  writer.add(0, page(200, 2));
+  writer.add(0, tick_page(200, 2));
   write_snapshot("snapshot-2");
-  writer.add(0, page(300, 3, kOverwritten));
+  writer.add(0, tick_page(300, 3, kOverwritten));
   write_snapshot("snapshot-3");
   EXPECT_THAT(read("run"), ElementsAre("1talker", "2talker", "lost 1", "3"))
       << "after a gap the number may belong to another thread";

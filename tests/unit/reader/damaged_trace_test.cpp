@@ -68,6 +68,52 @@ TEST(DamagedTrace, RandomBytesInTheMetadataAreRefusedOrRead) {
   }
 }
 
+// As LTTng writes metadata: in packets, each with a header of 37 bytes.
+std::string in_packets(const std::string& text) {
+  constexpr std::size_t kHeader = 37;
+  constexpr std::size_t kPacket = 1024;
+  std::string bytes;
+  const auto put = [&bytes](std::uint32_t value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (std::size_t begin = 0; begin < text.size(); begin += kPacket - kHeader) {
+    const std::string part = text.substr(begin, kPacket - kHeader);
+    put(0x75D11D57);
+    bytes.append(16, '\0');  // uuid
+    put(0);                  // checksum
+    put(static_cast<std::uint32_t>((kHeader + part.size()) * 8));
+    put(kPacket * 8);
+    bytes += std::string("\0\0\0\1\10", 5);  // no compression, encryption, checksum; 1.8
+    bytes += part + std::string(kPacket - kHeader - part.size(), '\0');
+  }
+  return bytes;
+}
+
+// libbabeltrace2, which reads what our own decoder does not know, would wait for the rest for ever.
+TEST(DamagedTrace, MetadataThatEndEarlyAreReadAsFarAsTheyGo) {
+  const testing::TemporaryDirectory directory;
+  testing::write_random_trace(directory.path(), 5);
+  const fs::path file = directory.path() / "metadata";
+  const std::string whole = in_packets(content(file));
+  ASSERT_GT(whole.size(), 2048u);
+  const auto write = [&file](const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; };
+  write(whole);
+  const auto all = testing::trace_text(directory.path(), TraceReader::Decoder::kAny);
+  ASSERT_FALSE(all.empty());
+
+  write(whole.substr(0, 1000));
+  try {
+    testing::trace_text(directory.path(), TraceReader::Decoder::kAny);
+    FAIL() << "nothing is described";
+  } catch (const TraceReadError& error) {
+    EXPECT_EQ(error.what(), fmt::format("'{}' is damaged or ends early, before it describes an event", file.string()));
+  }
+
+  for (std::size_t size = 1030; size < whole.size() - 1024; size += 97) {
+    SCOPED_TRACE(size);
+    write(whole.substr(0, size));
+    EXPECT_THROW(testing::trace_text(directory.path(), TraceReader::Decoder::kAny), TraceReadError);
+  }
+}
+
 // The other streams and the earlier packets lose nothing.
 TEST(DamagedTrace, GivesWhatStandsBesideTheDamage) {
   const testing::TemporaryDirectory directory;
