@@ -49,10 +49,11 @@ class AcceptedText(unittest.TestCase):
         message = parse('''module Test_Constants {
               const uint64 CAPACITY = 8; const string NAME = "n"; const long MASK = (1 << 3) | 2; const float HALF = 1.0 / 2;
             };
-            struct Test { long data[CAPACITY - 1]; };''').messages[0]
+            struct Test { long data[CAPACITY - 1]; long more[Test_Constants::CAPACITY]; };''').messages[0]
         self.assertEqual([(c.type.name, c.name, c.value) for c in message.constants],
                          [('uint64', 'CAPACITY', 8), ('string', 'NAME', 'n'), ('int32', 'MASK', 10), ('float32', 'HALF', 0.5)])
-        self.assertEqual(message.fields, [Field(Type('int32', array_size=7), 'data')])
+        self.assertEqual(message.fields, [Field(Type('int32', array_size=7), 'data'),
+                                          Field(Type('int32', array_size=8), 'more')])
 
     def test_typedefs(self):
         self.assertEqual(parse('typedef double double__36[36];\nstruct Test { double__36 covariance; };').messages[0].fields,

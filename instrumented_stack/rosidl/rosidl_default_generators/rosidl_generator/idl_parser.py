@@ -252,7 +252,11 @@ class _IdlParser:
             if token.kind == 'number':
                 expression.append(_python_number(token.text))
             elif token.kind == 'name':
+                token = self._in.take()
+                while self._in.accept('::'):
+                    token = self._in.name()
                 expression.append(repr(self._named_value(token)))
+                continue
             elif token.kind != 'sign' or token.text not in '+ - * / % ( ) | & ^ ~ << >>'.split():
                 break
             elif token.text == ')' and expression.count('(') == expression.count(')'):
