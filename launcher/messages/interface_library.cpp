@@ -10,6 +10,7 @@
 
 #include "launcher/base/diagnostic.hpp"
 #include "launcher/base/read_source_file.hpp"
+#include "launcher/messages/idl_file.hpp"
 #include "launcher/messages/interface_file.hpp"
 
 namespace launch {
@@ -17,6 +18,8 @@ namespace launch {
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::string kIdl = "idl";
 
 struct InterfaceName {
   std::string package;
@@ -39,6 +42,17 @@ InterfaceName split(const std::string& full) {
 // The file that a name comes from: "Fibonacci" of "Fibonacci_SendGoal_Request".
 std::string base_name(const std::string& name) {
   return name.substr(0, name.find('_'));
+}
+
+// Of the parts of an interface.
+std::vector<std::string> struct_names(const std::string& kind, const std::string& name) {
+  if (kind == "msg") {
+    return {name};
+  }
+  if (kind == "srv") {
+    return {name + "_Request", name + "_Response"};
+  }
+  return {name + "_Goal", name + "_Result", name + "_Feedback"};
 }
 
 MessageField part_field(std::string name, std::shared_ptr<const MessageType> message) {
@@ -67,17 +81,19 @@ std::string InterfaceLibrary::file_of(const std::string& name) {
                       packages_.help_for_missing(parts.package, environment_));
   }
   const std::string base = base_name(parts.name);
-  std::string path = fmt::format("{}/{}/{}.{}", share, parts.kind, base, parts.kind);
+  const std::string path = fmt::format("{}/{}/{}.", share, parts.kind, base);
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) {
-    const std::vector<std::string> names = names_of_package(parts.package, parts.kind);
-    std::string help = did_you_mean(fmt::format("{}/{}/{}", parts.package, parts.kind, base), names);
-    if (help.empty() && names.empty()) {
-      help = fmt::format("the package has no {} interfaces", parts.kind);
+  for (const std::string& extension : {parts.kind, kIdl}) {
+    if (fs::is_regular_file(path + extension, error)) {
+      return path + extension;
     }
-    throw LaunchError(fmt::format("there is no interface '{}/{}/{}'", parts.package, parts.kind, base), {}, help);
   }
-  return path;
+  const std::vector<std::string> names = names_of_package(parts.package, parts.kind);
+  std::string help = did_you_mean(fmt::format("{}/{}/{}", parts.package, parts.kind, base), names);
+  if (help.empty() && names.empty()) {
+    help = fmt::format("the package has no {} interfaces", parts.kind);
+  }
+  throw LaunchError(fmt::format("there is no interface '{}/{}/{}'", parts.package, parts.kind, base), {}, help);
 }
 
 std::vector<std::string> InterfaceLibrary::names_of_package(const std::string& package, const std::string& kind) const {
@@ -91,11 +107,13 @@ std::vector<std::string> InterfaceLibrary::names_of_package(const std::string& p
   std::error_code error;
   for (fs::directory_iterator entry(fmt::format("{}/{}", share, kind), error), end; entry != end && !error;
        entry.increment(error)) {
-    if (entry->path().extension() == "." + kind) {
+    const std::string extension = entry->path().extension().string();
+    if (extension == "." + kind || extension == "." + kIdl) {
       names.push_back(fmt::format("{}/{}/{}", package, kind, entry->path().stem().string()));
     }
   }
   std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());  // many packages have both kinds of files
   return names;
 }
 
@@ -116,8 +134,10 @@ void InterfaceLibrary::load(const std::string& package, const std::string& kind,
     throw LaunchError(fmt::format("'{}' contains itself", full), {file, 0, 0});
   }
   loading_.push_back(full);
-  std::vector<MessageType> parts =
-      parse_interface_file(file, package, [this](const std::string& used) { return message(used); });
+  const FindMessage find_message = [this](const std::string& used) { return message(used); };
+  std::vector<MessageType> parts = file->path().ends_with(kIdl)
+                                       ? parse_idl_file(file, package, struct_names(kind, name), find_message)
+                                       : parse_interface_file(file, package, find_message);
   loading_.pop_back();
   const auto keep = [&](const std::string& suffix, MessageType type) {
     type.name = full + suffix;

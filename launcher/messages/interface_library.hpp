@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds interfaces by name in the packages of AMENT_PREFIX_PATH: PREFIX/share/PACKAGE/{msg,srv,action}/Name.*.
+// Finds interfaces by name in the packages of AMENT_PREFIX_PATH: PREFIX/share/PACKAGE/{msg,srv,action}/Name.*. The
+// extension is that of the folder, or .idl if there is no such file.
 //
 // No library of the packages is loaded. A name is "std_msgs/msg/String" or, for a message, "std_msgs/String". The
 // messages that ROS 2 makes of a service or an action have their usual names ("AddTwoInts_Request",

@@ -137,6 +137,10 @@ class InterfaceShow final : public Verb {
     const std::string package = full.substr(0, full.find('/'));
     const bool comments = !no_comments_ && (depth == 0 || all_comments_);
     std::string_view text = file->text();
+    if (file->path().ends_with(".idl")) {
+      put(file->text());
+      return;
+    }
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       print_line(std::string(text.substr(0, end)), package, depth, comments);

@@ -70,4 +70,90 @@ TEST_F(Interfaces, WithAMistakeShowItsPlace) {
   EXPECT_THAT(errors_of([&] { library_.message("mine/msg/B"); }), HasSubstr("'mine/msg/B' contains itself"));
 }
 
+constexpr const char* kScan = R"(// comments and includes have no effect
+#include "std_msgs/msg/Header.idl"
+/* over
+   lines */
+module lidar {
+  module msg {
+    typedef double double__3[3];
+    module Scan_Constants {
+      const uint64 BEAMS = 0x10;
+      const string FRAME = "las" "er";
+      const float LEAST = -.5;
+    };
+    @verbatim (language="comment", text="a (bracket)" "and on")
+    struct Scan {
+  std_msgs::msg::Header header;
+  char name[BEAMS];
+  unsigned long long serial, more[2];
+  @ default(value = TRUE) boolean is_complete;
+  @ default(value = "(1, 2)") @unit(value = "m") sequence<octet, 4> flags;
+  @ default(value = "x\"y") string<8> text;
+  double__3 origin;
+  sequence<lidar::msg::Beam> beams;
+};
+};
+}
+;
+)";
+
+TEST_F(Interfaces, AreReadFromIdlFilesIfThereAreNoOthers) {
+  prefix_.add_file("lidar", "msg/Scan.idl", kScan);
+  prefix_.add_file("lidar", "msg/Beam.msg", "float32 range");
+  prefix_.add_file("lidar", "msg/Beam.idl", "no IDL");
+  prefix_.add_file("lidar", "srv/Reset.idl",
+                   "module lidar { module srv { struct Reset_Request { uint8 structure_needs_at_least_one_member; };\n"
+                   "struct Reset_Response { @default (value=-3) long code; }; }; };");
+  const auto type = library_.message("lidar/msg/Scan");
+  EXPECT_EQ(to_string(type->fields[1].type), "char[16]");
+  EXPECT_EQ(to_string(type->fields[3].type), "uint64[2]");
+  EXPECT_EQ(to_string(type->fields[5].type), "byte[<=4]");
+  EXPECT_EQ(to_string(type->fields[6].type), "string<=8");
+  EXPECT_EQ(to_string(type->fields[7].type), "float64[3]");
+  EXPECT_EQ(to_string(type->fields[8].type), "lidar/Beam[]");
+  EXPECT_THAT(to_yaml({launch::FieldKind::kMessage, type}, default_value(*type)),
+              HasSubstr("is_complete: true\nflags:\n- 1\n- 2\ntext: x\"y\n"));
+  ASSERT_EQ(type->constants.size(), 3u);
+  EXPECT_EQ(type->constants[0].value, (launch::MessageValue{std::uint64_t{16}}));
+  EXPECT_EQ(type->constants[1].value, (launch::MessageValue{std::string("laser")}));
+  EXPECT_EQ(type->constants[2].value, (launch::MessageValue{-0.5}));
+  EXPECT_TRUE(library_.service("lidar/srv/Reset").request->fields.empty());
+  EXPECT_EQ(library_.service("lidar/srv/Reset").response->fields[0].default_value,
+            (launch::MessageValue{std::int64_t{-3}}));
+  EXPECT_THAT(library_.names_of_package("lidar", "msg"), ElementsAre("lidar/msg/Beam", "lidar/msg/Scan"));
+}
+
+TEST_F(Interfaces, ErrorsInIdlFilesHaveTheirPlace) {
+  const auto error_of = [&](const std::string& text) {
+    prefix_.add_file("lidar", "msg/Bad.idl", "module lidar { module msg {\n" + text);
+    const std::string errors = errors_of([&] { library_.message("lidar/msg/Bad"); });
+    return errors.substr(std::min(errors.find("Bad.idl"), errors.size()));
+  };
+  EXPECT_EQ(error_of("struct Bad { lidar::msg::Bean b; }; }; };"),
+            "Bad.idl:2:14: error: there is no interface 'lidar/msg/Bean'\n"
+            "    2 | struct Bad { lidar::msg::Bean b; }; }; };\n"
+            "      |              ^~~~~\n");
+  EXPECT_EQ(error_of("struct Bad { long a }; }; };"),
+            "Bad.idl:2:21: error: expected ';' and not '}'\n"
+            "    2 | struct Bad { long a }; }; };\n"
+            "      |                     ^\n");
+  EXPECT_EQ(error_of("struct Bad { long a[N]; }; }; };"),
+            "Bad.idl:2:21: error: unknown constant 'N'\n"
+            "    2 | struct Bad { long a[N]; }; }; };\n"
+            "      |                     ^\n");
+  EXPECT_EQ(error_of("struct Bad { @default (value=300) octet a; }; }; };"),
+            "Bad.idl:2:30: error: 300 does not fit byte, which goes from 0 to 255\n"
+            "    2 | struct Bad { @default (value=300) octet a; }; }; };\n"
+            "      |                              ^~~\n");
+  EXPECT_EQ(error_of("struct Other { long a; }; }; };"),
+            "Bad.idl:1:1: error: the file does not define 'struct Bad'\n"
+            "    1 | module lidar { module msg {\n"
+            "      | ^~~~~~\n");
+  EXPECT_EQ(error_of("struct Bad { string a; /* "),
+            "Bad.idl:2:24: error: the comment has no end\n"
+            "    2 | struct Bad { string a; /* \n"
+            "      |                        ^~\n");
+}
+
 }  // namespace
