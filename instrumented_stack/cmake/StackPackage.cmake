@@ -26,13 +26,15 @@ if(CMAKE_CURRENT_LIST_DIR MATCHES "^(.*)/share/[^/]+/cmake$")
 endif()
 
 # stack_library(<pkg> [SOURCES <file>...] [PUBLIC <target>...] [PRIVATE <target>...] [INCLUDE <dir>...]
-#               [CONFIG_EXTRAS <file>...] [PACKAGE <name>] [SKIP_INSTALL])
+#               [CONFIG_EXTRAS <file>...] [PACKAGE <name>] [ALSO <target>...] [FINDS <target>...]
+#               [SKIP_INSTALL])
 #
 # A shared library (without SOURCES: headers only) with the alias <pkg>::<pkg>. Its headers are those under each <dir>,
-# by default include/. The package has the name of the library unless PACKAGE says otherwise. CONFIG_EXTRAS are CMake files that find_package(<pkg>) runs. With SKIP_INSTALL it is only a
-# library of the build tree, not a package.
+# by default include/. The package has the name of the library unless PACKAGE says otherwise. CONFIG_EXTRAS are CMake files
+# that find_package(<pkg>) runs. ALSO are further targets of the package, FINDS are targets of the packages that they
+# need. With SKIP_INSTALL it is only a library of the build tree, not a package.
 function(stack_library pkg)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "PACKAGE" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_INSTALL" "PACKAGE" "SOURCES;PUBLIC;PRIVATE;INCLUDE;CONFIG_EXTRAS;ALSO;FINDS")
   if(NOT ARG_PACKAGE)
     set(ARG_PACKAGE ${pkg})
   endif()
@@ -80,7 +82,8 @@ function(stack_library pkg)
   endif()
   install(TARGETS ${pkg} EXPORT stack_${ARG_PACKAGE} LIBRARY DESTINATION lib)
   stack_package(${ARG_PACKAGE})
-  _stack_export(${pkg} ${ARG_PACKAGE} DEPENDENCIES ${ARG_PUBLIC} ${ARG_PRIVATE} EXTRAS ${ARG_CONFIG_EXTRAS})
+  _stack_export(${pkg} ${ARG_PACKAGE} DEPENDENCIES ${ARG_PUBLIC} ${ARG_PRIVATE} ${ARG_FINDS}
+    EXTRAS ${ARG_CONFIG_EXTRAS} ALSO ${ARG_ALSO})
 endfunction()
 
 # stack_node(<pkg> <executable> SOURCES <file>... LINK <target>...)
@@ -173,7 +176,8 @@ endfunction()
 # Writes share/<pkg>/cmake/<pkg>Config.cmake. It finds the packages among DEPENDENCIES, then defines the target and the
 # variables <pkg>_TARGETS, _LIBRARIES and _INCLUDE_DIRS, and runs EXTRAS last.
 function(_stack_export target pkg)
-  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "DEPENDENCIES;EXTRAS")
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "DEPENDENCIES;EXTRAS;ALSO")
+  list(TRANSFORM ARG_ALSO PREPEND ${pkg}::)
   set_target_properties(${target} PROPERTIES STACK_PACKAGE ${pkg})
   set_property(TARGET ${target} APPEND PROPERTY EXPORT_PROPERTIES STACK_PACKAGE)
   set(config "include(CMakeFindDependencyMacro)\n")
@@ -186,8 +190,8 @@ function(_stack_export target pkg)
     endif()
   endforeach()
   string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Targets.cmake)\n"
-    "set(${pkg}_TARGETS ${pkg}::${target})\n"
-    "set(${pkg}_LIBRARIES ${pkg}::${target})\n"
+    "set(${pkg}_TARGETS ${pkg}::${target} ${ARG_ALSO})\n"
+    "set(${pkg}_LIBRARIES ${pkg}::${target} ${ARG_ALSO})\n"
     "get_target_property(${pkg}_INCLUDE_DIRS ${pkg}::${target} INTERFACE_INCLUDE_DIRECTORIES)\n"
     "if(NOT ${pkg}_INCLUDE_DIRS)\n  set(${pkg}_INCLUDE_DIRS \"\")\nendif()\n")
   if(NOT target STREQUAL pkg)

@@ -88,6 +88,11 @@ TEST_F(InstalledStack, BuildsAmentPackagesUnchanged) {
   EXPECT_EQ(test_support::read_file(driver / "share/ament_index/resource_index/rclcpp_components/arm_driver"),
             "arm_driver::ArmComponent;lib/libarm_component.so\narm_driver::SelfTest;lib/libarm_component.so\n");
   EXPECT_EQ(run({(driver / "lib/arm_driver/self_test").string()}).out, "the arm is there\n");
+  EXPECT_EQ(run({(driver / "lib/arm_driver/effort_in_c").string()}).out, "elbow: 44 bytes\n");
+  // Programs in C++ do not load what is there for C.
+  const std::string libraries = run({"ldd", (driver / "lib/arm_driver/arm_node").string()}).out;
+  EXPECT_NE(libraries.find("libstd_msgs.so"), std::string::npos) << libraries;
+  EXPECT_EQ(libraries.find("rosidl_typesupport_c"), std::string::npos) << libraries;
   for (const char* file : {"share/ament_index/resource_index/packages/arm_driver", "share/arm_driver/package.xml",
                            "share/arm_driver/msg/Effort.msg", "include/arm_driver/arm_driver/arm_model.hpp",
                            "include/arm_driver/arm_driver/version.h"}) {

@@ -70,7 +70,7 @@ TEST_F(Interfaces, WithAMistakeShowItsPlace) {
   EXPECT_THAT(errors_of([&] { library_.message("mine/msg/B"); }), HasSubstr("'mine/msg/B' contains itself"));
 }
 
-constexpr const char* kScan = R"(// comments and includes have no effect
+constexpr const char* kScan = R"IDL(// comments and includes have no effect
 #include "std_msgs/msg/Header.idl"
 /* over
    lines */
@@ -84,19 +84,20 @@ module lidar {
     };
     @verbatim (language="comment", text="a (bracket)" "and on")
     struct Scan {
-  std_msgs::msg::Header header;
-  char name[BEAMS];
-  unsigned long long serial, more[2];
-  @ default(value = TRUE) boolean is_complete;
-  @ default(value = "(1, 2)") @unit(value = "m") sequence<octet, 4> flags;
-  @ default(value = "x\"y") string<8> text;
-  double__3 origin;
-  sequence<lidar::msg::Beam> beams;
+      std_msgs::msg::Header header;
+      char name[BEAMS];
+      unsigned long long serial, more[2];
+      @default (value=TRUE)
+      boolean is_complete;
+      @default (value="(1, 2)") @unit (value="m")
+      sequence<octet, 4> flags;
+      @default (value="x\"y") string<8> text;
+      double__3 origin;
+      sequence<lidar::msg::Beam> beams;
+    };
+  };
 };
-};
-}
-;
-)";
+)IDL";
 
 TEST_F(Interfaces, AreReadFromIdlFilesIfThereAreNoOthers) {
   prefix_.add_file("lidar", "msg/Scan.idl", kScan);

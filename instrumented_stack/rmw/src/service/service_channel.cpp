@@ -15,8 +15,7 @@
 #include "qos/best_available.hpp"
 #include "qos/qos.hpp"
 #include "rmw/error_handling.h"
-#include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
-#include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
+#include "rosidl_typesupport_fastrtps_cpp/find_callbacks.hpp"
 #include "types/dds_gid.hpp"
 #include "types/message_type.hpp"
 
@@ -26,13 +25,12 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 
 const service_type_support_callbacks_t& service_callbacks_of(const rosidl_service_type_support_t& type_support) {
-  const auto* found =
-      get_service_typesupport_handle(&type_support, rosidl_typesupport_fastrtps_cpp::typesupport_identifier);
+  const auto* found = rosidl_typesupport_fastrtps_cpp::find_callbacks(&type_support);
   if (found == nullptr) {
     throw std::runtime_error(std::string("the type support is of kind '") + type_support.typesupport_identifier +
                              "', but must lead to '" + rosidl_typesupport_fastrtps_cpp::typesupport_identifier + "'");
   }
-  return *static_cast<const service_type_support_callbacks_t*>(found->data);
+  return *found;
 }
 
 }  // namespace

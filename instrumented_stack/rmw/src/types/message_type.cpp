@@ -9,7 +9,7 @@
 
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
-#include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
+#include "rosidl_typesupport_fastrtps_cpp/find_callbacks.hpp"
 
 namespace rmw_fastrtps {
 namespace {
@@ -114,13 +114,12 @@ std::string dds_type_name(const message_type_support_callbacks_t& callbacks) {
 }
 
 const message_type_support_callbacks_t& callbacks_of(const rosidl_message_type_support_t* type_support) {
-  const auto* found =
-      get_message_typesupport_handle(type_support, rosidl_typesupport_fastrtps_cpp::typesupport_identifier);
+  const auto* found = rosidl_typesupport_fastrtps_cpp::find_callbacks(type_support);
   if (found == nullptr) {
     throw std::runtime_error(std::string("the type support is of kind '") + type_support->typesupport_identifier +
                              "', but must lead to '" + rosidl_typesupport_fastrtps_cpp::typesupport_identifier + "'");
   }
-  return *static_cast<const message_type_support_callbacks_t*>(found->data);
+  return *found;
 }
 
 }  // namespace rmw_fastrtps

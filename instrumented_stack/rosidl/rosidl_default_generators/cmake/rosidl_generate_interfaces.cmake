@@ -3,7 +3,8 @@
 #
 # Makes the messages, services and actions of a package: the shared library <target> and the headers
 # <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. <pkg> is the project if it has a package.xml,
-# and <target> otherwise. Others link <pkg>::<target>.
+# and <target> otherwise. Others link <pkg>::<target>. For programs in C there are the library
+# <target>__rosidl_generator_c and the headers <pkg>/msg/<name>.h.
 #
 # Files are "msg/<Name>.msg", "srv/<Name>.srv", "action/<Name>.action" or the same with ".idl". They are relative to the
 # current folder, or to another one, as in "<folder>:msg/<Name>.msg", or absolute. The folder of a file is the namespace
@@ -58,6 +59,29 @@ macro(_rosidl_files)
   endforeach()
 endmacro()
 
+# The library for C. Programs in C++ that link all of a package (<pkg>_TARGETS) shall not load it, so it is linked only if
+# something in it is used, which is the default of linkers on Ubuntu.
+macro(_rosidl_library_of_c)
+  set(library ${target}__rosidl_generator_c)
+  add_library(${library} SHARED ${source_of_c})
+  add_library(${pkg}::${library} ALIAS ${library})
+  if(ARG_LIBRARY_NAME)
+    set_target_properties(${library} PROPERTIES OUTPUT_NAME ${ARG_LIBRARY_NAME}__rosidl_generator_c)
+  endif()
+  if(TARGET project_options)
+    target_link_libraries(${library} PRIVATE project_options)
+  endif()
+  target_link_libraries(${library} PUBLIC ${target} rosidl_typesupport_c::rosidl_typesupport_c ${libraries_of_c})
+  target_link_options(${library} INTERFACE LINKER:--as-needed)
+  set_target_properties(${library} PROPERTIES STACK_PACKAGE ${pkg})
+  if(ARG_SKIP_INSTALL)
+    set_target_properties(${library} PROPERTIES EXCLUDE_FROM_ALL ON)
+  else()
+    _stack_place(${library} lib "$ORIGIN")
+    install(TARGETS ${library} EXPORT stack_${pkg} LIBRARY DESTINATION lib)
+  endif()
+endmacro()
+
 function(rosidl_generate_interfaces target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "LIBRARY_NAME"
     "DEPENDENCIES;INCLUDE")
@@ -73,6 +97,7 @@ function(rosidl_generate_interfaces target)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/rosidl_${target})
   endif()
   set(source ${output}/${pkg}__interfaces.cpp)
+  set(source_of_c ${output}/${pkg}__c.cpp)
   set(headers ${output}/include/${pkg}/detail/cdr_codecs.hpp)
   foreach(name IN LISTS names)
     get_filename_component(folder ${name} DIRECTORY)
@@ -80,6 +105,10 @@ function(rosidl_generate_interfaces target)
     list(APPEND headers ${output}/include/${pkg}/${folder}/${name}.hpp)
     foreach(part IN ITEMS struct builder traits type_support)
       list(APPEND headers ${output}/include/${pkg}/${folder}/detail/${name}__${part}.hpp)
+    endforeach()
+    list(APPEND headers ${output}/include/${pkg}/${folder}/${name}.h)
+    foreach(part IN ITEMS struct functions type_support)
+      list(APPEND headers ${output}/include/${pkg}/${folder}/detail/${name}__${part}.h)
     endforeach()
   endforeach()
 
@@ -100,6 +129,7 @@ function(rosidl_generate_interfaces target)
   set(known "")
   set(descriptions "")
   set(libraries "")
+  set(libraries_of_c "")
   foreach(dependency IN LISTS ARG_DEPENDENCIES)
     set(of_package ${${dependency}_ROSIDL_TARGET})
     if(NOT of_package)
@@ -117,6 +147,7 @@ function(rosidl_generate_interfaces target)
         set(folder ${${dependency}_DIR}/..)
       endif()
       list(APPEND descriptions ${folder}/type_descriptions.json)
+      list(APPEND libraries_of_c ${of_package}__rosidl_generator_c)
     endif()
     list(APPEND libraries ${of_package})
   endforeach()
@@ -124,11 +155,11 @@ function(rosidl_generate_interfaces target)
   get_property(generator GLOBAL PROPERTY ROSIDL_GENERATOR)
   file(GLOB generator_sources ${generator}/*.py)
   add_custom_command(
-    OUTPUT ${source} ${headers} ${output}/type_descriptions.json
+    OUTPUT ${source} ${source_of_c} ${headers} ${output}/type_descriptions.json
     COMMAND ${Python3_EXECUTABLE} -B ${generator} --package ${pkg} --output ${output} --known ${known}
       --descriptions ${descriptions} -- ${files}
     DEPENDS ${files} ${descriptions} ${generator_sources}
-    COMMENT "Generating the C++ of ${pkg}"
+    COMMENT "Generating the C++ and C of ${pkg}"
     VERBATIM)
 
   set(skip_install "")
@@ -136,6 +167,7 @@ function(rosidl_generate_interfaces target)
     set(skip_install SKIP_INSTALL)
   endif()
   stack_library(${target} ${skip_install} PACKAGE ${pkg}
+    ALSO ${target}__rosidl_generator_c FINDS rosidl_typesupport_c::rosidl_typesupport_c
     SOURCES ${source} ${headers}
     PUBLIC rosidl_runtime_cpp::rosidl_runtime_cpp rosidl_typesupport_cpp::rosidl_typesupport_cpp
            rosidl_typesupport_fastrtps_cpp::rosidl_typesupport_fastrtps_cpp
@@ -147,16 +179,23 @@ function(rosidl_generate_interfaces target)
   elseif(NOT target STREQUAL pkg)
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target}__rosidl_typesupport_cpp)
   endif()
+  _rosidl_library_of_c()
   if(TARGET interface_sources)
-    add_custom_target(${target}__sources DEPENDS ${source} ${headers})
+    add_custom_target(${target}__sources DEPENDS ${source} ${source_of_c} ${headers})
     add_dependencies(${target} ${target}__sources)
+    add_dependencies(${target}__rosidl_generator_c ${target}__sources)
     add_dependencies(interface_sources ${target}__sources)
   endif()
-  # In ROS 2 a package has a library for each language and type support. Here all these names mean the one library.
-  # They are targets and not aliases, because a package may make aliases of them.
-  foreach(part IN ITEMS rosidl_generator_cpp rosidl_typesupport_cpp rosidl_typesupport_fastrtps_cpp)
+  # In ROS 2 a package has a library for each language and type support. Here all these names mean the library of the
+  # language. They are targets and not aliases, because a package may make aliases of them.
+  foreach(part IN ITEMS rosidl_generator_cpp rosidl_typesupport_cpp rosidl_typesupport_fastrtps_cpp
+                        rosidl_typesupport_c rosidl_typesupport_fastrtps_c)
     add_library(${target}__${part} INTERFACE)
-    target_link_libraries(${target}__${part} INTERFACE ${target})
+    if(part MATCHES "_c$")
+      target_link_libraries(${target}__${part} INTERFACE ${target}__rosidl_generator_c)
+    else()
+      target_link_libraries(${target}__${part} INTERFACE ${target})
+    endif()
     if(NOT ARG_SKIP_INSTALL)
       install(TARGETS ${target}__${part} EXPORT stack_${pkg})
     endif()
@@ -180,13 +219,17 @@ endfunction()
 
 # rosidl_get_typesupport_target(<variable> <interfaces> <typesupport>)
 #
-# The target that executables of the same package link to use its messages.
+# The target that executables of the same package link to use its messages. <typesupport> tells the language:
+# rosidl_typesupport_cpp or rosidl_typesupport_c.
 function(rosidl_get_typesupport_target variable interfaces typesupport)
   set(library ${interfaces}::${interfaces})
   if(TARGET ${interfaces})
     set(library ${interfaces})
   elseif(${interfaces}_ROSIDL_TARGET)
     set(library ${${interfaces}_ROSIDL_TARGET})
+  endif()
+  if(typesupport MATCHES "_c$")
+    string(APPEND library __rosidl_generator_c)
   endif()
   set(${variable} ${library} PARENT_SCOPE)
 endfunction()

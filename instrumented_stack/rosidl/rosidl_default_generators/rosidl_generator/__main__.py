@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... [--descriptions JSON]... FILE...
 
-Writes the C++ of one package: headers under DIR/include/PKG and the library's source DIR/PKG__interfaces.cpp; and
-DIR/type_descriptions.json, which packages that use its messages need as --descriptions. The
+Writes the C++ and C of one package: headers under DIR/include/PKG, the sources DIR/PKG__interfaces.cpp and DIR/PKG__c.cpp
+of its libraries, and DIR/type_descriptions.json, which packages that use its messages need as --descriptions. The
 folder of a file, msg, srv or action, is the namespace of its types; if it has another name, the extension of the file is.
 --known names the messages of other packages that may be used.
 """
@@ -17,9 +17,10 @@ if __package__ in (None, ''):
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     __package__ = 'rosidl_generator'
 
-from . import cpp_builder, cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
+from . import c_headers, c_source, cpp_builder, cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
 from .idl_parser import parse_idl  # noqa: E402
 from .interface_parser import InterfaceError, parse_file  # noqa: E402
+from .least_size import least_sizes  # noqa: E402
 
 
 def write_if_changed(path: str, text: str) -> None:
@@ -84,10 +85,17 @@ def main() -> int:
         for part, emit in (('struct', cpp_struct.struct_header), ('builder', cpp_builder.builder_header), ('traits', cpp_traits.traits_header),
                            ('type_support', cpp_traits.type_support_header)):
             write_if_changed(os.path.join(include, file.detail_header(part)), emit(file))
+        write_if_changed(os.path.join(include, c_headers.main_path(file)), c_headers.main_header(file))
+        for part, emit in (('struct', c_headers.struct_header), ('functions', c_headers.functions_header),
+                           ('type_support', c_headers.type_support_header)):
+            write_if_changed(os.path.join(include, c_headers.detail_path(file, part)), emit(file))
+    sizes = least_sizes(descriptions)
     write_if_changed(os.path.join(include, cpp_source.codec_header_path(options.package)),
-                     cpp_source.codec_header(options.package, files))
+                     cpp_source.codec_header(options.package, files, sizes))
     write_if_changed(os.path.join(options.output, f'{options.package}__interfaces.cpp'),
                      cpp_source.source(options.package, files, own, hashes))
+    write_if_changed(os.path.join(options.output, f'{options.package}__c.cpp'),
+                     c_source.source(options.package, files, sizes))
     return 0
 
 

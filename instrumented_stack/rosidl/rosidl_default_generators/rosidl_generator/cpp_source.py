@@ -16,7 +16,7 @@ def codec_header_path(package: str) -> str:
     return f'{package}/detail/cdr_codecs.hpp'
 
 
-def codec_header(package: str, files: List[InterfaceFile]) -> str:
+def codec_header(package: str, files: List[InterfaceFile], least_sizes: Mapping[str, int]) -> str:
     """Declares the conversion of the package's messages to bytes. Needs no definition of any message."""
     messages = [message for file in files for message in file.messages]
     forward = '\n'.join(cpp_types.namespace_blocks(package, namespace, ''.join(
@@ -27,6 +27,7 @@ struct CdrCodec<{m.cpp}> {{
   static void read(eprosima::fastcdr::Cdr& cdr, {m.cpp}& message);
   static std::size_t end_after(const {m.cpp}& message, std::size_t position);
   static void add_to(MaxSize& size);
+  static constexpr std::size_t least_size = {least_sizes[f'{m.package}/{m.namespace}/{m.name}']};
 }};
 ''' for m in messages)
     body = (f'{forward}\nnamespace rosidl_typesupport_fastrtps_cpp {{\n\n{codecs}\n'

@@ -18,6 +18,7 @@ struct MaxSize;
 ///   read       throws if the bytes are cut short or contain a longer sequence than the type allows
 ///   end_after  the position after the message, if it is written at `position`
 ///   add_to     adds the message's maximum size to an upper bound
+///   least_size the least number of bytes of a message
 /// Positions are bytes from the beginning of the payload; alignment counts from there.
 template <typename Message>
 struct CdrCodec;
@@ -35,8 +36,7 @@ struct MaxSize {
   /// Adds a member of type T. `string_bound` is the maximum length of each string in it.
   template <typename T>
   void add(std::size_t string_bound = kUnbounded);
-
- private:
+  /// Adds `count` numbers of `size` bytes.
   void add_primitives(std::size_t size, std::size_t count);
 };
 

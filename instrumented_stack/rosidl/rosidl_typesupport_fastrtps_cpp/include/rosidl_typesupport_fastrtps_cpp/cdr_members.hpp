@@ -77,7 +77,8 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
   }
 }
 
-/// Reads a length and checks it against the remaining bytes, before memory is allocated for it.
+/// Reads a length and checks it against the remaining bytes, before memory is allocated for it. So the memory of a
+/// message is at most a small multiple of its bytes, whatever the bytes are.
 inline std::size_t read_length(eprosima::fastcdr::Cdr& cdr, std::size_t least_element_size) {
   uint32_t length = 0;
   cdr.deserialize(length);
@@ -96,8 +97,12 @@ constexpr std::size_t least_size() {
     return sizeof(T);
   } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::u16string>) {
     return sizeof(uint32_t);
+  } else if constexpr (is_std_array<T>::value) {
+    return std::tuple_size_v<T> * least_size<typename T::value_type>();
+  } else if constexpr (is_sequence<T>::value) {
+    return sizeof(uint32_t);
   } else {
-    return 1;
+    return CdrCodec<T>::least_size;
   }
 }
 
