@@ -4,6 +4,7 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/exceptions/Exception.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -50,6 +51,19 @@ std::size_t size_of(FieldKind kind) {
 
 bool is_text(FieldKind kind) {
   return kind == FieldKind::kString || kind == FieldKind::kWstring;
+}
+
+// The least number of bytes of one element, without those for alignment.
+std::size_t least_size(const FieldType& type) {
+  if (type.kind != FieldKind::kMessage) {
+    return is_text(type.kind) ? sizeof(std::uint32_t) : size_of(type.kind);
+  }
+  std::size_t sum = type.message->fields.empty() ? 1 : 0;
+  for (const MessageField& field : type.message->fields) {
+    sum += field.type.many == Many::kSequence ? sizeof(std::uint32_t)
+                                              : least_size(field.type) * std::max<std::size_t>(field.type.count, 1);
+  }
+  return sum;
 }
 
 class Writer {
@@ -141,8 +155,7 @@ class Reader {
     if (type.many == Many::kOne) {
       return single(type);
     }
-    const std::size_t least = is_text(type.kind) ? 4 : type.kind == FieldKind::kMessage ? 1 : size_of(type.kind);
-    const std::size_t count = type.many == Many::kArray ? type.count : length(least);
+    const std::size_t count = type.many == Many::kArray ? type.count : length(least_size(type));
     MessageValue::List list;
     list.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

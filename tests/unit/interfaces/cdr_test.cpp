@@ -211,6 +211,19 @@ TEST(Cdr, LengthBeyondTheMessageIsRefusedBeforeMemoryIsTaken) {
   EXPECT_LT(sequences.doubles.capacity(), 1000u);
 }
 
+TEST(Cdr, MoreMessagesThanTheBytesHaveRoomForTakeNoMemory) {
+  // A node has at least the lengths of two strings and two sequences: 16 bytes.
+  rmw_dds_common::msg::ParticipantEntitiesInfo info;
+  std::vector<char> bytes(16 + 4 + 16 * 1000);
+  bytes[16] = static_cast<char>(1001 & 255);
+  bytes[17] = static_cast<char>(1001 >> 8);
+  EXPECT_FALSE(deserialize(bytes, info));
+  EXPECT_EQ(info.node_entities_info_seq.capacity(), 0u);
+  bytes[16] = static_cast<char>(1000 & 255);
+  EXPECT_TRUE(deserialize(bytes, info));
+  EXPECT_EQ(info.node_entities_info_seq.size(), 1000u);
+}
+
 TEST(Cdr, MoreElementsThanTheBoundAreRefused) {
   Bounded message;
   EXPECT_TRUE(deserialize(bytes_of("01 00 00 00 00 00 00 00  04 00 00 00 01 02 03 04  00 00 00 00"), message));
