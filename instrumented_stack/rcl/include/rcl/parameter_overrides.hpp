@@ -34,6 +34,9 @@ class ParameterOverrides {
   // wrong`.
   void load_file(const std::string& path);
 
+  // The same for the text of a file. `path` is only for errors.
+  void load_text(std::string text, const std::string& path);
+
   // Sets the value of `-p name:=text`, typed as a YAML document. Throws std::invalid_argument.
   void set_from_text(std::string_view node_pattern, std::string_view name, std::string_view text);
 

@@ -291,7 +291,11 @@ void read_nodes(Reader& reader, const std::string& prefix, ParameterOverrides& t
 }  // namespace
 
 void ParameterOverrides::load_file(const std::string& path) {
-  Reader reader(read_file(path), path);
+  load_text(read_file(path), path);
+}
+
+void ParameterOverrides::load_text(std::string text, const std::string& path) {
+  Reader reader(std::move(text), path);
   Event first;
   if (!reader.open_document(first)) {
     return;

@@ -22,6 +22,7 @@
 #include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
 #include "participant/shared_memory_ports.hpp"
+#include "participant/user_data.hpp"
 #include "qos/qos.hpp"
 #include "rcutils/logging.h"
 #include "types/dds_gid.hpp"
@@ -43,16 +44,8 @@ std::vector<rtps::octet> type_hash_user_data(const message_type_support_callback
   return {text.begin(), text.end()};
 }
 
-// The value of `<key>=…;` in the user data that participants and endpoints announce; empty if the key is missing.
-std::string value_in(const std::vector<rtps::octet>& user_data, const std::string& key_name) {
-  const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
-  const std::string prefix = key_name + "=";
-  const std::size_t key = text.find(prefix);
-  if (key == std::string_view::npos) {
-    return {};
-  }
-  const std::string_view value = text.substr(key + prefix.size());
-  return std::string(value.substr(0, value.find(';')));
+std::string value_in(const std::vector<rtps::octet>& user_data, std::string_view key) {
+  return user_data_value({reinterpret_cast<const char*>(user_data.data()), user_data.size()}, key);
 }
 
 fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_profile) {
