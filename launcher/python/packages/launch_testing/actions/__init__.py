@@ -1,9 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Actions of test descriptions."""
 
+import signal
+
 import _launch_engine
-from launch.action import Action
 from launch import _names
+from launch._entities import entities
+from launch.action import Action
+from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, TimerAction
+from launch.event_handlers import OnProcessExit
+from launch.events import matches_action
+from launch.events.process import SignalProcess
+from launch.substitutions import FindExecutable
 
 
 class ReadyToTest(Action):
@@ -35,6 +43,54 @@ class _Readiness:
     def _start(self):
         for callback in self._callbacks:
             callback()
+
+
+class Test(ExecuteProcess):
+    """A program that is a test. It is killed when it takes longer than `timeout` seconds."""
+
+    __test__ = False  # it is no class of tests for pytest
+
+    def __init__(self, *, timeout=None, **kwargs):
+        super().__init__(**kwargs)
+        self._timeout = timeout
+
+    @property
+    def timeout(self):
+        return self._timeout
+
+    def _tags(self):
+        if not self._timeout:
+            return super()._tags()
+        kill = EmitEvent(event=SignalProcess(signal_number=signal.SIGKILL, process_matcher=matches_action(self)))
+        limit = TimerAction(period=self._timeout, actions=[kill])
+        end = RegisterEventHandler(OnProcessExit(target_action=self, on_exit=lambda *_: limit.cancel()))
+        for action in (kill, limit, end):
+            action._made_at = self._made_at
+        return [*entities([end, limit]), *super()._tags()]
+
+
+class GTest(Test):
+    """A test program with GoogleTest."""
+
+    def __init__(self, *, path, **kwargs):
+        super().__init__(cmd=[path], **kwargs)
+        self._path = path
+
+    @property
+    def path(self):
+        return self._path
+
+
+class PyTest(Test):
+    """A file of tests for pytest."""
+
+    def __init__(self, *, path, **kwargs):
+        super().__init__(cmd=[FindExecutable(name='python3'), '-m', 'pytest', path], **kwargs)
+        self._path = path
+
+    @property
+    def path(self):
+        return self._path
 
 
 _names.one_class_modules(__name__)
