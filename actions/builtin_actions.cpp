@@ -58,6 +58,7 @@ namespace launch {
   ACTION(test)                         \
   ACTION(timer)                        \
   ACTION(trace)                        \
+  ACTION(transition)                   \
   ACTION(unregister_event_handler)     \
   ACTION(unset)                        \
   ACTION(unset_env)                    \

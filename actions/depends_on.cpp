@@ -70,8 +70,11 @@ DependsOn::DependsOn(const Fields& fields)
   const std::string subject = RosCondition::subject_of(fields, {"process"});
   if (subject == "process") {
     state_ = static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}));
-    if (fields.has("state")) {
-      throw LaunchError("state goes with a node only", fields.where("state"), {}, Finding::kExclusive);
+    for (const char* const of_node : {"state", "parameter", "value"}) {
+      if (fields.has(of_node)) {
+        throw LaunchError(fmt::format("{} goes with a node only", of_node), fields.where(of_node), {},
+                          Finding::kExclusive);
+      }
     }
   } else {
     ros_condition_.emplace(fields, subject);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <exit>, <output>, <in_order>, <graph>, <resources>.
+// <exit>, <output>, <in_order>, <graph>, <resources>, and the list of all.
 #include "actions/expectations.hpp"
 
 #include <fmt/format.h>
@@ -72,6 +72,11 @@ PerformExpectation output_expectation(const Fields& fields) {
   const std::optional<NumberField> least = from_zero(fields, "min");
   const std::optional<NumberField> most = from_zero(fields, "max");
   const BooleanField absent = fields.boolean("absent", false);
+  const bool after_shutdown = choice(fields, "when", {"running", "shutdown"}) == 1;
+  if (after_shutdown && fields.has("within")) {
+    throw LaunchError("within counts from the begin of the test: it goes without when=\"shutdown\"",
+                      fields.where("within"), {}, Finding::kExclusive);
+  }
   if (fields.has("absent") && (least || most)) {
     throw LaunchError("absent means max=\"0\": it goes without min and max", fields.where("absent"), {},
                       Finding::kExclusive);
@@ -79,7 +84,7 @@ PerformExpectation output_expectation(const Fields& fields) {
   const SourceRange most_where = fields.where("max");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();
-    ExpectedOutput expected{line.perform(scope), 1, std::nullopt};
+    ExpectedOutput expected{line.perform(scope), 1, std::nullopt, after_shutdown};
     if (most) {
       expected.most = static_cast<std::uint64_t>(most->perform(scope));
       expected.least = 0;
@@ -168,6 +173,9 @@ ItemSpec output_item() {
   attributes.push_back(
       own_attribute("max", AttributeType::kInteger, false, "any number", "how many there are at most"));
   attributes.push_back(own_attribute("absent", AttributeType::kBoolean, false, "false", "true: there is no such line"));
+  attributes.push_back(own_attribute("when", AttributeType::kLiteral, false, "running",
+                                     "running: from the begin on; shutdown: only lines after the begin of the "
+                                     "shutdown, for which the test does not wait"));
   attributes.push_back(within_attribute());
   return expectation_item("output", "a line that a process writes", std::move(attributes));
 }
@@ -186,7 +194,8 @@ ItemSpec graph_item() {
   attributes.push_back(
       own_attribute("absent", AttributeType::kBoolean, false, "false", "true: that never happens during the test"));
   attributes.push_back(within_attribute());
-  return expectation_item("graph", "a node, a topic or a service that the ROS graph shows", std::move(attributes));
+  return expectation_item("graph", "a node, a topic, a service or a parameter that the ROS graph shows",
+                          std::move(attributes));
 }
 
 ItemSpec resources_item() {
@@ -206,6 +215,7 @@ const std::vector<ExpectationType>& expectation_types() {
                                         {output_item(), output_expectation},
                                         {in_order_item(), in_order_expectation},
                                         {graph_item(), graph_expectation},
+                                        message_expectation_type(),
                                         {resources_item(), resources_expectation}};
     for (ExpectationType& type : trace_expectation_types()) {
       all.push_back(std::move(type));

@@ -21,6 +21,7 @@ struct ExpectationType {
 };
 
 const std::vector<ExpectationType>& expectation_types();
+ExpectationType message_expectation_type();
 // Those of them that speak of the trace of the run (trace_expectations.cpp).
 std::vector<ExpectationType> trace_expectation_types();
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <lifecycle_transition node="…" transitions="configure activate"/>: changes the state of a managed node.
-#include <fmt/format.h>
-
+#include "actions/lifecycle_names.hpp"
 #include "actions/ros_names.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -9,8 +8,6 @@
 namespace launch {
 
 namespace {
-
-const std::vector<std::string> kTransitions = {"configure", "activate", "deactivate", "cleanup", "shutdown"};
 
 class LifecycleTransition : public Action {
  public:
@@ -39,15 +36,6 @@ class LifecycleTransition : public Action {
   }
 
  private:
-  static void require_transition(const std::string& name, const SourceRange& where) {
-    if (std::find(kTransitions.begin(), kTransitions.end(), name) == kTransitions.end()) {
-      throw LaunchError(
-          fmt::format("there is no transition '{}', expected configure, activate, deactivate, cleanup or shutdown",
-                      name),
-          where, did_you_mean(name, kTransitions));
-    }
-  }
-
   Template node_;
   std::vector<Template> transitions_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "actions/parameter_value.hpp"
 #include "actions/ros_names.hpp"
 #include "launcher/ros/ros_readiness.hpp"
 
@@ -44,7 +45,9 @@ std::vector<AttributeSpec> RosCondition::attributes() {
           {"topic", AttributeType::kText, false, "", "instead of a node: a topic", true},
           {"service", AttributeType::kText, false, "", "instead of a node: a service", true},
           {"state", AttributeType::kText, false, "any",
-           "with node: the state of its life cycle, unconfigured, inactive, active or finalized", true}};
+           "with node: the state of its life cycle, unconfigured, inactive, active or finalized", true},
+          {"parameter", AttributeType::kText, false, "none", "with node: a parameter that has a value", true},
+          {"value", AttributeType::kText, false, "", "with parameter: the value as YAML", true}};
 }
 
 std::string RosCondition::subject_of(const Fields& fields, const std::vector<std::string>& others) {
@@ -73,11 +76,30 @@ RosCondition::Kind RosCondition::kind_of(const Fields& fields, const std::string
   if (subject == "service") {
     return Kind::kService;
   }
-  return fields.has("state") ? Kind::kState : Kind::kNode;
+  return fields.has("state") ? Kind::kState : fields.has("parameter") ? Kind::kParameter : Kind::kNode;
 }
 
 RosCondition::RosCondition(const Fields& fields, const std::string& subject)
-    : kind_(kind_of(fields, subject)), name_(fields.text(subject)), state_(fields.optional_text("state")) {
+    : kind_(kind_of(fields, subject)),
+      name_(fields.text(subject)),
+      state_(fields.optional_text("state")),
+      parameter_(fields.optional_text("parameter")),
+      value_(fields.optional_text("value")) {
+  if (parameter_ && subject != "node") {
+    throw LaunchError("parameter goes with a node only", fields.where("parameter"), {}, Finding::kExclusive);
+  }
+  if (parameter_ && state_) {
+    throw LaunchError("either a state or a parameter is waited for", fields.where("parameter"), "write one for each",
+                      Finding::kExclusive);
+  }
+  if (value_ && !parameter_) {
+    throw LaunchError("value goes with a parameter only", fields.where("value"), "give parameter=\"…\", its name",
+                      Finding::kExclusive);
+  }
+  if (parameter_ && !value_) {
+    throw LaunchError("the parameter has no value that is waited for", fields.where("parameter"), "give value=\"…\"",
+                      Finding::kMissingAttribute);
+  }
   if (state_ && kind_ != Kind::kState) {
     throw LaunchError("state goes with a node only", fields.where("state"), {}, Finding::kExclusive);
   }
@@ -103,6 +125,9 @@ RosRequest RosCondition::request(Scope& scope) const {
       return MessagePublished{name};
     case Kind::kService:
       return ServicePresent{name};
+    case Kind::kParameter:
+      return ParameterReached{name,
+                              {parameter_->perform(scope), typed_parameter(value_->perform(scope), value_->where())}};
     case Kind::kState:
       break;
   }

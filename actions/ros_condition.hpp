@@ -20,7 +20,7 @@ std::size_t choice(const Fields& fields, const std::string& attribute, const std
 
 class RosCondition {
  public:
-  // The attributes node, topic, service and state. The tag itself declares `condition`.
+  // The attributes node, topic, service, state, parameter and value. The tag itself declares `condition`.
   static std::vector<AttributeSpec> attributes();
 
   // The name of the attribute that gives the subject: one of these, or one of `others`. Throws LaunchError at `fields`
@@ -33,7 +33,7 @@ class RosCondition {
   std::shared_ptr<ReadinessCondition> perform(LaunchContext& context) const;
 
  private:
-  enum class Kind { kNode, kState, kTopic, kMessage, kService };
+  enum class Kind { kNode, kState, kParameter, kTopic, kMessage, kService };
 
   static Kind kind_of(const Fields& fields, const std::string& subject);
   RosRequest request(Scope& scope) const;
@@ -41,6 +41,8 @@ class RosCondition {
   Kind kind_;
   Template name_;
   std::optional<Template> state_;
+  std::optional<Template> parameter_;
+  std::optional<Template> value_;
 };
 
 }  // namespace launch

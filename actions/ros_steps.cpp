@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// <publish>, <call>, <send_goal>, <change_parameter>: steps that take part in the ROS graph, each a process that runs
-// the command of the same kind (`launch topic pub`, …). So they can start at a time, when something is ready or after
-// another step, and their end tells whether they have succeeded.
+// <publish>, <receive>, <call>, <send_goal>, <change_parameter>, <transition>: steps that take part in the ROS graph,
+// each a process that runs the command of the same kind (`launch topic pub`, …). So they can start at a time, when
+// something is ready or after another step, and their end tells whether they have succeeded.
 #include <fmt/format.h>
 
 #include <functional>
 
+#include "actions/lifecycle_names.hpp"
+#include "actions/message_texts.hpp"
 #include "actions/process_fields.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/messages/interface_library.hpp"
@@ -34,6 +36,8 @@ struct StepType {
   };
   std::vector<Number> numbers = {};
   TypeOfValues type_of_values = {};
+  // Looks for mistakes in the last word. Throws LaunchError at its place.
+  void (*check_last)(const std::string& word, const SourceRange& where) = nullptr;
 };
 
 class RosStep : public Action {
@@ -66,6 +70,9 @@ class RosStep : public Action {
     if (type_.type_of_values) {
       check(scope, words, condition);
     }
+    if (type_.check_last != nullptr) {
+      type_.check_last(words.back(), words_.back()->where());
+    }
     ProcessSpec spec;
     spec.argv = {own_library_file(kProgram)};
     spec.argv.insert(spec.argv.end(), type_.command.begin(), type_.command.end());
@@ -96,27 +103,6 @@ class RosStep : public Action {
     }
     if (condition_) {
       at_place(condition_->where(), [&] { MessageCondition(type, located(condition, condition_->where())); });
-    }
-  }
-
-  // With a substitution or an escape the text is not in the file as it is, so that it has no places of its own.
-  static LocatedText located(const std::string& text, const SourceRange& where) {
-    const bool verbatim = where && where.end <= where.file->text().size() &&
-                          where.file->text().compare(where.begin, where.end - where.begin, text) == 0;
-    return verbatim ? LocatedText(text, where) : LocatedText(text);
-  }
-
-  // Gives the errors that have no place this one.
-  template <typename Act>
-  static void at_place(const SourceRange& where, const Act& act) {
-    try {
-      act();
-    } catch (const LaunchError& error) {
-      std::vector<Diagnostic> placed = error.diagnostics();
-      for (Diagnostic& each : placed) {
-        each.where = each.where ? each.where : where;
-      }
-      throw LaunchError(std::move(placed));
     }
   }
 
@@ -216,6 +202,18 @@ ActionType change_parameter_action() {
                      text("value", "its value as YAML")},
       .command = {"param", "set", "--timeout=60"},
       .words = {"node", "parameter", "value"}};
+  return action_of(type);
+}
+
+ActionType transition_action() {
+  static const StepType type = {
+      .tag = "transition",
+      .help = "Changes the state of a node with a managed life cycle, once the node is there.",
+      .attributes = {text("node", "name of the node"),
+                     text("transition", "configure, activate, deactivate, cleanup or shutdown")},
+      .command = {"lifecycle", "set", "--spin-time=60"},
+      .words = {"node", "transition"},
+      .check_last = require_transition};
   return action_of(type);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <test name="…">: what must happen when the launch file runs. Only `launch test` looks at it.
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <utility>
 
@@ -87,6 +88,11 @@ class Test : public Action {
     test.where = where();
     if (test.name.empty()) {
       throw LaunchError("the test has no name", name_.where());
+    }
+    const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
+    if (std::any_of(test.name.begin(), test.name.end(), is_control)) {
+      throw LaunchError("the name of the test has a line break or another control character", name_.where(),
+                        "it stands on one line in reports");
     }
     test.timeout = timeout_ ? seconds(*timeout_) : kTimeout;
     if (duration_) {

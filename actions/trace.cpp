@@ -8,6 +8,7 @@
 #include "actions/trace_findings.hpp"
 #include "actions/trace_overhead.hpp"
 #include "actions/trace_scope.hpp"
+#include "launcher/base/session_suffix.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/plan/event_classes.hpp"
@@ -122,6 +123,9 @@ class Trace : public Action {
     }
     if (append_timestamp_.perform(scope)) {
       config.session_name += tracing::session_timestamp();
+    }
+    if (const auto suffix = scope.environment.find(kSessionSuffixVariable); suffix != scope.environment.end()) {
+      config.session_name += suffix->second;
     }
     config.base_path =
         tracing::trace_base_path(base_path_ ? base_path_->perform(scope) : std::string(), scope.environment);

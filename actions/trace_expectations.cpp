@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The items of <test> that say what the trace of its run holds: <event>, <delivery>, <latency>, <callback>,
-// <timer_period>.
+// The items of <test> that say what the trace of its run holds: <event>, <events_in_order>, <delivery>, <latency>,
+// <callback>, <timer_period>, <allocations>.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "actions/expectation_fields.hpp"
 #include "actions/expectations.hpp"
+#include "actions/ros_condition.hpp"
 #include "actions/ros_names.hpp"
 #include "tracing/plan/ros_events.hpp"
 
@@ -76,27 +77,82 @@ class Bounds {
   SourceRange percentile_where_;
 };
 
+// name, where
+class EventFields {
+ public:
+  explicit EventFields(const Fields& fields)
+      : where_(fields.where()), name_(fields.text("name")), condition_(fields.optional_text("where")) {}
+
+  ExpectedEvent perform(Scope& scope) const {
+    ExpectedEvent event;
+    event.name = name_.perform(scope);
+    event.name_where = name_.where();
+    if (const std::string reason = tracing::why_no_ros_event(event.name); !reason.empty()) {
+      throw LaunchError(reason, name_.where());
+    }
+    event.condition = perform_text(condition_, scope);
+    event.condition_where = condition_ ? condition_->where() : where_;
+    return event;
+  }
+
+ private:
+  SourceRange where_;
+  Template name_;
+  std::optional<Template> condition_;
+};
+
 PerformExpectation event_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
-  const Template name = fields.text("name");
-  const std::optional<Template> condition = fields.optional_text("where");
+  const EventFields meant(fields);
   const std::optional<NumberField> least = from_zero(fields, "min");
   const std::optional<NumberField> most = from_zero(fields, "max");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();
-    ExpectedEvent event;
-    event.name = name.perform(scope);
-    event.name_where = name.where();
-    if (const std::string reason = tracing::why_no_ros_event(event.name); !reason.empty()) {
-      throw LaunchError(reason, name.where());
-    }
-    event.condition = perform_text(condition, scope);
-    event.condition_where = condition ? condition->where() : subject.where();
+    ExpectedEvent event = meant.perform(scope);
     event.least = perform_count(least, scope, most ? 0 : 1);
     if (most) {
       event.most = perform_count(most, scope, 0);
     }
     return subject.of(TraceExpectation(event), scope);
+  };
+}
+
+PerformExpectation order_expectation(const Fields& fields) {
+  struct Step {
+    EventFields event;
+    std::optional<Template> process;
+  };
+  const ExpectationSubject subject(fields);
+  std::vector<Step> steps;
+  for (const Fields* const item : fields.items("event")) {
+    steps.push_back({EventFields(*item), item->optional_text("process")});
+  }
+  if (steps.size() < 2) {
+    throw LaunchError("an order needs two events at least", fields.where(), "give each one: <event name=\"…\"/>",
+                      Finding::kMissingAttribute);
+  }
+  return [=](LaunchContext& context) {
+    Scope& scope = context.scope();
+    ExpectedEventOrder order;
+    for (const Step& step : steps) {
+      order.steps.push_back({step.event.perform(scope), perform_text(step.process, scope),
+                             step.process ? step.process->where() : SourceRange()});
+    }
+    return subject.of(TraceExpectation(std::move(order)), scope);
+  };
+}
+
+PerformExpectation allocations_expectation(const Fields& fields) {
+  const ExpectationSubject subject(fields);
+  const Template node = fields.text("node");
+  const std::vector<std::string> states = {"active", "unconfigured", "inactive", "finalized", "any"};
+  const std::string state = states[choice(fields, "state", states)];
+  const std::optional<NumberField> most = from_zero(fields, "max");
+  return [=](LaunchContext& context) {
+    Scope& scope = context.scope();
+    return subject.of(TraceExpectation(ExpectedAllocations{resolve_name(node, scope), state == "any" ? "" : state,
+                                                           perform_count(most, scope, 0)}),
+                      scope);
   };
 }
 
@@ -216,6 +272,29 @@ ItemSpec event_item() {
        own_attribute("max", AttributeType::kInteger, false, "any number", "how many there are at most")});
 }
 
+ItemSpec order_item() {
+  ItemSpec spec = expectation_item(
+      "events_in_order", "events of the trace that come one after the other, with any others between them", {});
+  spec.items = {
+      {.tag = "event",
+       .help = "the next event",
+       .attributes = {text_attribute("name", true, "the event, or a pattern"),
+                      own_attribute("where", AttributeType::kText, false, "none", "a condition on its fields"),
+                      process_attribute(false)},
+       .extension = true}};
+  return spec;
+}
+
+ItemSpec allocations_item() {
+  return expectation_item(
+      "allocations", "how often the callbacks of a node ask for memory (malloc and the like)",
+      {text_attribute("node", true, "the node"),
+       own_attribute("state", AttributeType::kLiteral, false, "active",
+                     "only while its life cycle is in this state: active, inactive, unconfigured, finalized; any: also "
+                     "of a node without a life cycle"),
+       own_attribute("max", AttributeType::kInteger, false, "0", "how often at most")});
+}
+
 ItemSpec delivery_item() {
   return expectation_item(
       "delivery", "messages that reach a callback",
@@ -259,10 +338,12 @@ ItemSpec timer_item() {
 
 std::vector<ExpectationType> trace_expectation_types() {
   return {{event_item(), event_expectation},
+          {order_item(), order_expectation},
           {delivery_item(), delivery_expectation},
           {latency_item(), latency_expectation},
           {callback_item(), callback_expectation},
-          {timer_item(), timer_expectation}};
+          {timer_item(), timer_expectation},
+          {allocations_item(), allocations_expectation}};
 }
 
 }  // namespace launch

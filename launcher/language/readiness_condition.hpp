@@ -29,6 +29,9 @@ class ReadinessCondition {
 
   // A sentence for messages and --dry-run: "service /map/load is offered".
   virtual std::string describe() const = 0;
+
+  // What is there instead, as far as it is known: "inactive".
+  virtual std::string seen() const { return {}; }
 };
 
 }  // namespace launch

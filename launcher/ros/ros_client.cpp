@@ -21,6 +21,11 @@ struct Describe {
   std::string operator()(const ServicePresent& wait) const { return fmt::format("the '{}' service", wait.service); }
   std::string operator()(const MessagePublished& wait) const { return fmt::format("a message on '{}'", wait.topic); }
   std::string operator()(const StateReached& wait) const { return fmt::format("'{}' to be {}", wait.node, wait.state); }
+  std::string operator()(const ParameterReached& wait) const {
+    return fmt::format("parameter '{}' of '{}' to be {}", wait.parameter.name, wait.node,
+                       to_python_text(wait.parameter.value));
+  }
+  std::string operator()(const WatchMessages& watch) const { return fmt::format("messages on '{}'", watch.topic); }
   std::string operator()(const WatchTransitions& watch) const { return fmt::format("the state of '{}'", watch.node); }
 };
 

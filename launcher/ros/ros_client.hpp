@@ -7,11 +7,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "launcher/language/message_watch.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/substitution/parameter.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/visit/composable_node.hpp"
 
@@ -56,13 +59,25 @@ struct StateReached {
   std::string state;  // unconfigured, inactive, active or finalized
 };
 
+struct ParameterReached {
+  std::string node;
+  NamedParameter parameter;  // a number is equal to a number of the other type
+};
+
 // Answered at every change of the node's state, until it is cancelled.
 struct WatchTransitions {
   std::string node;
 };
+// Answered whenever messages have come, until it is cancelled.
+struct WatchMessages {
+  std::string topic;
+  std::string type;       // "std_msgs/msg/String"
+  std::string condition;  // on their fields (launcher/messages/message_condition.hpp); empty: none
+};
 
-using RosRequest = std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, NodePresent, TopicPresent,
-                                ServicePresent, MessagePublished, StateReached, WatchTransitions>;
+using RosRequest =
+    std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, NodePresent, TopicPresent, ServicePresent,
+                 MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages>;
 
 struct RosAnswer {
   bool ok = false;
@@ -75,6 +90,10 @@ struct RosAnswer {
   std::vector<std::uint64_t> ids;   // … and their numbers
   std::string state;                // GetState, StateReached, WatchTransitions: the state now
   std::string previous_state = {};  // WatchTransitions: the state before
+
+  // StateReached, ParameterReached: what the node says now. Other answers follow, and `ok` is false.
+  std::string seen = {};
+  std::optional<SeenMessages> messages = {};  // WatchMessages
 };
 
 // What the request waits for, for messages: "the '/c/_container/load_node' service", "a publisher of '/scan'".

@@ -119,8 +119,29 @@ struct Write {
   Json operator()(const ServicePresent& r) const { return {{"do", "wait_service"}, {"service", r.service}}; }
   Json operator()(const MessagePublished& r) const { return {{"do", "wait_message"}, {"topic", r.topic}}; }
   Json operator()(const StateReached& r) const { return {{"do", "wait_state"}, {"node", r.node}, {"state", r.state}}; }
+  Json operator()(const ParameterReached& r) const {
+    return {{"do", "wait_parameter"}, {"node", r.node}, {"parameter", to_json(std::vector{r.parameter})}};
+  }
+  Json operator()(const WatchMessages& r) const {
+    return {{"do", "watch_messages"}, {"topic", r.topic}, {"type", r.type}, {"condition", r.condition}};
+  }
   Json operator()(const WatchTransitions& r) const { return {{"do", "watch_transitions"}, {"node", r.node}}; }
 };
+
+Json to_json(const SeenMessages& seen) {
+  return {{"all", seen.all},   {"matching", seen.matching},     {"first_ns", seen.first_ns}, {"last_ns", seen.last_ns},
+          {"last", seen.last}, {"publishers", seen.publishers}, {"types", seen.types}};
+}
+
+SeenMessages messages_from(const Json& json) {
+  return {.all = json.at("all"),
+          .matching = json.at("matching"),
+          .first_ns = json.at("first_ns"),
+          .last_ns = json.at("last_ns"),
+          .last = json.at("last"),
+          .publishers = json.at("publishers"),
+          .types = json.at("types")};
+}
 
 RosRequest request_from(const std::string& what, const Json& json) {
   const auto text = [&](const char* name) { return json.at(name).get<std::string>(); };
@@ -153,6 +174,12 @@ RosRequest request_from(const std::string& what, const Json& json) {
   }
   if (what == "wait_state") {
     return StateReached{text("node"), text("state")};
+  }
+  if (what == "wait_parameter") {
+    return ParameterReached{text("node"), parameters_from(json.at("parameter")).at(0)};
+  }
+  if (what == "watch_messages") {
+    return WatchMessages{text("topic"), text("type"), text("condition")};
   }
   if (what == "watch_transitions") {
     return WatchTransitions{text("node")};
@@ -211,6 +238,10 @@ std::string to_line(const RosAnswerLine& line) {
   add("ids", answer.ids);
   add("state", answer.state);
   add("previous_state", answer.previous_state);
+  add("seen", answer.seen);
+  if (answer.messages) {
+    json["messages"] = to_json(*answer.messages);
+  }
   return line_of(json);
 }
 
@@ -226,6 +257,10 @@ RosAnswerLine parse_answer_line(std::string_view text) {
     line.answer.ids = json.value("ids", std::vector<std::uint64_t>());
     line.answer.state = json.value("state", "");
     line.answer.previous_state = json.value("previous_state", "");
+    line.answer.seen = json.value("seen", "");
+    if (json.contains("messages")) {
+      line.answer.messages = messages_from(json.at("messages"));
+    }
     return line;
   });
 }

@@ -17,6 +17,10 @@ struct Sentence {
     return fmt::format("a message has come on '{}'", wait.topic);
   }
   std::string operator()(const StateReached& wait) const { return fmt::format("'{}' is {}", wait.node, wait.state); }
+  std::string operator()(const ParameterReached& wait) const {
+    return fmt::format("parameter '{}' of '{}' is {}", wait.parameter.name, wait.node,
+                       to_python_text(wait.parameter.value));
+  }
   // These requests are no conditions; the registry of actions doesn't make conditions of them.
   template <typename Request>
   std::string operator()(const Request& request) const {
@@ -31,8 +35,12 @@ void RosReadiness::watch(EventLoop& loop, Done done) {
     watch_ = loop.after(Duration(0), [done = std::move(done)] { done("there is no ROS client"); });
     return;
   }
-  watch_ = client_->ask(condition_, environment_, Duration(0), [done = std::move(done)](const RosAnswer& answer) {
-    done(answer.ok ? std::nullopt : std::optional(answer.error));
+  watch_ = client_->ask(condition_, environment_, Duration(0), [this, done = std::move(done)](const RosAnswer& answer) {
+    if (!answer.seen.empty()) {
+      seen_ = answer.seen;
+    } else {
+      done(answer.ok ? std::nullopt : std::optional(answer.error));
+    }
   });
 }
 

@@ -17,11 +17,14 @@ class RosReadiness final : public ReadinessCondition {
   void watch(EventLoop& loop, Done done) override;
   // "service '/map/load' is offered", "a message has come on '/scan'".
   std::string describe() const override;
+  // "inactive", "parameter 'rate' is 10"
+  std::string seen() const override { return seen_; }
 
  private:
   RosClient* client_;
   RosRequest condition_;
   Environment environment_;
+  std::string seen_;
   EventLoop::SourcePtr watch_;
 };
 

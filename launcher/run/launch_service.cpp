@@ -324,6 +324,9 @@ void LaunchService::observe_output() {
 
 void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
   scopes_.prepare(spec);
+  if (prepare_for_test_) {
+    prepare_for_test_(spec);
+  }
   ros_tasks_.name_process(id, spec.other_names);
   record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
 }

@@ -73,6 +73,8 @@ class LaunchService {
     test_ending_ = std::move(ending);
     faults_.observe(std::move(fault));
   }
+  // `prepare` may change each process before its first start.
+  void use_test_processes(std::function<void(ProcessSpec&)> prepare) { prepare_for_test_ = std::move(prepare); }
   void end(const std::string& reason);
 
   // Failures of processes and components don't change the exit code, as with ros2 launch.
@@ -141,6 +143,7 @@ class LaunchService {
   std::function<void(TestRequest)> begin_test_;
   LineSink test_line_;
   std::function<void()> test_ending_;
+  std::function<void(ProcessSpec&)> prepare_for_test_;
   std::function<void(bool stops)> on_suspension_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;

@@ -44,8 +44,9 @@ std::string from_word(const std::string& word) {
 
 EngineTask task_of(const std::string& word) {
   const Json json = Json::parse(from_word(word));
-  EngineTask task{json.at("file"), json.at("name"), json.at("arguments").get<LaunchArguments>(), json.at("directory"),
-                  json.at("seed").get<std::uint64_t>()};
+  EngineTask task{json.at("file"),      json.at("name"),
+                  json.at("number"),    json.at("arguments").get<LaunchArguments>(),
+                  json.at("directory"), json.at("seed").get<std::uint64_t>()};
   if (json.contains("faults")) {
     task.faults = json.at("faults").get<std::set<std::size_t>>();
   }
@@ -55,6 +56,7 @@ EngineTask task_of(const std::string& word) {
 pid_t start_in_engine(const std::vector<std::string>& engine, const EngineTask& task) {
   Json json = {{"file", fs::absolute(task.file).string()},
                {"name", task.name},
+               {"number", task.number},
                {"arguments", task.arguments},
                {"directory", task.directory},
                {"seed", task.seed}};

@@ -21,6 +21,7 @@ namespace launch {
 struct EngineTask {
   std::string file;
   std::string name;
+  std::size_t number = 0;  // among the tests of the file
   LaunchArguments arguments;
   std::string directory;  // on a file system that both see, or of the other machine
   std::uint64_t seed = 1;

@@ -30,12 +30,9 @@ int run_task(const std::string& word) {
     const EngineTask task = task_of(word);
     const Environment environment = own_environment();
     const Registry registry = builtin_actions();
-    std::vector<TestCase> tests = list_tests(task.file, registry, environment, task.arguments);
-    std::erase_if(tests, [&](const TestCase& test) { return test.name != task.name; });
-    for (TestCase& test : tests) {
-      test.seed = task.seed;
-      test.faults = task.faults;
-    }
+    std::vector<TestCase> tests = {find_test(task.file, registry, environment, task.arguments, task.number, task.name)};
+    tests.front().seed = task.seed;
+    tests.front().faults = task.faults;
     QueueOptions options;
     options.directory = task.directory;
     options.keep = true;

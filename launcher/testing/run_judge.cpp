@@ -187,6 +187,14 @@ void RunJudge::judge_trace() {
   of_trace_.clear();
 }
 
+std::vector<pid_t> RunJudge::pids() const {
+  std::vector<pid_t> pids;
+  for (const RecordedProcess& process : processes_) {
+    pids.push_back(process.pid);
+  }
+  return pids;
+}
+
 std::size_t RunJudge::met() const {
   return trace_met_ + static_cast<std::size_t>(std::count_if(checks_.begin(), checks_.end(),
                                                              [](const auto& check) { return check->is_met(); }));

@@ -40,6 +40,9 @@ class RunJudge {
   // After the run.
   void finish();
 
+  const std::vector<Expectation>& expectations() const { return test_.expectations; }
+  // Of the processes that have been started.
+  std::vector<pid_t> pids() const;
   const std::vector<TestFailure>& failures() const { return failures_; }
   std::size_t met() const;
   std::size_t not_judged() const;

@@ -26,6 +26,7 @@
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/testing/engine_task.hpp"
+#include "launcher/testing/launch_testing_files.hpp"
 #include "launcher/testing/result_files.hpp"
 #include "launcher/testing/seeds.hpp"
 #include "launcher/testing/shrink.hpp"
@@ -177,7 +178,30 @@ bool write_results(const Options& options, const std::vector<TestResult>& result
   return junit && tap && json;
 }
 
+// Files of launch_testing have a program of their own.
+void run_if_launch_testing(const Options& options) {
+  const std::vector<std::string>& files = options.target.words;
+  const auto is_one = [](const std::string& file) { return is_launch_testing_file(file); };
+  const auto first = std::find_if(files.begin(), files.end(), is_one);
+  if (first == files.end()) {
+    return;
+  }
+  if (!std::all_of(files.begin(), files.end(), is_one)) {
+    throw UsageError(fmt::format("'{}' is a file of launch_testing: such files run without others", *first));
+  }
+  const bool has_options =
+      !options.jobs.empty() || !options.names.empty() || options.list || !options.directory.empty() || options.keep ||
+      !options.tap.empty() || !options.json.empty() || options.github || !options.repeat.empty() ||
+      options.until_failure || !options.retries.empty() || !options.shard.empty() || !options.engine.empty() ||
+      !options.seeds.seed.empty() || !options.seeds.seeds.empty() || !options.seeds.faults.empty() || options.shrink;
+  if (has_options) {
+    throw UsageError(fmt::format("'{}' is a file of launch_testing: of the options only --junit goes with it", *first));
+  }
+  run_launch_testing_files(files, options.target.arguments, options.junit);
+}
+
 int run(const Options& options) {
+  run_if_launch_testing(options);
   const Environment environment = own_environment();
   const Registry registry = builtin_actions();
   QueueOptions queue;

@@ -50,16 +50,33 @@ std::vector<std::string> search(const std::string& directory) {
   return found;
 }
 
-// A visit of the file with the tests in it. `chosen` as in LaunchContext::take_tests().
-LaunchPlan plan(const LaunchDescription& description, const Registry& registry, const Environment& environment,
-                const LaunchArguments& arguments, std::optional<std::size_t> chosen) {
-  LaunchContext context(registry, environment, own_prefix(), [](LogLevel, std::string_view, std::string_view) {});
-  for (const auto& [name, value] : arguments) {
-    context.scope().configurations.insert_or_assign(name, value);
+// A launch file whose tests are looked for.
+struct TestFile {
+  TestFile(const std::string& path, const Registry& with, const Environment& in, const LaunchArguments& given)
+      : file(path), registry(with), environment(in), arguments(given) {
+    Scope scope;
+    scope.environment = environment;
+    description = load_launch_files({file}, registry, scope);
   }
-  context.take_tests(chosen);
-  return plan_launch(context, description);
-}
+
+  // A visit of the file with the tests in it. `chosen` as in LaunchContext::take_tests().
+  LaunchPlan plan(std::optional<std::size_t> chosen) const {
+    LaunchContext context(registry, environment, own_prefix(), [](LogLevel, std::string_view, std::string_view) {});
+    for (const auto& [name, value] : arguments) {
+      context.scope().configurations.insert_or_assign(name, value);
+    }
+    context.take_tests(chosen);
+    return plan_launch(context, *description);
+  }
+
+  TestCase test_case(const TestRequest& test, std::size_t number) const;
+
+  const std::string& file;
+  const Registry& registry;
+  const Environment& environment;
+  const LaunchArguments& arguments;
+  std::shared_ptr<const LaunchDescription> description;
+};
 
 void add_names(const LaunchPlan& plan, std::set<std::string>& names, bool& is_complete) {
   for (const ProcessSpec& spec : plan.processes) {
@@ -95,6 +112,12 @@ void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Di
   };
   for (const Expectation& expectation : test.expectations) {
     check(expectation.process, expectation.process_where);
+    const auto* const trace = std::get_if<TraceExpectation>(&expectation.what);
+    if (const auto* const order = trace == nullptr ? nullptr : std::get_if<ExpectedEventOrder>(trace)) {
+      for (const ExpectedEventOrder::Step& step : order->steps) {
+        check(step.process, step.process_where);
+      }
+    }
   }
   for (const FaultRequest& fault : test.faults) {
     check(fault.process, fault.process_where);
@@ -104,15 +127,41 @@ void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Di
 // Events that the session of a test must be asked for, because they are not of ROS 2.
 std::vector<std::string> other_events(const TestRequest& test) {
   std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.starts_with("ros2:") && !name.starts_with("ros2_ext:") && !name.starts_with("launch:")) {
+      names.push_back(name);
+    }
+  };
   for (const Expectation& expectation : test.expectations) {
     const auto* const trace = std::get_if<TraceExpectation>(&expectation.what);
-    const auto* const event = trace == nullptr ? nullptr : std::get_if<ExpectedEvent>(trace);
-    if (event != nullptr && !event->name.starts_with("ros2:") && !event->name.starts_with("ros2_ext:") &&
-        !event->name.starts_with("launch:")) {
-      names.push_back(event->name);
+    if (trace == nullptr) {
+      continue;
+    }
+    if (const auto* const event = std::get_if<ExpectedEvent>(trace)) {
+      add(event->name);
+    } else if (const auto* const order = std::get_if<ExpectedEventOrder>(trace)) {
+      for (const ExpectedEventOrder::Step& step : order->steps) {
+        add(step.event.name);
+      }
+    } else if (std::holds_alternative<ExpectedAllocations>(*trace)) {
+      add("lttng_ust_libc:*");
     }
   }
   return names;
+}
+
+TestCase TestFile::test_case(const TestRequest& test, std::size_t number) const {
+  return {.file = file,
+          .description = description,
+          .number = number,
+          .name = test.name,
+          .line = test.where ? test.where.file->position(test.where.begin).line : 0,
+          .where = test.where,
+          .timeout = test.timeout,
+          .traced = test.is_traced(),
+          .events = other_events(test),
+          .fault_count = test.faults.size(),
+          .shows_seed = !test.faults.empty()};
 }
 
 }  // namespace
@@ -133,12 +182,10 @@ std::vector<std::string> find_test_files(const std::vector<std::string>& words, 
 
 std::vector<TestCase> list_tests(const std::string& file, const Registry& registry, const Environment& environment,
                                  const LaunchArguments& arguments) {
-  Scope scope;
-  scope.environment = environment;
-  const auto description = load_launch_files({file}, registry, scope);
-  const LaunchPlan all = plan(*description, registry, environment, arguments, std::nullopt);
+  const TestFile tests_of(file, registry, environment, arguments);
+  const LaunchPlan all = tests_of.plan(std::nullopt);
   if (all.tests.empty()) {
-    throw LaunchError("the launch file has no test", SourceRange{description->file, 0, 0},
+    throw LaunchError("the launch file has no test", SourceRange{tests_of.description->file, 0, 0},
                       "a test says what must happen: <test name=\"…\"><output text=\"…\"/></test>");
   }
   std::vector<TestCase> tests;
@@ -156,26 +203,27 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
         errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
       }
     }
-    const LaunchPlan whole = plan(*description, registry, environment, arguments, tests.size());
-    const TestRequest& same = whole.tests.at(tests.size());
+    const LaunchPlan whole = tests_of.plan(tests.size());
+    const TestRequest& same = whole.tests.front();
     check_names(same, whole, errors);
-    const unsigned line = test.where ? test.where.file->position(test.where.begin).line : 0;
-    tests.push_back({.file = file,
-                     .description = description,
-                     .number = tests.size(),
-                     .name = test.name,
-                     .line = line,
-                     .timeout = test.timeout,
-                     .traced = test.is_traced(),
-                     .events = other_events(test),
-                     .is_only = all.tests.size() == 1,
-                     .fault_count = same.faults.size(),
-                     .shows_seed = !same.faults.empty()});
+    tests.push_back(tests_of.test_case(same, tests.size()));
+    tests.back().is_only = all.tests.size() == 1;
   }
   if (!errors.empty()) {
     throw LaunchError(std::move(errors));
   }
   return tests;
+}
+
+TestCase find_test(const std::string& file, const Registry& registry, const Environment& environment,
+                   const LaunchArguments& arguments, std::size_t number, const std::string& name) {
+  const TestFile tests_of(file, registry, environment, arguments);
+  const LaunchPlan whole = tests_of.plan(number);
+  if (whole.tests.empty() || whole.tests.front().name != name) {
+    throw LaunchError(fmt::format("test {} of the launch file is not '{}' here", number + 1, name),
+                      SourceRange{tests_of.description->file, 0, 0});
+  }
+  return tests_of.test_case(whole.tests.front(), number);
 }
 
 }  // namespace launch

@@ -26,6 +26,7 @@ struct TestCase {
   std::size_t number = 0;  // among the tests of the file, in the order of the visit
   std::string name;
   unsigned line = 0;
+  SourceRange where;  // of the tag
   Duration timeout{0};
   bool traced = false;              // its run is recorded
   std::vector<std::string> events;  // that it names, beside those of ROS 2
@@ -48,5 +49,10 @@ std::vector<std::string> find_test_files(const std::vector<std::string>& words, 
 // the launch file does not start. Throws LaunchError.
 std::vector<TestCase> list_tests(const std::string& file, const Registry& registry, const Environment& environment,
                                  const LaunchArguments& arguments);
+
+// The test of this number, which list_tests() has found elsewhere. Its mistakes are not looked for again. Throws
+// LaunchError, also if it has another name here.
+TestCase find_test(const std::string& file, const Registry& registry, const Environment& environment,
+                   const LaunchArguments& arguments, std::size_t number, const std::string& name);
 
 }  // namespace launch

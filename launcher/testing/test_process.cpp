@@ -17,11 +17,13 @@
 #include "launcher/base/domain_lease.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/process_mark.hpp"
+#include "launcher/base/session_suffix.hpp"
 #include "launcher/cli/launch_tracepoints.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/testing/artefacts.hpp"
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
 #include "launcher/testing/trace_session.hpp"
@@ -36,7 +38,8 @@ Environment own_surroundings(const TestRun& run, int domain) {
   environment["LAUNCH_TEST_SEED"] = std::to_string(run.test.seed);
   environment["ROS_HOME"] = run.directory + "/ros";
   environment["ROS_LOG_DIR"] = run.directory + "/log";
-  environment["ROS_TRACE_DIR"] = run.directory + "/own_traces";
+  environment["ROS_TRACE_DIR"] = own_trace_directory(run.directory);
+  environment[kSessionSuffixVariable] = fmt::format("-{}", ::getpid());
   return environment;
 }
 
@@ -64,6 +67,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   for (const auto& [name, value] : run.arguments) {
     context.scope().configurations.insert_or_assign(name, value);
   }
+  context.scope().configurations.insert_or_assign("crash-dir", crash_directory(run.directory));
   context.take_tests(run.test.number);
   context.choose_faults({run.test.seed, run.test.faults});
 
@@ -92,11 +96,15 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
         judge.on_line(spec, label, stream, line);
       },
       [&] { judge.on_shutdown(); }, [&](const FaultEvent& event) { judge.on_fault(event); });
+  launch.use_test_processes([&](ProcessSpec& spec) { expect_no_crash_bundle(judge.expectations(), spec); });
   guardian.wait_until_ready();
   launch.run(run.test.traced ? *recorded(*run.test.description, run.registry, run.directory, run.test.events)
                              : *run.test.description);
   judge.finish();
   result.failures = judge.failures();
+  if (!result.failures.empty()) {
+    write_reports(run.directory, judge.pids());
+  }
   result.met = judge.met();
   result.not_judged = judge.not_judged();
   result.faults = judge.faults();
@@ -122,16 +130,20 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
     result.failures.push_back({.message = error.what(), .text = fmt::format("error: {}\n", error.what())});
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  std::ofstream(result_file(run.directory)) << to_json(result) << '\n';
+  const std::string text = to_json(result) + "\n";
+  std::ofstream(run.directory + "/result.json") << text;
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t count = ::write(run.result, text.data() + written, text.size() - written);
+    if (count < 0 && errno != EINTR) {
+      break;  // the one who has started the test tells that there is no result
+    }
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
   std::fflush(nullptr);
   ::_exit(0);
 }
 
 }  // namespace
-
-std::string result_file(const std::string& directory) {
-  return directory + "/result.json";
-}
 
 pid_t start_test(const TestRun& run) {
   std::fflush(nullptr);

@@ -18,11 +18,9 @@ struct TestRun {
   const Registry& registry;
   const Environment& environment;
   const LaunchArguments& arguments;
-  std::string directory;  // exists; gets output.txt, log/, ros/ and the result
+  std::string directory;  // exists; gets output.txt, log/, ros/ and result.json
+  int result;             // a descriptor that gets the result (test_result.hpp); a full disk can't take it away
 };
-
-// The result that the process of the test leaves in its directory (test_result.hpp).
-std::string result_file(const std::string& directory);
 
 // Starts the test with fork(2), which is cheap, and returns the number of the process. This process must have one
 // thread. The test ends when this process does. SIGINT ends it as Ctrl-C ends a launch.

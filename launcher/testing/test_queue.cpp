@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/signalfd.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -25,8 +26,10 @@
 #include "launcher/base/ending_signals.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
+#include "launcher/process/guardian/left_behind.hpp"
 #include "launcher/testing/checks/check.hpp"
 #include "launcher/testing/engine.hpp"
+#include "launcher/testing/failure.hpp"
 #include "launcher/testing/seeds.hpp"
 #include "launcher/testing/test_process.hpp"
 
@@ -47,9 +50,26 @@ std::string read_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string last_part(const std::string& text) {
-  constexpr std::size_t kMost = 2000;
-  return text.size() <= kMost ? text : text.substr(text.find('\n', text.size() - kMost) + 1);
+// The last lines of a file, which may be large.
+std::string read_end(const std::string& path, std::streamoff most) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  if (size <= most) {
+    return read_text(path);
+  }
+  file.seekg(size - most);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  return text.substr(text.find('\n') + 1);
+}
+
+constexpr std::streamoff kShown = 2000;           // of the output of a test without a result
+constexpr std::streamoff kOfGuardian = 64 << 10;  // what launch-guardian writes at the end is shorter
+
+// A failure of the whole test. `output` stands below.
+TestFailure failure_of_test(const TestCase& test, const std::string& message, const std::string& output = {}) {
+  TestFailure failure = as_text(Failure{message, test.where});
+  failure.text += output;
+  return failure;
 }
 
 // "0003-answers_each_message"
@@ -117,6 +137,7 @@ class Queue {
     std::string directory;
     pid_t pid;
     UniqueFd pidfd;
+    UniqueFd result;  // of a test that runs here
     Clock::time_point begin;
     Clock::time_point deadline;
     int told = 0;
@@ -135,16 +156,28 @@ class Queue {
     if (attempt > 1) {
       directory += fmt::format("-attempt{}", attempt);
     }
-    fs::create_directories(directory);
     const Clock::time_point now = Clock::now();
     const bool here = options_.engine.empty();
-    const pid_t pid =
-        here ? start_test({test, registry_, environment_, arguments_, directory})
-             : start_in_engine(options_.engine, {test.file, test.name, arguments_, directory, test.seed, test.faults});
+    Running run{.number = number, .attempt = attempt, .directory = directory, .pid = -1, .begin = now};
     // An engine may let a test wait for its turn.
-    running_.push_back(
-        {number, attempt, directory, pid, UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))), now,
-         here ? now + std::chrono::duration_cast<Clock::duration>(test.timeout) + kGrace : Clock::time_point::max()});
+    run.deadline =
+        here ? now + std::chrono::duration_cast<Clock::duration>(test.timeout) + kGrace : Clock::time_point::max();
+    try {
+      fs::create_directories(directory);
+      if (here) {
+        run.result.reset(::memfd_create("result", MFD_CLOEXEC));
+      }
+      run.pid = here ? start_test({test, registry_, environment_, arguments_, directory, run.result.get()})
+                     : start_in_engine(options_.engine, {test.file, test.name, test.number, arguments_, directory,
+                                                         test.seed, test.faults});
+    } catch (const std::exception& error) {
+      TestResult result{.file = test.file, .name = test.name, .line = test.line};
+      result.failures.push_back(failure_of_test(test, fmt::format("the test can't be started: {}", error.what())));
+      take(run, std::move(result));
+      return;
+    }
+    run.pidfd.reset(static_cast<int>(::syscall(SYS_pidfd_open, run.pid, 0)));
+    running_.push_back(std::move(run));
     tell_progress();
   }
 
@@ -187,8 +220,13 @@ class Queue {
     const int status = wait_for(run.pid);
     TestResult result = result_of(run, status);
     if (interrupted_) {
-      result.failures = {{.message = "the test was interrupted", .text = "error: the test was interrupted\n"}};
-    } else if (!result.passed() && run.attempt <= options_.retries) {
+      result.failures = {failure_of_test(test_of(run.number), "the test was interrupted")};
+    }
+    take(run, std::move(result));
+  }
+
+  void take(const Running& run, TestResult result) {
+    if (!interrupted_ && !result.passed() && run.attempt <= options_.retries) {
       first_failures_.try_emplace(run.number, result.failures.front().message);
       again_.emplace_back(run.number, run.attempt + 1);
       return;
@@ -216,11 +254,19 @@ class Queue {
   }
 
   TestResult result_of(const Running& run, int status) const {
-    if (std::optional<TestResult> result = options_.engine.empty() ? from_json(read_text(result_file(run.directory)))
-                                                                   : result_of_engine(run.directory)) {
+    const bool here = options_.engine.empty();
+    const std::string output = run.directory + (here ? "/output.txt" : "/engine.txt");
+    if (std::optional<TestResult> result = here
+                                               ? from_json(read_text(fmt::format("/proc/self/fd/{}", run.result.get())))
+                                               : result_of_engine(run.directory)) {
       if (run.told > 0) {
-        const std::string text = "the test did not end, and was told to";
-        result->failures.push_back({.message = text, .text = fmt::format("error: {}\n", text)});
+        result->failures.push_back(failure_of_test(test_of(run.number), "the test did not end, and was told to"));
+      }
+      if (here) {
+        // launch-guardian has ended them when the process of the test had written its result.
+        for (const std::string& left : left_behind(read_end(output, kOfGuardian))) {
+          result->failures.push_back(failure_of_test(test_of(run.number), left));
+        }
       }
       result->file = test_of(run.number).file;
       return std::move(*result);
@@ -229,14 +275,11 @@ class Queue {
     TestResult result{.file = test.file, .name = test.name, .line = test.line};
     result.seconds = std::chrono::duration<double>(Clock::now() - run.begin).count();
     result.directory = run.directory;
-    const std::string text = fmt::format("the {} has ended with {}, without a result",
-                                         options_.engine.empty() ? "process of the test" : "engine",
-                                         exit_text(WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status)));
-    result.failures.push_back(
-        {.message = text,
-         .text = fmt::format(
-             "error: {}\n{}", text,
-             last_part(read_text(run.directory + (options_.engine.empty() ? "/output.txt" : "/engine.txt"))))});
+    result.failures.push_back(failure_of_test(
+        test,
+        fmt::format("the {} has ended with {}, without a result", here ? "process of the test" : "engine",
+                    exit_text(WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status))),
+        read_end(output, kShown)));
     return result;
   }
 

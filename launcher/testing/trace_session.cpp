@@ -2,13 +2,14 @@
 #include "launcher/testing/trace_session.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "launcher/cli/xml_text.hpp"
 
 namespace launch {
 
 namespace {
+
+constexpr const char* kSession = "test";
 
 // A text as the value of an attribute: `$` and `\\` mean something in launch files.
 std::string attribute(const std::string& text) {
@@ -28,6 +29,10 @@ std::string trace_directory(const std::string& directory) {
   return directory + "/trace";
 }
 
+std::string own_trace_directory(const std::string& directory) {
+  return directory + "/own_traces";
+}
+
 std::shared_ptr<const LaunchDescription> recorded(const LaunchDescription& description, const Registry& registry,
                                                   const std::string& directory,
                                                   const std::vector<std::string>& other_events) {
@@ -37,9 +42,9 @@ std::shared_ptr<const LaunchDescription> recorded(const LaunchDescription& descr
   }
   // ROS 2's buffers of 32 KiB lose events when many processes start.
   const std::string text = fmt::format(
-      "<launch><trace session-name=\"launch-test-{}\" base-path=\"{}\" events-ust=\"{}\" "
+      "<launch><trace session-name=\"{}\" base-path=\"{}\" events-ust=\"{}\" "
       "subbuffer-size-ust=\"1048576\"/></launch>",
-      ::getpid(), attribute(trace_directory(directory)), attribute(events));
+      kSession, attribute(trace_directory(directory)), attribute(events));
   const auto trace = parse_launch_description(std::make_shared<SourceFile>("launch test", text), registry);
   auto with_trace = std::make_shared<LaunchDescription>(description);
   with_trace->actions.insert(with_trace->actions.begin(), trace->actions.begin(), trace->actions.end());

@@ -13,6 +13,8 @@ namespace launch {
 
 // Where the trace of a test is, below its directory.
 std::string trace_directory(const std::string& directory);
+// Where the traces are that the launch file itself records, unless it says so.
+std::string own_trace_directory(const std::string& directory);
 
 // The description with a <trace> of its own, whose session no other run has. It records ROS 2's events and the others
 // that are named.

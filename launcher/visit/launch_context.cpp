@@ -51,7 +51,10 @@ LaunchContext::TestPart LaunchContext::next_test() {
   if (!takes_tests_) {
     return TestPart::kNothing;
   }
-  return chosen_test_ == number ? TestPart::kActionsToo : TestPart::kExpectations;
+  if (!chosen_test_) {
+    return TestPart::kExpectations;
+  }
+  return chosen_test_ == number ? TestPart::kActionsToo : TestPart::kNothing;
 }
 
 std::vector<FaultRequest> LaunchContext::visit_test(const std::vector<ActionPtr>& actions) {

@@ -54,8 +54,9 @@ class LaunchContext {
   void plan_only() { plan_only_ = true; }
   bool is_plan_only() const { return plan_only_; }
 
-  // From now on the tests of launch files are requested. Without this call they have no effect. The actions within a
-  // test are visited if `chosen` is its number, from 0 in the order of the visit.
+  // From now on the tests of launch files are requested, without the actions within them. With `chosen` it is only the
+  // test of this number, from 0 in the order of the visit, and its actions are visited. Without this call tests have no
+  // effect.
   void take_tests(std::optional<std::size_t> chosen) {
     takes_tests_ = true;
     chosen_test_ = chosen;

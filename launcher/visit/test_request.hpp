@@ -13,6 +13,7 @@
 
 #include "launcher/base/source.hpp"
 #include "launcher/language/exit_code_filter.hpp"
+#include "launcher/language/message_watch.hpp"
 #include "launcher/language/output_pattern.hpp"
 #include "launcher/language/readiness_condition.hpp"
 #include "launcher/process/event_loop.hpp"
@@ -42,6 +43,7 @@ struct ExpectedOutput {
   ExpectedLine line;
   std::uint64_t least = 1;
   std::optional<std::uint64_t> most;  // nullopt: any number
+  bool after_shutdown = false;        // only lines that come while the end of the test ends the process
 };
 // Each of the lines later than the one before.
 struct ExpectedSequence {
@@ -51,6 +53,13 @@ struct ExpectedGraph {
   std::shared_ptr<ReadinessCondition> condition;
   bool absent = false;
 };
+struct ExpectedMessages {
+  std::shared_ptr<MessageWatch> watch;
+  std::uint64_t least = 1;
+  std::optional<std::uint64_t> most;  // nullopt: any number
+  std::optional<double> least_rate;   // messages in a second, from the first to the last one
+  std::optional<double> most_rate;
+};
 // The most that a process may have used when it ends.
 struct ExpectedResources {
   std::optional<std::uint64_t> memory;  // bytes in use at the same time
@@ -58,7 +67,9 @@ struct ExpectedResources {
 };
 
 struct Expectation {
-  std::variant<ExpectedExit, ExpectedOutput, ExpectedSequence, ExpectedGraph, ExpectedResources, TraceExpectation> what;
+  std::variant<ExpectedExit, ExpectedOutput, ExpectedSequence, ExpectedGraph, ExpectedMessages, ExpectedResources,
+               TraceExpectation>
+      what;
   std::string process;             // a name (process_table.hpp); empty: every process
   SourceRange process_where;       // the place of that name
   std::optional<Duration> within;  // from the begin of the test

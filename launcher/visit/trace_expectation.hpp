@@ -29,6 +29,16 @@ struct ExpectedEvent {
   std::optional<std::uint64_t> most;  // nullopt: any number
 };
 
+// Events of which each comes later than the one before.
+struct ExpectedEventOrder {
+  struct Step {
+    ExpectedEvent event;
+    std::string process;  // a name; empty: every process
+    SourceRange process_where;
+  };
+  std::vector<Step> steps;
+};
+
 // The messages of a topic, from and to these nodes; empty: any.
 struct ExpectedDelivery {
   std::string topic;
@@ -68,7 +78,14 @@ struct ExpectedTimer {
   std::uint64_t most_missed = 0;   // periods in which it should have fired
 };
 
-using TraceExpectation =
-    std::variant<ExpectedEvent, ExpectedDelivery, ExpectedLatency, ExpectedCallback, ExpectedTimer>;
+// How often the callbacks of a node ask for memory.
+struct ExpectedAllocations {
+  std::string node;
+  std::string state;  // of its life cycle; empty: any, and it needs none
+  std::uint64_t most = 0;
+};
+
+using TraceExpectation = std::variant<ExpectedEvent, ExpectedEventOrder, ExpectedDelivery, ExpectedLatency,
+                                      ExpectedCallback, ExpectedTimer, ExpectedAllocations>;
 
 }  // namespace launch

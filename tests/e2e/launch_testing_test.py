@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files of ROS 2's launch_testing, run by `launch_test`."""
 
+import importlib.util
 import os
 import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -65,6 +67,51 @@ class LaunchTest(unittest.TestCase):
         _, outcomes = self.outcomes('started_by_tests.py')
         self.assertEqual(set(outcomes.values()), {'passed'})
         self.assertEqual(len(outcomes), 3)
+
+    def test_processes_that_are_tests(self):
+        _, outcomes = self.outcomes('test_actions.py')
+        self.assertEqual(set(outcomes.values()), {'passed'})
+        self.assertEqual(len(outcomes), 3)
+
+    def run_other(self, *words, code=0, **environment):
+        result = subprocess.run([*map(str, words)], env={**self.environment, **environment}, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, timeout=PATIENCE, cwd=FILES)
+        self.assertEqual(result.returncode, code, result.stdout)
+        return result.stdout
+
+    def test_launch_test_runs_such_files(self):
+        launcher = os.environ['LAUNCH_PROGRAM']
+        results = self.directory / 'results.xml'
+        output = self.run_other(launcher, 'test', 'parametrized.py', 'greeting:=bonjour', '--junit', results)
+        self.assertIn('OK', output)
+        self.assertEqual(int(ElementTree.parse(results).getroot().get('tests')), 6)
+        self.run_other(launcher, 'test', 'fails.py', code=1)
+        self.assertEqual(self.run_other(launcher, 'test', 'good.py', '--repeat', '2', code=2).splitlines()[0],
+                         "launch test: 'good.py' is a file of launch_testing: of the options only --junit goes with it")
+        self.assertEqual(self.run_other(launcher, 'test', 'good.py', 'system.launch.xml', code=2).splitlines()[0],
+                         "launch test: 'good.py' is a file of launch_testing: such files run without others")
+
+    def test_the_program_is_a_module(self):
+        packages = str(Path(os.environ['LAUNCH_PROGRAM']).parent.parent / 'lib/launch/python')
+        for module in ('launch_testing', 'launch_testing.launch_test'):
+            output = self.run_other(sys.executable, '-m', module, 'kept_alive.py', PYTHONPATH=packages)
+            self.assertIn('OK', output)
+
+    @unittest.skipUnless(importlib.util.find_spec('pytest'), 'pytest is not installed')
+    def test_pytest_collects_such_files(self):
+        plugins = next((Path(os.environ['LAUNCH_PROGRAM']).parent.parent / 'lib').glob('python3*/dist-packages'))
+        pytest = (sys.executable, '-B', '-m', 'pytest', '-p', 'no:cacheprovider', '-ra')
+        output = self.run_other(*pytest, 'test_actions.py', PYTHONPATH=str(plugins))
+        self.assertRegex(output, r'\n=* 1 passed in ')
+        bad = self.directory / 'test_bad.py'
+        source = (FILES / 'fails.py').read_text().replace('def generate_test', '@pytest.mark.launch_test\ndef generate_test')
+        bad.write_text('import pytest\n' + source)
+        output = self.run_other(*pytest, bad, '--launch-args', 'a:=b', PYTHONPATH=str(plugins), code=1)
+        self.assertIn('\nFAIL: TestFailures.test_failure\n', output)
+        self.assertRegex(output, r'\n=* 1 failed in ')
+        plain = self.directory / 'test_plain.py'
+        plain.write_text('def test_nothing():\n    pass\n')
+        self.assertRegex(self.run_other(*pytest, plain, PYTHONPATH=str(plugins)), r'\n=* 1 passed in ')
 
     def test_a_launch_for_each_parameter(self):
         _, cases = self.results('parametrized.py', 'greeting:=bonjour', '--package-name', 'words')

@@ -2,6 +2,7 @@
 // `launch test`: the tests of launch files, those that pass and those that do not.
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/mount.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -149,6 +150,57 @@ bad.launch.xml:5:15: error: two tests are named 'a'
       = help: in a loop, put $(index …) or $(for-var …) into the name
 )");
   EXPECT_FALSE(fs::exists(sandbox_.directory() / "started"));
+}
+
+TEST_F(TestCommand, ANameIsOneLine) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <test name="two&#10;lines"><output text="a"/></test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(plain(result.err),
+            R"(a.launch.xml:3:15: error: the name of the test has a line break or another control character
+    3 |   <test name="two&#10;lines"><output text="a"/></test>
+      |               ^~~~~~~~~~~~~
+      = help: it stands on one line in reports
+)");
+}
+
+TEST_F(TestCommand, ADirectoryThatCantBeMadeFailsTheTests) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <test name="one"><executable name="step" cmd="true"/><exit process="step"/></test>
+  <test name="two"><executable name="step" cmd="true"/><exit process="step"/></test>)xml");
+  const fs::path directory = sandbox_.directory() / "results";
+  fs::create_directories(directory);
+  write_file(directory / "0001-one", "a file is in the way");
+  const CommandResult result = run({file, "-j", "1", "--directory", directory.string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(plain(result.out), HasSubstr("a.launch.xml:3:4: error: the test can't be started: "));
+  EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: two  T s\n"));
+}
+
+TEST_F(TestCommand, AFullDiskTakesNoResultAway) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="flood" shell="true" cmd="head -c 4000000 /dev/zero | tr '\0' 'x' | fold; echo over; exit 3" output="both"/>
+  <test name="bad"><exit process="flood"/></test>
+  <test name="good"><exit process="flood" code="3"/></test>)xml");
+  const fs::path directory = sandbox_.directory() / "full";
+  fs::create_directories(directory);
+  // The sandbox has a mount namespace of its own.
+  ASSERT_EQ(::mount("tmpfs", directory.c_str(), "tmpfs", 0, "size=1m"), 0);
+  const CommandResult result = run({file, "-j", "1", "--directory", directory.string()});
+  ::umount(directory.c_str());
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("error: 'flood' has exited with code 3\n"));
+  EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: good  T s\n"));
+}
+
+TEST_F(TestCommand, ATestWhoseLauncherIsKilledHasFailed) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <test name="kills it"><executable name="step" shell="true" cmd="kill -9 $PPID; sleep 1000"/><exit process="step"/></test>)xml");
+  const CommandResult result = run({file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(plain(result.out), HasSubstr("a.launch.xml:3:4: error: the process of the test has ended with signal "
+                                           "SIGKILL, without a result\n"));
 }
 
 TEST_F(TestCommand, ATestExpectsSomething) {
@@ -372,7 +424,9 @@ TEST_F(TestCommand, AnEngineGetsEachTestAndGivesItsResult) {
   EXPECT_THAT(plain(result.out),
               HasSubstr("FAIL  a.launch.xml: bad  T s\na.launch.xml:6:21: error: 'say' has exited with code 3\n"));
   result = run({file, "code:=3", "-n", "bad", "--engine", "echo no"});
-  EXPECT_THAT(result.out, HasSubstr("error: the engine has ended with code 0, without a result\nno "));
+  EXPECT_THAT(plain(result.out),
+              HasSubstr("a.launch.xml:6:4: error: the engine has ended with code 0, without a result\n"));
+  EXPECT_THAT(result.out, HasSubstr("      |    ^~~~\nno "));
 }
 
 TEST_F(TestCommand, CTestRunsLaunchFilesOfAProject) {

@@ -326,6 +326,8 @@ int main(int argc, char** argv) {
   for (const char* option : {"--diff", "--baseline", "--save-baseline"}) live->excludes(app.get_option(option));
   // For the verdict of a session, which compares this with the events that the processes have fired.
   app.add_flag("--recorded", arguments.recorded)->group("");
+  // For the page of a test, whose session has recorded the tests beside it, too.
+  app.add_option("--processes", arguments.files.processes)->delimiter(',')->group("");
   std::string from;
   std::string to;
   app.add_option("--from", from,

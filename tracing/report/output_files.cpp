@@ -28,9 +28,10 @@ std::int64_t absolute(const std::optional<TimeBound>& bound, std::int64_t first_
 // Hands each event on to those that are asked for.
 class Readers : public TraceSink {
  public:
-  Readers(TraceAnalysis& analysis, AnalysisModelWriter* model, bool with_analysis)
-      : analysis_(analysis), model_(model), with_analysis_(with_analysis) {}
+  Readers(TraceAnalysis& analysis, AnalysisModelWriter* model, const OutputFiles& files)
+      : analysis_(analysis), model_(model), with_analysis_(files.needs_timeline()), processes_(files.processes) {}
   void on_event(const Event& event) override {
+    if (!processes_.empty() && event.vpid && !processes_.contains(*event.vpid)) return;
     if (with_analysis_) analysis_.on_event(event);
     if (model_ != nullptr) model_->on_event(event);
     ++events_;
@@ -42,6 +43,7 @@ class Readers : public TraceSink {
   TraceAnalysis& analysis_;
   AnalysisModelWriter* model_;
   bool with_analysis_;
+  const std::set<std::int64_t>& processes_;
   std::uint64_t events_ = 0;
 };
 
@@ -65,7 +67,7 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
   system.open = reader.open_directories();
   system.verdict = read_verdicts(directories);
   const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);
-  Readers readers(analysis, model.get(), files.needs_timeline());
+  Readers readers(analysis, model.get(), files);
   try {
     reader.read(readers);
   } catch (const TraceReadError& error) {

@@ -2,8 +2,10 @@
 // The files that `launch report` writes beside its text: a page, and the formats of other tools.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,9 @@ namespace tracing {
 
 // Empty names are not written.
 struct OutputFiles {
-  std::optional<TimeBound> from;  // only what begins from this time on
-  std::optional<TimeBound> to;    // and before this time
+  std::optional<TimeBound> from;     // only what begins from this time on
+  std::optional<TimeBound> to;       // and before this time
+  std::set<std::int64_t> processes;  // only userspace events of these; empty: of all
 
   std::filesystem::path html;
   std::filesystem::path perfetto;

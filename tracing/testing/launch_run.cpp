@@ -25,6 +25,7 @@
 #include "launch_trace_testing/event_query.hpp"
 #include "launcher/base/domain_lease.hpp"
 #include "launcher/base/own_environment.hpp"
+#include "launcher/base/session_suffix.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "tracing/testing/wrapper_file.hpp"
@@ -36,6 +37,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
+constexpr const char* kSession = "test";
 constexpr std::chrono::seconds kEndPatience{30};  // from SIGINT to SIGKILL
 
 fs::path make_directory() {
@@ -102,7 +104,8 @@ struct LaunchRun::State {
   fs::path directory = make_directory();
   fs::path traces = directory / "traces";
   fs::path file = directory / "run.launch.xml";
-  std::string session = "test_" + directory.filename().string();
+  std::string suffix = "_" + directory.filename().string();  // of the names of its sessions
+  std::string session = kSession + suffix;
   launch::UniqueFd changes{::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)};
   pid_t pid = -1;
   launch::UniqueFd pidfd;
@@ -115,12 +118,13 @@ struct LaunchRun::State {
 
   void start() {
     fs::create_directories(traces);
-    std::ofstream(file) << wrapper_file(options, session, traces);
+    std::ofstream(file) << wrapper_file(options, kSession, traces);
     std::map<std::string, std::string> environment = launch::own_environment();
     environment["ROS_DOMAIN_ID"] = std::to_string(domain.id());
     environment["ROS_HOME"] = (directory / "ros").string();
     environment["ROS_LOG_DIR"] = (directory / "log").string();
     environment["ROS_TRACE_DIR"] = traces.string();
+    environment[launch::kSessionSuffixVariable] = suffix;
     for (const auto& [name, value] : options.environment) environment[name] = value;
     const launch::UniqueFd out_file = new_file(out());
     const launch::UniqueFd err_file = new_file(err());

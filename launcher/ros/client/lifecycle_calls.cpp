@@ -112,6 +112,12 @@ class StateWait final : public Operation {
 
   bool check(const std::string& state) {
     if (state != request_.state) {
+      if (state != seen_) {
+        seen_ = state;
+        RosAnswer seen;
+        seen.seen = state;
+        tell(seen);
+      }
       return false;
     }
     RosAnswer answer;
@@ -126,6 +132,7 @@ class StateWait final : public Operation {
   TransitionEvents events_;
   std::optional<ServiceCall<lifecycle_srv::GetState>> question_;
   Clock::time_point asked_;
+  std::string seen_;
 };
 
 class TransitionWatch final : public Operation {

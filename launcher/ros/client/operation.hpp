@@ -76,6 +76,8 @@ std::unique_ptr<Operation> wait_for(const TopicPresent& request, rclcpp::Node& n
 std::unique_ptr<Operation> wait_for(const ServicePresent& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> wait_for(const MessagePublished& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> wait_for(const StateReached& request, rclcpp::Node& node, Operation::Answer answer);
+std::unique_ptr<Operation> wait_for(const ParameterReached& request, rclcpp::Node& node, Operation::Answer answer);
+std::unique_ptr<Operation> watch(const WatchMessages& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> watch(const WatchTransitions& request, rclcpp::Node& node, Operation::Answer answer);
 
 }  // namespace launch

@@ -23,6 +23,7 @@ struct Maker {
   std::unique_ptr<Check> operator()(const ExpectedOutput&) const { return make_output_check(expectation); }
   std::unique_ptr<Check> operator()(const ExpectedSequence&) const { return make_sequence_check(expectation); }
   std::unique_ptr<Check> operator()(const ExpectedGraph&) const { return make_graph_check(expectation); }
+  std::unique_ptr<Check> operator()(const ExpectedMessages&) const { return make_message_check(expectation); }
   std::unique_ptr<Check> operator()(const ExpectedResources&) const { return make_resource_check(expectation); }
   // The trace is judged when it is whole.
   std::unique_ptr<Check> operator()(const TraceExpectation&) const { return nullptr; }

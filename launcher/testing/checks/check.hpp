@@ -92,6 +92,7 @@ std::unique_ptr<Check> make_exit_check(const Expectation& expectation);
 std::unique_ptr<Check> make_output_check(const Expectation& expectation);
 std::unique_ptr<Check> make_sequence_check(const Expectation& expectation);
 std::unique_ptr<Check> make_graph_check(const Expectation& expectation);
+std::unique_ptr<Check> make_message_check(const Expectation& expectation);
 std::unique_ptr<Check> make_resource_check(const Expectation& expectation);
 
 // "'talker'", "any process".

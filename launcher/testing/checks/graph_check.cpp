@@ -34,7 +34,8 @@ class GraphCheck final : public Check {
     if (expected_.absent) {
       return std::nullopt;
     }
-    Failure failure{fmt::format("it did not happen {}: {}", when, text()), expectation().where, text()};
+    Failure failure{fmt::format("it did not happen {}: {}", when, text()), expectation().where, text(),
+                    expected_.condition->seen()};
     tail().show(failure);
     return failure;
   }

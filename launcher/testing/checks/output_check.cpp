@@ -57,11 +57,13 @@ class OutputCheck final : public LineCheck {
       : LineCheck(expectation), expected_(std::get<ExpectedOutput>(expectation.what)) {}
 
   // An upper limit alone holds until the end.
-  bool is_waited_for() const override { return found_ < expected_.least || !expected_.most; }
+  bool is_waited_for() const override {
+    return !expected_.after_shutdown && (found_ < expected_.least || !expected_.most);
+  }
 
  protected:
   void on_own_line(OutputStream stream, std::string_view line) override {
-    if (!expected_.line.matches(stream, line)) {
+    if (!expected_.line.matches(stream, line) || (expected_.after_shutdown && !in_shutdown())) {
       return;
     }
     ++found_;
@@ -83,8 +85,9 @@ class OutputCheck final : public LineCheck {
     if (found_ >= expected_.least) {
       return std::nullopt;
     }
-    return with_lines({fmt::format("there was not {}{} {}", enough_text(), from(), when), expectation().where,
-                       count_text(),
+    return with_lines({fmt::format("there was not {}{} {}", enough_text(), from(),
+                                   expected_.after_shutdown ? "at the shutdown" : when),
+                       expectation().where, count_text(),
                        found_ == 0 ? fmt::format("none in {}", lines_text(lines()))
                                    : fmt::format("{} in {}", found_, lines_text(lines()))});
   }

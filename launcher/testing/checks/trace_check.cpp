@@ -10,6 +10,7 @@
 
 #include "launch_trace_testing/event_query.hpp"
 #include "launch_trace_testing/expectations.hpp"
+#include "launcher/testing/checks/allocation_check.hpp"
 #include "launcher/testing/checks/chain_times.hpp"
 #include "launcher/testing/checks/timer_check.hpp"
 #include "tracing/reader/trace_read_error.hpp"
@@ -57,6 +58,19 @@ Failure failure_of(const std::string& message, const SourceRange& where, const s
   return failure;
 }
 
+void check_condition(const ExpectedEvent& event) {
+  if (event.condition.empty()) {
+    return;
+  }
+  try {
+    testing::EventQuery(event.name).where(event.condition);
+  } catch (const testing::QueryError& error) {
+    SourceRange place = event.condition_where;
+    place.begin = std::min(place.begin + static_cast<std::uint32_t>(error.column()), place.end);
+    throw LaunchError(error.reason(), place);
+  }
+}
+
 class Judge {
  public:
   Judge(const std::string& directory, const std::vector<RecordedProcess>& processes)
@@ -90,16 +104,32 @@ class Judge {
     return verdict.holds ? std::nullopt : std::optional(failure_of(message, where_, verdict.text));
   }
 
-  std::optional<Failure> check(const ExpectedEvent& expected) const {
+  testing::EventQuery query_of(const ExpectedEvent& expected, const std::string& process) const {
     testing::EventQuery query(expected.name);
     if (!expected.condition.empty()) {
       query.where(expected.condition);
     }
-    if (!process_.empty()) {
-      query.that(fmt::format("in process '{}'", process_),
-                 [pids = pids_of(process_)](const testing::Event& event) { return pids.contains(event.vpid()); });
+    if (!process.empty()) {
+      query.that(fmt::format("in process '{}'", process),
+                 [pids = pids_of(process)](const testing::Event& event) { return pids.contains(event.vpid()); });
     }
-    return unless(testing::expect_count(trace_, query, count_of(expected.least, expected.most)),
+    return query;
+  }
+
+  std::optional<Failure> check(const ExpectedEventOrder& expected) const {
+    std::vector<testing::EventQuery> queries;
+    for (const ExpectedEventOrder::Step& step : expected.steps) {
+      queries.push_back(query_of(step.event, step.process));
+    }
+    return unless(testing::expect_order(trace_, queries), "the events do not come in this order");
+  }
+
+  std::optional<Failure> check(const ExpectedAllocations& expected) const {
+    return judge_allocations(expected, analyse_chains(directory_, pids_, {}), where_);
+  }
+
+  std::optional<Failure> check(const ExpectedEvent& expected) const {
+    return unless(testing::expect_count(trace_, query_of(expected, process_), count_of(expected.least, expected.most)),
                   fmt::format("the trace does not hold the events '{}' as expected", expected.name));
   }
 
@@ -178,16 +208,15 @@ class Judge {
 
 void check_trace_expectation(const Expectation& expectation) {
   const auto* const trace = std::get_if<TraceExpectation>(&expectation.what);
-  const auto* const event = trace == nullptr ? nullptr : std::get_if<ExpectedEvent>(trace);
-  if (event == nullptr || event->condition.empty()) {
+  if (trace == nullptr) {
     return;
   }
-  try {
-    testing::EventQuery(event->name).where(event->condition);
-  } catch (const testing::QueryError& error) {
-    SourceRange place = event->condition_where;
-    place.begin = std::min(place.begin + static_cast<std::uint32_t>(error.column()), place.end);
-    throw LaunchError(error.reason(), place);
+  if (const auto* const event = std::get_if<ExpectedEvent>(trace)) {
+    check_condition(*event);
+  } else if (const auto* const order = std::get_if<ExpectedEventOrder>(trace)) {
+    for (const ExpectedEventOrder::Step& step : order->steps) {
+      check_condition(step.event);
+    }
   }
 }
 

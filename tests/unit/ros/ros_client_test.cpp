@@ -281,8 +281,12 @@ TEST_F(RosClientTest, StatesAreChangedAndWaitedFor) {
   });
   std::optional<RosAnswer> reached;
   const auto wait = client_.ask(launch::StateReached{"/n", "inactive"}, environment_, 0s, [&](const RosAnswer& answer) {
-    reached = answer;
-    loop_->quit();
+    if (answer.seen.empty()) {
+      reached = answer;
+      loop_->quit();
+    } else {
+      EXPECT_EQ(answer.seen, "unconfigured");
+    }
   });
   EXPECT_TRUE(ask(launch::ChangeState{"/n", "configure"}).ok);
   while (!reached || told.empty()) {
@@ -290,6 +294,61 @@ TEST_F(RosClientTest, StatesAreChangedAndWaitedFor) {
   }
   EXPECT_EQ(reached->state, "inactive");
   EXPECT_THAT(told, ElementsAre("unconfigured to inactive"));
+}
+
+TEST_F(RosClientTest, ParametersReachTheirValues) {
+  node_->declare_parameter("rate", 10);
+  node_->declare_parameter("list", std::vector<double>{1.0, 2.0});
+  spin();
+  using Items = std::vector<launch::ParameterScalar>;
+  EXPECT_TRUE(ask(launch::ParameterReached{"/ns/peer", {"rate", launch::ParameterScalar(10.0)}}).ok);
+  EXPECT_TRUE(ask(launch::ParameterReached{"/ns/peer", {"list", Items{std::int64_t(1), 2.0}}}).ok);
+  EXPECT_EQ(ask(launch::ParameterReached{"/ns/peer", {"list", Items{1.0, 3.0}}}).seen, "it is (1.0, 2.0)");
+  EXPECT_EQ(ask(launch::ParameterReached{"/ns/peer", {"other", Items{}}}).seen, "it is not set");
+
+  std::vector<std::string> told;
+  const auto wait =
+      client_.ask(launch::ParameterReached{"/ns/peer", {"rate", launch::ParameterScalar(std::int64_t(20))}},
+                  environment_, 0s, [&](const RosAnswer& answer) {
+                    told.push_back(answer.ok ? "ok" : answer.seen);
+                    loop_->quit();
+                  });
+  loop_->run();
+  node_->set_parameter(rclcpp::Parameter("rate", 20));
+  while (told.size() < 2) {
+    loop_->run();
+  }
+  EXPECT_THAT(told, ElementsAre("it is 10", "ok"));
+}
+
+TEST_F(RosClientTest, MessagesAreCountedOnce) {
+  std::optional<launch::SeenMessages> seen;
+  const auto watch = client_.ask(launch::WatchMessages{"/chatter", "std_msgs/msg/String", "data != 'b'"}, environment_,
+                                 0s, [&](const RosAnswer& answer) {
+                                   EXPECT_TRUE(answer.ok) << answer.error;
+                                   seen = answer.messages;
+                                   loop_->quit();
+                                 });
+  // Its subscriptions are a best-effort one, a reliable one, and one for what publishers keep.
+  const auto publisher = node_->create_publisher<std_msgs::msg::String>("/chatter", rclcpp::QoS(10).transient_local());
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (publisher->get_subscription_count() < 3 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(5ms);
+  }
+  for (const char* const text : {"a", "b", "c"}) {
+    std_msgs::msg::String message;
+    message.data = text;
+    publisher->publish(message);
+  }
+  while (!seen || seen->all < 3) {
+    loop_->run();
+  }
+  EXPECT_EQ(seen->all, 3U);
+  EXPECT_EQ(seen->matching, 2U);
+  EXPECT_THAT(seen->last, ElementsAre("{data: a}", "{data: b}", "{data: c}"));
+  EXPECT_EQ(seen->publishers, 1U);
+  EXPECT_THAT(seen->types, ElementsAre("std_msgs/msg/String"));
+  EXPECT_GT(seen->last_ns, seen->first_ns);
 }
 
 TEST_F(RosClientTest, TransitionsHaveNames) {

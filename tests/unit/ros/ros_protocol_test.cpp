@@ -62,10 +62,18 @@ TEST(RosProtocol, ValuesOfParametersKeepTheirTypes) {
 
 TEST(RosProtocol, EveryKindOfRequestComesBack) {
   const std::vector<RosRequest> requests = {
-      UnloadNode{"/c", 3},    ListNodes{"/c"},        ChangeState{"/n", "configure"},
-      GetState{"/n"},         NodePresent{"/n"},      TopicPresent{"/t"},
-      ServicePresent{"/s"},   MessagePublished{"/t"}, StateReached{"/n", "active"},
+      UnloadNode{"/c", 3},
+      ListNodes{"/c"},
+      ChangeState{"/n", "configure"},
+      GetState{"/n"},
+      NodePresent{"/n"},
+      TopicPresent{"/t"},
+      ServicePresent{"/s"},
+      MessagePublished{"/t"},
+      StateReached{"/n", "active"},
       WatchTransitions{"/n"},
+      ParameterReached{"/n", {"p", Scalars{1.5}}},
+      WatchMessages{"/t", "std_msgs/msg/String", "data == 'a'"},
   };
   for (const RosRequest& request : requests) {
     const std::string line = to_line(RosRequestLine{9, request, 2s});
@@ -88,6 +96,17 @@ TEST(RosProtocol, AnswersSayOnlyWhatTheyHold) {
   EXPECT_TRUE(read.answer.ok);
   EXPECT_EQ(read.answer.nodes, answer.nodes);
   EXPECT_EQ(read.answer.ids, answer.ids);
+}
+
+TEST(RosProtocol, WhatHasBeenSeenComesBack) {
+  RosAnswer answer;
+  answer.seen = "it is 3";
+  answer.messages = launch::SeenMessages{5, 2, 10, 20, {"{data: 1}"}, 1, {"std_msgs/msg/Int64"}};
+  const std::string line = to_line(RosAnswerLine{4, answer});
+  EXPECT_EQ(line,
+            "{\"id\":4,\"ok\":false,\"seen\":\"it is 3\",\"messages\":{\"all\":5,\"matching\":2,\"first_ns\":10,"
+            "\"last_ns\":20,\"last\":[\"{data: 1}\"],\"publishers\":1,\"types\":[\"std_msgs/msg/Int64\"]}}\n");
+  EXPECT_EQ(to_line(parse_answer_line(line)), line);
 }
 
 TEST(RosProtocol, WhatIsNoLineIsAnError) {

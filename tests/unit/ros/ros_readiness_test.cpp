@@ -20,6 +20,19 @@ TEST(RosReadiness, SaysWhatItWaitsFor) {
   EXPECT_EQ(text(ServicePresent{"/s"}), "service '/s' is offered");
   EXPECT_EQ(text(MessagePublished{"/t"}), "a message has come on '/t'");
   EXPECT_EQ(text(StateReached{"/n", "active"}), "'/n' is active");
+  EXPECT_EQ(text(ParameterReached{"/n", {"p", ParameterScalar(true)}}), "parameter 'p' of '/n' is True");
+}
+
+TEST(RosReadiness, KnowsWhatIsThereInstead) {
+  FakeEventLoop loop;
+  FakeRosClient client(loop);
+  RosReadiness ready(&client, StateReached{"/n", "active"}, {});
+  ready.watch(loop, [](const std::optional<std::string>&) { FAIL(); });
+  EXPECT_EQ(ready.seen(), "");
+  RosAnswer answer;
+  answer.seen = "inactive";
+  EXPECT_TRUE(client.answer_pending("'/n' to be active", answer));
+  EXPECT_EQ(ready.seen(), "inactive");
 }
 
 TEST(RosReadiness, HoldsWhenTheClientSaysSo) {

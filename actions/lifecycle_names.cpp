@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "actions/lifecycle_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+
+namespace launch {
+
+void require_transition(const std::string& name, const SourceRange& where) {
+  static const std::vector<std::string> transitions = {"configure", "activate", "deactivate", "cleanup", "shutdown"};
+  if (std::find(transitions.begin(), transitions.end(), name) == transitions.end()) {
+    throw LaunchError(
+        fmt::format("there is no transition '{}', expected configure, activate, deactivate, cleanup or shutdown", name),
+        where, did_you_mean(name, transitions));
+  }
+}
+
+}  // namespace launch
