@@ -5,12 +5,13 @@
 #include <fstream>
 #include <set>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
+using namespace launch_trace_testing;
 using namespace test_support;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
@@ -33,6 +34,14 @@ std::string run_action(const Sandbox& sandbox, const std::string& parameter) {
   return result.out + result.err;
 }
 
+std::set<std::string> texts(const Trace& trace, const EventQuery& query, const std::string& field) {
+  std::set<std::string> texts;
+  for (const Event* const event : query.select(trace)) {
+    texts.insert(event->text(field));
+  }
+  return texts;
+}
+
 TEST(Action, ComputesASequence) {
   Sandbox sandbox;
   const std::string output = run_action(sandbox, R"(<param name="order" value="5"/>)");
@@ -40,31 +49,21 @@ TEST(Action, ComputesASequence) {
   EXPECT_THAT(output, HasSubstr("Feedback: 0 1 1 2"));
   EXPECT_THAT(output, HasSubstr("Goal succeeded: 0 1 1 2 3 5"));
 
-  const RecordedTrace trace = read_trace(sandbox.trace_directory() / "action");
-  std::set<std::string> services, clients, topics;
-  std::set<std::uint64_t> action_services;
-  std::size_t waitables = 0;
-  for (const RecordedEvent& event : trace.events) {
-    if (event.name == "ros2:rcl_service_init" && event.text("service_name").starts_with("/fibonacci")) {
-      services.insert(event.text("service_name"));
-      action_services.insert(event.number("service_handle"));
-    } else if (event.name == "ros2:rcl_client_init") {
-      clients.insert(event.text("service_name"));
-    } else if (event.name == "ros2:rcl_publisher_init" && event.text("topic_name").starts_with("/fibonacci")) {
-      topics.insert(event.text("topic_name"));
-    } else if (event.name == "ros2:rclcpp_service_callback_added" && event.procname == "fibonacci_actio") {
-      EXPECT_EQ(action_services.count(event.number("service_handle")), 0U) << "services of actions have no callback";
-    } else if (event.name == "ros2_ext:rclcpp_executor_execute_waitable") {
-      ++waitables;
-    }
-  }
+  const Trace trace(sandbox.trace_directory() / "action");
+  const EventQuery services = event("ros2:rcl_service_init").where("service_name =~ '^/fibonacci'");
   const auto expected = UnorderedElementsAre("/fibonacci/_action/send_goal", "/fibonacci/_action/cancel_goal",
                                              "/fibonacci/_action/get_result");
-  EXPECT_THAT(services, expected);
-  EXPECT_THAT(clients, expected);
-  EXPECT_THAT(topics, UnorderedElementsAre("/fibonacci/_action/feedback", "/fibonacci/_action/status"));
+  EXPECT_THAT(texts(trace, services, "service_name"), expected);
+  EXPECT_THAT(texts(trace, event("ros2:rcl_client_init"), "service_name"), expected);
+  EXPECT_THAT(texts(trace, event("ros2:rcl_publisher_init").where("topic_name =~ '^/fibonacci'"), "topic_name"),
+              UnorderedElementsAre("/fibonacci/_action/feedback", "/fibonacci/_action/status"));
+  for (const Event* const service : services.select(trace)) {  // services of actions have no callback
+    EXPECT_THAT(trace, HasNoEvent(event("ros2:rclcpp_service_callback_added")
+                                      .in_process(service->vpid())
+                                      .with("service_handle", service->at("service_handle"))));
+  }
   // At least these: the goal, its response, the request for the result and the result.
-  EXPECT_GE(waitables, 4U);
+  EXPECT_THAT(trace, HasEvents(event("ros2_ext:rclcpp_executor_execute_waitable"), at_least(4)));
 }
 
 TEST(Action, IsCanceledByItsClient) {

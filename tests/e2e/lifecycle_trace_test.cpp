@@ -2,20 +2,20 @@
 // The trace of a managed node: its state machine, and each of its steps.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <fstream>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace test_support;
-using testing::Each;
+using namespace launch_trace_testing;
+using test_support::CommandResult;
+using test_support::run_command;
+using test_support::Sandbox;
 using testing::ElementsAre;
-using Events = std::vector<RecordedEvent>;
 
 constexpr const char* kLaunchFile = R"(<launch>
   <trace session-name="lifecycle" context-fields="procname vpid vtid" subbuffer-size-ust="1048576"/>
@@ -27,20 +27,19 @@ constexpr const char* kLaunchFile = R"(<launch>
 </launch>
 )";
 
-// The events of the managed node's process, in the thread that made it.
-Events events_of_talker(const RecordedTrace& trace) {
-  Events events;
-  std::copy_if(trace.events.begin(), trace.events.end(), std::back_inserter(events), [](const RecordedEvent& event) {
-    return event.procname == "lifecycle_talke" && event.vpid == event.vtid;
+// Events of the managed node's process, in the thread that made it.
+EventQuery of_talker(const std::string& name) {
+  return event("ros2:" + name).in_process("lifecycle_talke").that("in its main thread", [](const Event& event) {
+    return event.vpid() == event.vtid();
   });
-  return events;
 }
 
-Events named(const Events& events, const std::string& name) {
-  Events found;
-  std::copy_if(events.begin(), events.end(), std::back_inserter(found),
-               [&](const RecordedEvent& event) { return event.name == "ros2:" + name; });
-  return found;
+std::vector<std::string> texts(const std::vector<const Event*>& events, const std::string& field) {
+  std::vector<std::string> texts;
+  for (const Event* const event : events) {
+    texts.push_back(event->text(field));
+  }
+  return texts;
 }
 
 TEST(LifecycleTrace, TellsOfTheStateMachineAndItsTransitions) {
@@ -49,57 +48,44 @@ TEST(LifecycleTrace, TellsOfTheStateMachineAndItsTransitions) {
   std::ofstream(file) << kLaunchFile;
   const CommandResult result = run_command({LAUNCH_PROGRAM, file.string()});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
-  const RecordedTrace trace = read_trace(sandbox.trace_directory() / "lifecycle");
-  EXPECT_EQ(trace.losses, 0U);
-  const Events events = events_of_talker(trace);
+  const Trace trace(sandbox.trace_directory() / "lifecycle");
+  EXPECT_THAT(trace, LostNothing());
 
-  const Events nodes = named(events, "rcl_node_init");
-  ASSERT_EQ(nodes.size(), 1U);
-  EXPECT_EQ(nodes[0].text("node_name"), "led");
-  EXPECT_EQ(nodes[0].text("namespace"), "/here");
-
-  const auto init = std::find_if(events.begin(), events.end(), [](const RecordedEvent& event) {
-    return event.name == "ros2:rcl_lifecycle_state_machine_init";
-  });
-  ASSERT_NE(init, events.end());
-  EXPECT_EQ(named(events, "rcl_lifecycle_state_machine_init").size(), 1U);
-  EXPECT_EQ(init->number("node_handle"), nodes[0].number("node_handle"));
-  EXPECT_EQ(init->numbers.size(), 2U);
-  const std::uint64_t machine = init->number("state_machine");
+  ASSERT_THAT(trace, HasEvents(of_talker("rcl_node_init"), exactly(1)));
+  const Event& node = *of_talker("rcl_node_init").first(trace);
+  EXPECT_EQ(node.text("node_name"), "led");
+  EXPECT_EQ(node.text("namespace"), "/here");
+  ASSERT_THAT(trace, HasEvents(of_talker("rcl_lifecycle_state_machine_init"), exactly(1)));
+  const Event& init = *of_talker("rcl_lifecycle_state_machine_init").first(trace);
+  EXPECT_THAT(init.event_class().fields, ElementsAre("node_handle", "state_machine"));
+  EXPECT_EQ(init.handle("node_handle"), node.handle("node_handle"));
+  const std::uint64_t machine = init.handle("state_machine");
   EXPECT_NE(machine, 0U);
 
   // Its services and its topic exist already.
-  std::vector<std::string> services;
-  for (const RecordedEvent& event : named(Events(events.begin(), init), "rcl_service_init")) {
-    services.push_back(event.text("service_name"));
-  }
+  std::vector<std::string> services = texts(of_talker("rcl_service_init").before(init).select(trace), "service_name");
   ASSERT_GE(services.size(), 5U);
   services.erase(services.begin(), services.end() - 5);
   EXPECT_THAT(services, ElementsAre("/here/led/change_state", "/here/led/get_state", "/here/led/get_available_states",
                                     "/here/led/get_available_transitions", "/here/led/get_transition_graph"));
-  const Events publishers = named(Events(events.begin(), init), "rcl_publisher_init");
-  EXPECT_EQ(publishers.back().text("topic_name"), "/here/led/transition_event");
-  EXPECT_EQ(publishers.back().number("node_handle"), init->number("node_handle"));
-  const std::uint64_t publisher = publishers.back().number("publisher_handle");
+  const Event& publisher = *of_talker("rcl_publisher_init").before(init).select(trace).back();
+  EXPECT_EQ(publisher.text("topic_name"), "/here/led/transition_event");
+  EXPECT_EQ(publisher.handle("node_handle"), init.handle("node_handle"));
 
-  std::vector<std::string> steps;
-  std::vector<std::uint64_t> machines;
-  std::uint64_t published = 0;
-  for (const RecordedEvent& event : events) {
-    if (event.name == "ros2:rcl_publish" && event.number("publisher_handle") == publisher) {
-      ++published;
-    } else if (event.name == "ros2:rcl_lifecycle_transition") {
-      steps.push_back(event.text("start_label") + " > " + event.text("goal_label"));
-      machines.push_back(event.number("state_machine"));
-      EXPECT_EQ(published, steps.size());  // each is published before it is traced
-    }
+  // Each step is published before it is traced.
+  const std::vector<const Event*> steps = of_talker("rcl_lifecycle_transition").select(trace);
+  const EventQuery publications = of_talker("rcl_publish").with("publisher_handle", publisher.at("publisher_handle"));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(EventQuery(publications).before(*steps[i]).select(trace).size(), i + 1);
   }
-  EXPECT_THAT(steps, ElementsAre("unconfigured > configuring", "configuring > inactive", "inactive > activating",
-                                 "activating > active", "active > deactivating", "deactivating > inactive",
-                                 "inactive > activating", "activating > active", "active > deactivating",
-                                 "deactivating > inactive", "inactive > cleaningup", "cleaningup > unconfigured",
-                                 "unconfigured > shuttingdown", "shuttingdown > finalized"));
-  EXPECT_THAT(machines, Each(machine));
+  EXPECT_THAT(
+      texts(steps, "start_label"),
+      ElementsAre("unconfigured", "configuring", "inactive", "activating", "active", "deactivating", "inactive",
+                  "activating", "active", "deactivating", "inactive", "cleaningup", "unconfigured", "shuttingdown"));
+  EXPECT_THAT(texts(steps, "goal_label"), ElementsAre("configuring", "inactive", "activating", "active", "deactivating",
+                                                      "inactive", "activating", "active", "deactivating", "inactive",
+                                                      "cleaningup", "unconfigured", "shuttingdown", "finalized"));
+  EXPECT_THAT(trace, EachEvent(of_talker("rcl_lifecycle_transition"), event("").with("state_machine", machine)));
 }
 
 }  // namespace
