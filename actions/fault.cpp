@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system. Its random parts are
-// drawn here, so that a run has nothing left to chance.
+// <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system, and
+// <fault topic="…" do="drop|duplicate|corrupt|delay">: what it does to messages. The random parts are drawn here, so
+// that a run has nothing left to chance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "actions/depends_on.hpp"
 #include "actions/expectation_fields.hpp"
+#include "actions/message_fault.hpp"
 #include "actions/range_field.hpp"
 #include "actions/resource_fields.hpp"
 #include "launcher/language/exit_code_filter.hpp"
@@ -20,8 +22,23 @@ namespace launch {
 
 namespace {
 
-enum class Kind { kKill, kStop, kSlow, kLimit };
-const std::vector<std::string> kKinds = {"kill", "stop", "slow", "limit"};
+enum class Kind { kKill, kStop, kSlow, kLimit, kDrop, kDuplicate, kCorrupt, kDelay };
+const std::vector<std::string> kKinds = {"kill", "stop", "slow", "limit", "drop", "duplicate", "corrupt", "delay"};
+
+std::optional<MessageFault::Kind> message_kind(Kind kind) {
+  switch (kind) {
+    case Kind::kDrop:
+      return MessageFault::Kind::kDrop;
+    case Kind::kDuplicate:
+      return MessageFault::Kind::kDuplicate;
+    case Kind::kCorrupt:
+      return MessageFault::Kind::kCorrupt;
+    case Kind::kDelay:
+      return MessageFault::Kind::kDelay;
+    default:
+      return std::nullopt;
+  }
+}
 
 // An attribute that only some faults have.
 struct OwnAttribute {
@@ -47,7 +64,7 @@ class Fault : public Action {
   explicit Fault(const Fields& fields)
       : Action(fields.where(), fields.condition()),
         kind_(static_cast<Kind>(choice(fields, "do", kKinds))),
-        process_(fields.text("process")),
+        process_(fields.optional_text("process")),
         name_(fields.optional_text("name")),
         at_(RangeField::of(fields, "at")),
         lasts_(RangeField::of(fields, "for")),
@@ -62,6 +79,9 @@ class Fault : public Action {
       dependencies_.emplace_back(*item);
     }
     check_literals();
+    if (const auto kind = message_kind(kind_)) {
+      messages_.emplace(fields, *kind);
+    }
   }
 
  protected:
@@ -75,16 +95,21 @@ class Fault : public Action {
     std::vector<FaultRequest>& others = context.requests().faults;
     FaultRequest fault;
     fault.number = others.size() + 1;
-    fault.process = process_.perform(scope);
-    fault.process_where = process_.where();
+    if (process_) {
+      fault.process = process_->perform(scope);
+      fault.process_where = process_->where();
+    }
     fault.where = where();
     const double probability = perform_probability(scope);
     const NumberRange at = at_ ? at_->perform(scope) : NumberRange{};
     const NumberRange lasts = lasts_ ? lasts_->perform(scope) : NumberRange{};
     set_what(fault, scope);
-    fault.identity =
-        name_ ? name_->perform(scope)
-              : fmt::format("{} {}..{} {}..{} {}", describe(fault), at.from, at.to, lasts.from, lasts.to, probability);
+    const std::optional<MessageFaultRanges> messages =
+        messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
+    const std::string what = messages ? fmt::format("{} {}", fault.process, messages->identity()) : describe(fault);
+    fault.identity = name_
+                         ? name_->perform(scope)
+                         : fmt::format("{} {}..{} {}..{} {}", what, at.from, at.to, lasts.from, lasts.to, probability);
     const auto equal = std::count_if(others.begin(), others.end(),
                                      [&](const FaultRequest& other) { return other.identity == fault.identity; });
 
@@ -94,6 +119,10 @@ class Fault : public Action {
       fault.lasts = as_duration(draw.number("for", lasts));
     }
     fault.is_random = at.is_random() || lasts.is_random() || probability < 1;
+    if (messages) {
+      fault.what = messages->draw(draw);
+      fault.is_random = fault.is_random || messages->is_random();
+    }
     for (std::size_t i = 0; i < dependencies_.size(); ++i) {
       fault.is_random = fault.is_random || dependencies_[i].is_random(scope);
       if (std::optional<Dependency> dependency = dependencies_[i].perform(context, draw, i)) {
@@ -111,17 +140,32 @@ class Fault : public Action {
 
  private:
   void check_attributes(const Fields& fields) const {
-    static const std::array<OwnAttribute, 5> kOwn = {
-        {{"signal", {Kind::kKill}, "do=\"kill\""},
-         {"for", {Kind::kStop, Kind::kSlow, Kind::kLimit}, "do=\"stop\", do=\"slow\" and do=\"limit\""},
-         {"to", {Kind::kSlow}, "do=\"slow\""},
-         {"memory", {Kind::kLimit}, "do=\"limit\""},
-         {"files", {Kind::kLimit}, "do=\"limit\""}}};
+    static const std::vector<Kind> kOfMessages = {Kind::kDrop, Kind::kDuplicate, Kind::kCorrupt, Kind::kDelay};
+    static const char* const kWithMessages = "do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\"";
+    static const std::array<OwnAttribute, 11> kOwn = {{{"signal", {Kind::kKill}, "do=\"kill\""},
+                                                       {"topic", kOfMessages, kWithMessages},
+                                                       {"node", kOfMessages, kWithMessages},
+                                                       {"on", kOfMessages, kWithMessages},
+                                                       {"occurrence", kOfMessages, kWithMessages},
+                                                       {"every", kOfMessages, kWithMessages},
+                                                       {"count", kOfMessages, kWithMessages},
+                                                       {"by", {Kind::kDelay}, "do=\"delay\""},
+                                                       {"to", {Kind::kSlow}, "do=\"slow\""},
+                                                       {"memory", {Kind::kLimit}, "do=\"limit\""},
+                                                       {"files", {Kind::kLimit}, "do=\"limit\""}}};
     for (const OwnAttribute& own : kOwn) {
       if (fields.has(own.name) && std::find(own.kinds.begin(), own.kinds.end(), kind_) == own.kinds.end()) {
         throw LaunchError(fmt::format("{} goes with {} only", own.name, own.with), fields.where(own.name), {},
                           Finding::kExclusive);
       }
+    }
+    if (kind_ == Kind::kKill && fields.has("for")) {
+      throw LaunchError("for does not go with do=\"kill\": a kill is over at once", fields.where("for"), {},
+                        Finding::kExclusive);
+    }
+    if (!process_ && !message_kind(kind_)) {
+      throw LaunchError("it is not said which process suffers", fields.where(),
+                        "process=\"…\": the name of the process or of its node", Finding::kMissingAttribute);
     }
     if (kind_ == Kind::kSlow && !share_) {
       throw LaunchError("it is not said how slow the process is", fields.where(), "to=\"25%\": a quarter of the time",
@@ -177,11 +221,13 @@ class Fault : public Action {
         fault.what = limit;
         break;
       }
+      default:
+        break;  // of messages
     }
   }
 
   Kind kind_;
-  Template process_;
+  std::optional<Template> process_;
   std::optional<Template> name_;
   std::optional<RangeField> at_;
   std::optional<RangeField> lasts_;
@@ -191,28 +237,31 @@ class Fault : public Action {
   std::optional<Template> share_;
   std::optional<Template> memory_;
   std::optional<NumberField> files_;
+  std::optional<MessageFaultFields> messages_;
   std::vector<DependsOn> dependencies_;
 };
 
 }  // namespace
 
 ActionType fault_action() {
-  return {
+  ActionType type{
       .tag = "fault",
-      .help = "In a test: does something to a process of the system, at a time or when something is ready.",
+      .help =
+          "In a test: does something to a process of the system or to messages, at a time or when something is "
+          "ready.",
       .attributes =
-          {{"process", AttributeType::kText, true, "",
-            "name of the process or of its node; all processes of that name are meant", true},
+          {{"process", AttributeType::kText, false, "",
+            "name of the process or of its node; all processes of that name are meant. With topic: each process", true},
            {"do", AttributeType::kLiteral, true, "",
             "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
-            "no more memory or descriptors",
+            "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic are lost, come twice, "
+            "with other bytes, or late",
             true},
            {"at", AttributeType::kText, false, "0",
             "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
             "the seed draws",
             true},
-           {"for", AttributeType::kText, false, "until the end",
-            "with stop, slow and limit: seconds, or a range of them", true},
+           {"for", AttributeType::kText, false, "until the end", "not with kill: seconds, or a range of them", true},
            {"probability", AttributeType::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
            {"signal", AttributeType::kText, false, "SIGKILL", "with kill: the name or number of the signal", true},
            {"to", AttributeType::kText, false, "", "with slow: the part of the time in which it runs, such as 25%",
@@ -225,6 +274,9 @@ ActionType fault_action() {
       .items = {DependsOn::item_of_fault()},
       .extension = true,
       .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
+  const std::vector<AttributeSpec> of_messages = MessageFaultFields::attributes();
+  type.attributes.insert(type.attributes.end(), of_messages.begin(), of_messages.end());
+  return type;
 }
 
 }  // namespace launch

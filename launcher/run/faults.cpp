@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <system_error>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -36,21 +38,43 @@ struct Faults::Fault {
   EventLoop::SourcePtr turn_timer{};  // of a slow process
   std::vector<ProcessId> processes{};
   std::vector<Limit> limits{};
+  std::uint64_t messages = 0;  // that were hit
+
+  const MessageFault* of_messages() const { return std::get_if<MessageFault>(&request.what); }
 };
 
 Faults::Faults(EventLoop& loop, ProcessSupervisor& supervisor, Processes& processes,
                std::function<void(const std::string&)> log)
-    : loop_(loop), supervisor_(supervisor), processes_(processes), log_(std::move(log)), watches_(loop) {}
+    : loop_(loop),
+      supervisor_(supervisor),
+      processes_(processes),
+      log_(std::move(log)),
+      watches_(loop),
+      messages_(loop, [this] {
+        for (Fault& fault : faults_) {
+          on_messages(fault);
+        }
+      }) {}
 
 Faults::~Faults() = default;
 
-void Faults::start(std::vector<FaultRequest> faults) {
+void Faults::start(std::vector<FaultRequest> faults, const std::string& directory) {
+  std::string no_messages;
+  try {
+    messages_.begin(faults, directory);
+  } catch (const std::system_error& error) {
+    no_messages = error.what();
+  }
   for (FaultRequest& request : faults) {
     if (!request.left_out.empty()) {
       continue;
     }
     Fault& fault = faults_.emplace_back(std::move(request));
     fault.open = fault.request.dependencies.size();
+    if (fault.of_messages() != nullptr && !no_messages.empty()) {
+      miss(fault, no_messages);
+      continue;
+    }
     if (fault.open == 0) {
       begin(fault);
     }
@@ -73,11 +97,19 @@ void Faults::decide(Fault& fault, const std::optional<std::string>& failure) {
 }
 
 void Faults::begin(Fault& fault) {
+  if (fault.of_messages() != nullptr && fault.request.at == Duration(0)) {
+    apply_to_messages(fault);  // before the processes start, so that the first message counts
+    return;
+  }
   fault.timer = loop_.after(fault.request.at, [this, &fault] { apply(fault); });
 }
 
 void Faults::apply(Fault& fault) {
   fault.timer.reset();
+  if (fault.of_messages() != nullptr) {
+    apply_to_messages(fault);
+    return;
+  }
   const std::string& name = fault.request.process;
   FaultEvent event;
   std::vector<ProcessId> running;
@@ -97,7 +129,15 @@ void Faults::apply(Fault& fault) {
   log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
   tell(fault, event);
   for (const ProcessId id : running) {
-    const std::string reason = std::visit([&](const auto& what) { return apply(fault, id, what); }, fault.request.what);
+    const std::string reason = std::visit(
+        [&](const auto& what) -> std::string {
+          if constexpr (std::is_same_v<std::decay_t<decltype(what)>, MessageFault>) {
+            return {};
+          } else {
+            return apply(fault, id, what);
+          }
+        },
+        fault.request.what);
     if (!reason.empty()) {
       miss(fault, reason);
       return;
@@ -143,6 +183,52 @@ std::string Faults::apply(Fault& fault, ProcessId id, const LimitFault& limit) {
     fault.limits.push_back({id, resource, *before});
   }
   return {};
+}
+
+void Faults::apply_to_messages(Fault& fault) {
+  messages_.arm(fault.request.number, true);
+  if (fault.request.lasts) {
+    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end_messages(fault, " in that time"); });
+  }
+}
+
+// Tells what the nodes have done since the last call.
+void Faults::on_messages(Fault& fault) {
+  const MessageFault* const messages = fault.of_messages();
+  if (messages == nullptr || fault.is_over) {
+    return;
+  }
+  const MessageFaults::Hits hits = messages_.hits(fault.request.number);
+  if (hits.hit == fault.messages) {
+    return;
+  }
+  if (fault.messages == 0) {
+    log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
+  }
+  fault.messages = hits.hit;
+  tell(fault, {.messages = hits.hit, .first = hits.first, .latest = hits.latest});
+  if (!fault.request.lasts && hits.hit >= messages->count.value_or(1)) {
+    // One without an end goes on, but nothing waits for it.
+    fault.is_over = messages->count.has_value();
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
+  }
+}
+
+void Faults::end_messages(Fault& fault, const char* when) {
+  messages_.arm(fault.request.number, false);
+  on_messages(fault);
+  if (fault.is_over) {
+    return;
+  }
+  if (fault.messages > 0) {
+    fault.is_over = true;
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
+    return;
+  }
+  const MessageFault& messages = *fault.of_messages();
+  const std::uint64_t seen = messages_.hits(fault.request.number).messages;
+  miss(fault, fmt::format("there {} {} message{} on '{}'{}", seen == 1 ? "was" : "were",
+                          seen == 0 ? "no" : std::to_string(seen), seen == 1 ? "" : "s", messages.topic, when));
 }
 
 void Faults::turn(Fault& fault, bool runs) {
@@ -226,6 +312,9 @@ void Faults::on_line(ProcessId id, OutputStream stream, std::string_view line) {
 
 void Faults::shutdown() {
   for (Fault& fault : faults_) {
+    if (fault.of_messages() != nullptr && !fault.is_over) {
+      end_messages(fault, "");
+    }
     fault.is_over = true;
     fault.timer.reset();
     fault.turn_timer.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faults of a test: each is applied to its process when its time has come.
+// The faults of a test: each is applied to its process, or to messages, when its time has come.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/run/dependency_watches.hpp"
+#include "launcher/run/message_faults.hpp"
 #include "launcher/run/processes.hpp"
 #include "launcher/visit/fault_request.hpp"
 
@@ -24,15 +25,18 @@ namespace launch {
 // What happens to a fault.
 struct FaultEvent {
   enum class Kind {
-    kApplied,
-    kOver,   // it lasted for a time; for a kill, at once
-    kMissed  // it could not be applied
+    kApplied,  // of messages: for the first time, or again
+    kOver,     // it lasted for a time; for a kill, at once
+    kMissed    // it could not be applied
   };
   std::size_t number = 0;  // of the fault
   Kind kind = Kind::kApplied;
   std::vector<std::string> labels = {};  // of kApplied: the processes
   int signal = 0;                        // of kApplied: what a kill has sent
   std::string reason = {};               // of kMissed: "'worker' did not run"
+  std::uint64_t messages = 0;            // of kApplied: how many have been hit so far
+  Duration first{0};                     // of kApplied, with messages: when the first one was, as EventLoop::now()
+  Duration latest{0};                    // and the latest one
 };
 
 class Faults {
@@ -48,8 +52,11 @@ class Faults {
   void observe(std::function<void(const FaultEvent&)> observer) { observer_ = std::move(observer); }
 
   // The test begins: the times of its faults count from now. Their dependencies must be resolved. Faults that are left
-  // out are passed over.
-  void start(std::vector<FaultRequest> faults);
+  // out are passed over. Must be called before its processes start. The directory is for files, which end with this
+  // object.
+  void start(std::vector<FaultRequest> faults, const std::string& directory);
+  // Tells the process, which is about to start, of faults that it applies itself.
+  void prepare(ProcessSpec& spec, ProcessId id) const { messages_.prepare(spec, id); }
 
   // To be called when the table has noted an event of a process.
   void on_event(const ProcessEvent& event);
@@ -58,7 +65,7 @@ class Faults {
   // Whether some fault waits for a line.
   bool watch_output() const { return watches_.watch_output(); }
 
-  // The shutdown begins: what stands still goes on, and nothing is applied any more.
+  // The shutdown begins, or the system has ended: what stands still goes on, and nothing is applied any more.
   void shutdown();
 
  private:
@@ -72,6 +79,9 @@ class Faults {
   std::string apply(Fault& fault, ProcessId id, const StopFault& stop);
   std::string apply(Fault& fault, ProcessId id, const SlowFault& slow);
   std::string apply(Fault& fault, ProcessId id, const LimitFault& limit);
+  void apply_to_messages(Fault& fault);
+  void on_messages(Fault& fault);
+  void end_messages(Fault& fault, const char* when);
   void turn(Fault& fault, bool runs);
   void hold(const Fault& fault, ProcessId id);
   void release(const Fault& fault, ProcessId id);
@@ -85,6 +95,7 @@ class Faults {
   std::function<void(const std::string&)> log_;
   std::function<void(const FaultEvent&)> observer_;
   DependencyWatches watches_;
+  MessageFaults messages_;
   std::list<Fault> faults_;                           // their addresses don't change
   std::map<ProcessId, std::set<const Fault*>> held_;  // processes that stand still, and the faults that hold them
 };

@@ -278,7 +278,7 @@ void LaunchService::start(Round round) {
     if (begin_test_) {
       begin_test_(std::move(test));
     }
-    faults_.start(std::move(faults));
+    faults_.start(std::move(faults), context_.scope().log_directory);
   }
   for (EventHandler& handler : requests.handlers) {
     handlers_.add(std::move(handler), context_.ros_client());
@@ -328,6 +328,7 @@ void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
     prepare_for_test_(spec);
   }
   ros_tasks_.name_process(id, spec.other_names);
+  faults_.prepare(spec, id);
   record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
 }
 
@@ -422,6 +423,7 @@ void LaunchService::end_scopes() {
   }
   phase_ = Phase::kEndingScopes;
   ros_tasks_.shutdown();
+  faults_.shutdown();
   recording_.end();
   scopes_.end(
       [this](const LaunchError& error) {

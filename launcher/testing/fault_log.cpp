@@ -9,8 +9,11 @@
 namespace launch {
 
 std::string FaultResult::text() const {
-  return applied() ? fmt::format("{}: {} at {:.3f} s", place, what, seconds)
-                   : fmt::format("{}: {}: {}", place, what, reason);
+  if (!applied()) {
+    return fmt::format("{}: {}: {}", place, what, reason);
+  }
+  const std::string times = messages > 1 ? fmt::format(", {} times until {:.3f} s", messages, latest) : "";
+  return fmt::format("{}: {} at {:.3f} s{}", place, what, seconds, times);
 }
 
 void FaultLog::begin(std::vector<FaultRequest> faults, Duration now) {
@@ -26,7 +29,9 @@ void FaultLog::on_fault(const FaultEvent& event, Duration now) {
   switch (event.kind) {
     case FaultEvent::Kind::kApplied:
       entry.is_applied = true;
-      entry.at = now - begin_;
+      entry.messages = event.messages;
+      entry.at = (event.messages == 0 ? now : event.first) - begin_;
+      entry.latest = event.latest - begin_;
       break;
     case FaultEvent::Kind::kMissed:
       entry.is_applied = false;
@@ -41,6 +46,12 @@ void FaultLog::on_fault(const FaultEvent& event, Duration now) {
 
 bool FaultLog::is_open() const {
   return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.is_over; });
+}
+
+bool FaultLog::is_open_for_messages_only() const {
+  return std::all_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
+    return entry.is_over || std::holds_alternative<MessageFault>(entry.request.what);
+  });
 }
 
 const FaultRequest& FaultLog::open() const {
@@ -65,6 +76,8 @@ std::vector<FaultResult> FaultLog::results(const std::string& why) const {
       result.left_out = true;
     } else if (entry.is_applied) {
       result.seconds = std::chrono::duration<double>(entry.at).count();
+      result.messages = entry.messages;
+      result.latest = entry.messages == 0 ? 0 : std::chrono::duration<double>(entry.latest).count();
     } else {
       result.reason = "not applied: " + (entry.reason.empty() ? why : entry.reason);
     }
@@ -75,7 +88,16 @@ std::vector<FaultResult> FaultLog::results(const std::string& why) const {
 std::vector<Failure> FaultLog::failures(const std::string& why) const {
   std::vector<Failure> failures;
   for (const Entry& entry : entries_) {
-    if (entry.request.left_out.empty() && !entry.request.is_random && !entry.is_applied) {
+    if (!entry.request.left_out.empty() || entry.request.is_random) {
+      continue;
+    }
+    const auto* const messages = std::get_if<MessageFault>(&entry.request.what);
+    const std::uint64_t asked = messages == nullptr || !messages->count ? 0 : *messages->count;
+    if (entry.is_applied && entry.messages < asked) {
+      failures.push_back({.message = fmt::format("the {} was applied to {} of {} messages only",
+                                                 describe(entry.request), entry.messages, asked),
+                          .where = entry.request.where});
+    } else if (!entry.is_applied) {
       failures.push_back({.message = fmt::format("the {} was not applied: {}", describe(entry.request),
                                                  entry.reason.empty() ? why : entry.reason),
                           .where = entry.request.where});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,17 @@ struct FaultResult {
   std::string file;
   unsigned line = 0;
   unsigned column = 0;
-  std::string place;      // as messages show it: "system.launch.xml:8:6"
-  std::string what;       // "kill of 'worker'"
-  std::string reason;     // why it was not applied; empty: it was
-  bool left_out = false;  // not drawn, or not chosen on the command line
-  double seconds = 0;     // when it was applied, from the begin of the test
+  std::string place;           // as messages show it: "system.launch.xml:8:6"
+  std::string what;            // "kill of 'worker'"
+  std::string reason;          // why it was not applied; empty: it was
+  bool left_out = false;       // not drawn, or not chosen on the command line
+  double seconds = 0;          // when it was applied, from the begin of the test
+  std::uint64_t messages = 0;  // that a fault of messages has hit
+  double latest = 0;           // when the latest of them was
 
   bool applied() const { return reason.empty(); }
-  // "system.launch.xml:8:6: kill of 'worker' at 2.314 s", "…: stop of 'worker': not drawn".
+  // "system.launch.xml:8:6: kill of 'worker' at 2.314 s", "…: stop of 'worker': not drawn", "…: drop of messages 3 to 5
+  // on '/scan' at 2.314 s, 2 times until 2.414 s".
   std::string text() const;
 };
 
@@ -35,11 +39,14 @@ class FaultLog {
   void on_fault(const FaultEvent& event, Duration now);
   // Whether a fault of this run is not over yet. `open()` is then the first.
   bool is_open() const;
+  // Whether each fault of this run that is not over is one of messages, which failures() tells of.
+  bool is_open_for_messages_only() const;
   const FaultRequest& open() const;
 
   // After the run; `why` says why nothing more could happen: "the system had ended".
   std::vector<FaultResult> results(const std::string& why) const;
-  // The faults without anything random that could not be applied: the test has not tested what it says.
+  // The faults without anything random that could not be applied, or not to as many messages as they say: the test has
+  // not tested what it says.
   std::vector<Failure> failures(const std::string& why) const;
 
  private:
@@ -49,6 +56,8 @@ class FaultLog {
     bool is_over = false;
     std::string reason;
     Duration at{0};
+    std::uint64_t messages = 0;
+    Duration latest{0};
   };
 
   std::vector<Entry> entries_;

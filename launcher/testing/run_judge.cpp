@@ -125,7 +125,11 @@ void RunJudge::end_run(RunEnd end, const std::string& reason) {
 
 void RunJudge::on_timeout() {
   const auto is_waited_for = [](const auto& check) { return check->is_open() && check->is_waited_for(); };
-  if (std::none_of(checks_.begin(), checks_.end(), is_waited_for) && faults_.is_open()) {
+  if (std::none_of(checks_.begin(), checks_.end(), is_waited_for) && faults_.is_open() &&
+      faults_.is_open_for_messages_only()) {
+    // What they have hit is known when the run has ended.
+    judges_faults_ = true;
+  } else if (std::none_of(checks_.begin(), checks_.end(), is_waited_for) && faults_.is_open()) {
     failures_.push_back(as_text(Failure{fmt::format("the {} was not over {}", launch::describe(faults_.open()),
                                                     launch::describe(RunEnd::kTimeout, test_.timeout)),
                                         faults_.open().where}));
@@ -160,7 +164,7 @@ void RunJudge::finish() {
     }
   }
   failures_.insert(failures_.begin(), found.begin(), found.end());
-  if (end_ != RunEnd::kFailure && end_ != RunEnd::kTimeout) {
+  if (judges_faults_ || (end_ != RunEnd::kFailure && end_ != RunEnd::kTimeout)) {
     for (const Failure& failure : faults_.failures(describe_end())) {
       failures_.push_back(as_text(failure));
     }

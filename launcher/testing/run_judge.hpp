@@ -71,6 +71,7 @@ class RunJudge {
   bool has_begun_ = false;
   bool duration_over_ = true;
   bool has_ended_ = false;
+  bool judges_faults_ = false;  // although the test has timed out
   RunEnd end_ = RunEnd::kNothingLeft;
   std::vector<TestFailure> failures_;
 };

@@ -26,6 +26,10 @@ Json json_of(const FaultResult& fault) {
   json["left_out"] = fault.left_out;
   if (fault.applied()) {
     json["seconds"] = fault.seconds;
+    if (fault.messages > 0) {
+      json["messages"] = fault.messages;
+      json["latest_seconds"] = fault.latest;
+    }
   } else {
     json["reason"] = fault.reason;
   }
@@ -41,7 +45,9 @@ FaultResult fault_of(const Json& json) {
           .what = json.at("what").get<std::string>(),
           .reason = json.value("reason", ""),
           .left_out = json.at("left_out").get<bool>(),
-          .seconds = json.value("seconds", 0.0)};
+          .seconds = json.value("seconds", 0.0),
+          .messages = json.value("messages", std::uint64_t{0}),
+          .latest = json.value("latest_seconds", 0.0)};
 }
 
 }  // namespace

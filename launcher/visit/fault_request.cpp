@@ -10,6 +10,27 @@ namespace launch {
 
 namespace {
 
+std::string seconds(Duration duration) {
+  return fmt::format("{:g} s", std::chrono::duration<double>(duration).count());
+}
+
+// "message 3 on '/scan'", "messages 3 to 5 on '/scan'", "all messages on '/scan' from message 3 on", "3 messages on
+// '/scan', 1 of 4 from message 2 on", "1 of 4 messages on '/scan'".
+std::string describe_messages(const MessageFault& fault) {
+  const std::string from = fault.first == 1 ? "" : fmt::format(" from message {} on", fault.first);
+  if (fault.count == 1) {
+    return fmt::format("message {} on '{}'", fault.first, fault.topic);
+  }
+  if (fault.count && fault.every == 1) {
+    return fmt::format("messages {} to {} on '{}'", fault.first, fault.first + *fault.count - 1, fault.topic);
+  }
+  if (fault.count) {
+    return fmt::format("{} messages on '{}', 1 of {}{}", *fault.count, fault.topic, fault.every, from);
+  }
+  return fault.every == 1 ? fmt::format("all messages on '{}'{}", fault.topic, from)
+                          : fmt::format("1 of {} messages on '{}'{}", fault.every, fault.topic, from);
+}
+
 struct Describer {
   const std::string& process;
 
@@ -29,6 +50,22 @@ struct Describer {
     }
     return limit.files ? text + fmt::format("{} files", *limit.files) : text;
   }
+  std::string operator()(const MessageFault& fault) const {
+    constexpr const char* kWords[] = {"drop", "duplicate", "corruption", "delay"};
+    std::string text = kWords[static_cast<std::size_t>(fault.kind)];
+    if (fault.kind == MessageFault::Kind::kDelay) {
+      text += " by " + seconds(fault.by);
+    }
+    text += " of " + describe_messages(fault);
+    std::string who = process.empty() ? "" : fmt::format("'{}'", process);
+    if (!fault.node.empty()) {
+      who += fmt::format("{}'{}'", who.empty() ? "" : ", ", fault.node);
+    }
+    if (fault.on_take) {
+      return text + " when taken" + (who.empty() ? "" : " by " + who);
+    }
+    return who.empty() ? text : text + " from " + who;
+  }
 };
 
 }  // namespace
@@ -36,7 +73,7 @@ struct Describer {
 std::string describe(const FaultRequest& fault) {
   std::string text = std::visit(Describer{fault.process}, fault.what);
   if (fault.lasts) {
-    text += fmt::format(" for {:g} s", std::chrono::duration<double>(*fault.lasts).count());
+    text += " for " + seconds(*fault.lasts);
   }
   return text;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fault that a test asks for: what is done to a process, and when. Its random parts are drawn already.
+// A fault that a test asks for: what is done to a process or to messages, and when. Its random parts are drawn already.
 #pragma once
 
 #include <signal.h>
@@ -30,12 +30,26 @@ struct LimitFault {
   std::optional<std::uint64_t> files;   // open descriptors
 };
 
+// Messages are lost, come twice, with other bytes, or late.
+struct MessageFault {
+  enum class Kind { kDrop, kDuplicate, kCorrupt, kDelay };
+  Kind kind = Kind::kDrop;
+  std::string topic;                       // fully qualified
+  std::string node;                        // fully qualified; empty: any
+  bool on_take = false;                    // in the subscriptions; else in the publishers
+  std::uint64_t first = 1;                 // the number of the first message, from 1
+  std::uint64_t every = 1;                 // then each message of so many
+  std::optional<std::uint64_t> count = 1;  // nullopt: no end
+  Duration by{0};                          // of a delay
+  std::uint64_t seed = 0;                  // of the bytes that are changed
+};
+
 struct FaultRequest {
   std::size_t number = 0;  // among the faults of its test, from 1
   std::string process;     // one of its names (process_table.hpp); every process of that name is meant
-  std::variant<KillFault, StopFault, SlowFault, LimitFault> what;
-  Duration at{0};                        // from the begin of the test, or from when all dependencies hold
-  std::optional<Duration> lasts;         // nullopt: as long as the process
+  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault> what;
+  Duration at{0};                 // from the begin of the test, or from when all dependencies hold
+  std::optional<Duration> lasts;  // nullopt: as long as the process; of a MessageFault: until its count is reached
   std::vector<Dependency> dependencies;  // their number of a process means nothing
   std::string left_out;                  // why it is not applied in this run; empty: it is
   bool is_random = false;                // it has something that is drawn
@@ -45,7 +59,7 @@ struct FaultRequest {
 };
 
 // "kill of 'worker'", "kill of 'worker' by SIGTERM", "stop of 'worker' for 2 s", "slow of 'worker' to 25% for 1 s",
-// "limit of 'worker' to 20 files".
+// "limit of 'worker' to 20 files", "drop of messages 3 to 5 on '/scan'".
 std::string describe(const FaultRequest& fault);
 
 }  // namespace launch

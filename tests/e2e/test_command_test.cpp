@@ -499,6 +499,11 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
   EXPECT_EQ(crash.exit_code, 1) << crash.out << crash.err;
   EXPECT_THAT(crash.out, HasSubstr("      = shrunk to 1 of "));
   EXPECT_THAT(crash.out, HasSubstr(": kill of 'ping' at "));
+  const CommandResult messages =
+      run_command({.argv = {LAUNCH_PROGRAM, "test", folder + "48_message_faults.launch." + GetParam(), "--seeds", "3"}},
+                  std::chrono::seconds(100));
+  EXPECT_EQ(messages.exit_code, 0) << messages.out << messages.err;
+  EXPECT_THAT(messages.out, HasSubstr("6 tests: 6 passed, in "));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));

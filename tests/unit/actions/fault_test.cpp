@@ -144,12 +144,13 @@ std::string error_of(const std::string& fault) {
   return plan_faults(fault).error;
 }
 
-TEST(Fault, KnowsFourKinds) {
-  EXPECT_EQ(error_of(R"(<fault process="p" do="kil"/>)"),
-            "/t.launch.xml:4:24: error: do can be kill, stop, slow or limit, got 'kil'\n"
-            "    4 | <fault process=\"p\" do=\"kil\"/>\n"
-            "      |                        ^~~\n"
-            "      = help: did you mean 'kill'?");
+TEST(Fault, KnowsItsKinds) {
+  EXPECT_EQ(
+      error_of(R"(<fault process="p" do="kil"/>)"),
+      "/t.launch.xml:4:24: error: do can be kill, stop, slow, limit, drop, duplicate, corrupt or delay, got 'kil'\n"
+      "    4 | <fault process=\"p\" do=\"kil\"/>\n"
+      "      |                        ^~~\n"
+      "      = help: did you mean 'kill'?");
 }
 
 TEST(Fault, EachKindHasItsAttributes) {
@@ -158,9 +159,14 @@ TEST(Fault, EachKindHasItsAttributes) {
             "    4 | <fault process=\"p\" do=\"stop\" signal=\"SIGTERM\"/>\n"
             "      |                                      ^~~~~~~");
   EXPECT_EQ(error_of(R"(<fault process="p" do="kill" for="3"/>)"),
-            "/t.launch.xml:4:35: error: for goes with do=\"stop\", do=\"slow\" and do=\"limit\" only\n"
+            "/t.launch.xml:4:35: error: for does not go with do=\"kill\": a kill is over at once\n"
             "    4 | <fault process=\"p\" do=\"kill\" for=\"3\"/>\n"
             "      |                                   ^");
+  EXPECT_EQ(error_of(R"(<fault do="kill"/>)"),
+            "/t.launch.xml:4:2: error: it is not said which process suffers\n"
+            "    4 | <fault do=\"kill\"/>\n"
+            "      |  ^~~~~\n"
+            "      = help: process=\"…\": the name of the process or of its node");
   EXPECT_EQ(error_of(R"(<fault process="p" do="slow"/>)"),
             "/t.launch.xml:4:2: error: it is not said how slow the process is\n"
             "    4 | <fault process=\"p\" do=\"slow\"/>\n"

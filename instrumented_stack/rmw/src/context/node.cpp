@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "context/context_impl.hpp"
@@ -45,6 +46,16 @@ void check_node_name(const char* name, const char* namespace_) {
   if (rmw_validate_namespace(namespace_, &result, nullptr) == RMW_RET_OK && result != RMW_NAMESPACE_VALID) {
     throw std::invalid_argument(std::string("invalid namespace '") + namespace_ +
                                 "': " + rmw_namespace_validation_result_string(result));
+  }
+}
+
+// Of a test, if its faults name the endpoint.
+template <typename Handle>
+void set_faults_of(Handle& handle, rmw_message_faults::Side side, const char* topic, const rmw_node_t* node) {
+  const std::string& name_space = node_of(node).namespace_;
+  const std::string name = name_space + (name_space.ends_with('/') ? "" : "/") + node_of(node).name;
+  if (auto faults = rmw_fastrtps::MessageFaults::of(side, topic, name)) {
+    rmw_fastrtps::set_faults(handle, std::move(faults));
   }
 }
 
@@ -176,6 +187,7 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
   rmw_publisher_t* publisher =
       rmw_fastrtps::create_publisher(*impl.participant, *type_support, topic_name, profile, *publisher_options);
   try {
+    set_faults_of(*publisher, rmw_message_faults::Side::kPublish, topic_name, node);
     rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*publisher)});
   } catch (...) {
     impl.graph.remove_endpoint(rmw_fastrtps::identity_of(*publisher).gid);
@@ -220,6 +232,7 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
       rmw_fastrtps::create_subscription(*impl.participant, *type_support, topic_name, profile, *subscription_options);
   rmw_fastrtps::set_node(*subscription, *node);
   try {
+    set_faults_of(*subscription, rmw_message_faults::Side::kTake, topic_name, node);
     rmw_fastrtps::enter_graph(node, {rmw_fastrtps::identity_of(*subscription)});
   } catch (...) {
     impl.graph.remove_endpoint(rmw_fastrtps::identity_of(*subscription).gid);

@@ -2,8 +2,10 @@
 // Creates publishers and subscriptions without a node, for rmw_create_publisher() and for ros_discovery_info.
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "faults/message_faults.hpp"
 #include "graph/graph_cache.hpp"
 #include "rmw/rmw.h"
 #include "types/gid.hpp"
@@ -28,6 +30,10 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
 
 // Sets the node whose mutex and graph a subscription uses when its reader changes.
 void set_node(const rmw_subscription_t& subscription, const rmw_node_t& node);
+
+// The messages that go out, or are taken, suffer these faults. Their memory is not on loan from now on.
+void set_faults(rmw_publisher_t& publisher, std::unique_ptr<MessageFaults> faults);
+void set_faults(rmw_subscription_t& subscription, std::unique_ptr<MessageFaults> faults);
 
 void destroy_publisher(rmw_publisher_t* publisher);
 void destroy_subscription(rmw_subscription_t* subscription);

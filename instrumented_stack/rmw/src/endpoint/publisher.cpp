@@ -8,10 +8,12 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "endpoint/endpoint.hpp"
 #include "endpoint/network_flow.hpp"
 #include "event/writer_events.hpp"
+#include "faults/publish_faults.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
 #include "qos/qos.hpp"
@@ -28,6 +30,7 @@ using rmw_fastrtps::EndpointIdentity;
 using rmw_fastrtps::kIdentifier;
 using rmw_fastrtps::OutgoingMessage;
 using rmw_fastrtps::Participant;
+using rmw_fastrtps::PublishFaults;
 using rmw_fastrtps::StatusEvent;
 using rmw_fastrtps::Waitable;
 using rmw_fastrtps::WriterEvents;
@@ -37,8 +40,10 @@ namespace {
 struct Publisher final : WriterEvents {
   rmw_publisher_t handle{};
   fdds::DataWriter* writer = nullptr;
-  std::string topic_name;  // the handle points to it
+  std::unique_ptr<PublishFaults> faults;  // of a test; null: none
+  std::string topic_name;                 // the handle points to it
   Participant* participant = nullptr;
+  const message_type_support_callbacks_t* type = nullptr;
   fdds::Topic* topic = nullptr;
   EndpointIdentity identity{};
 };
@@ -57,7 +62,11 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   params.source_timestamp().nanosec(static_cast<std::uint32_t>(now.tv_nsec));
   TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message,
                         now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec);
-  if (!publisher_of(*publisher).writer->write(data, params)) {
+  const Publisher& owner = publisher_of(*publisher);
+  // With faults, nothing is on loan.
+  const bool is_written = owner.faults == nullptr ? owner.writer->write(data, params)
+                                                  : owner.faults->write(*static_cast<OutgoingMessage*>(data), params);
+  if (!is_written) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a message on topic '%s' cannot be written", publisher->topic_name);
     return RMW_RET_ERROR;
   }
@@ -78,6 +87,7 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
   auto publisher = std::make_unique<Publisher>();
   const std::string dds_topic = profile.avoid_ros_namespace_conventions ? topic_name : mangled_topic(topic_name);
   publisher->participant = &participant;
+  publisher->type = &callbacks;
   publisher->topic = &participant.acquire_topic(dds_topic, callbacks);
   publisher->writer =
       participant.publisher().create_datawriter(publisher->topic, qos, publisher.get(), WriterEvents::mask());
@@ -99,9 +109,16 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
 void destroy_publisher(rmw_publisher_t* handle) {
   TRACETOOLS_EXT_TRACEPOINT(rmw_publisher_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Publisher> publisher(&publisher_of(*handle));
+  publisher->faults.reset();
   publisher->writer->set_listener(nullptr);
   publisher->participant->publisher().delete_datawriter(publisher->writer);
   publisher->participant->release_topic(*publisher->topic);
+}
+
+void set_faults(rmw_publisher_t& handle, std::unique_ptr<MessageFaults> faults) {
+  Publisher& publisher = publisher_of(handle);
+  publisher.faults = std::make_unique<PublishFaults>(std::move(faults), *publisher.writer, *publisher.type);
+  publisher.handle.can_loan_messages = false;
 }
 
 const EndpointIdentity& identity_of(const rmw_publisher_t& publisher) {

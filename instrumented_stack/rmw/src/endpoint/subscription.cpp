@@ -8,6 +8,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "endpoint/content_filter.hpp"
 #include "endpoint/network_flow.hpp"
@@ -52,18 +53,46 @@ namespace {
   return sample.valid_data && !ignored;
 }
 
+// Takes a message as the faults of the subscription want it.
+[[gnu::cold]] bool take_with_faults(const rmw_subscription_t* handle, const IncomingMessage& incoming,
+                                    rmw_message_info_t* message_info) {
+  Subscription& subscription = subscription_of(*handle);
+  const auto reader = [&](rmw_serialized_message_t& message, rmw_message_info_t& info) {
+    IncomingMessage bytes{nullptr, &message};
+    fdds::SampleInfo sample;
+    bool taken = false;
+    while (!taken && subscription.take_next(&bytes, sample)) {
+      taken = is_wanted(handle, sample);
+    }
+    if (taken) {
+      fill(info, sample);
+    }
+    return taken;
+  };
+  rmw_message_info_t info{};
+  const bool taken = subscription.faults->take(reader, incoming, info);
+  if (taken && message_info != nullptr) {
+    *message_info = info;
+  }
+  return taken;
+}
+
 [[gnu::hot]] rmw_ret_t take(const rmw_subscription_t* handle, IncomingMessage incoming,
                             [[maybe_unused]] const void* traced_message, bool* taken,
                             rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
   *taken = false;
   const std::shared_lock lock(subscription.reader_mutex);
-  fdds::SampleInfo sample;
-  while (!*taken && subscription.take_next(&incoming, sample)) {
-    *taken = is_wanted(handle, sample);
-  }
-  if (*taken && message_info != nullptr) {
-    fill(*message_info, sample);
+  if (subscription.faults == nullptr) {
+    fdds::SampleInfo sample;
+    while (!*taken && subscription.take_next(&incoming, sample)) {
+      *taken = is_wanted(handle, sample);
+    }
+    if (*taken && message_info != nullptr) {
+      fill(*message_info, sample);
+    }
+  } else {
+    *taken = take_with_faults(handle, incoming, message_info);
   }
   TRACETOOLS_TRACEPOINT(rmw_take, static_cast<const void*>(handle), traced_message,
                         *taken && message_info != nullptr ? message_info->source_timestamp : 0, *taken);
@@ -137,12 +166,20 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
 void destroy_subscription(rmw_subscription_t* handle) {
   TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Subscription> subscription(&subscription_of(*handle));
+  subscription->faults.reset();
   for (const auto& [message, loan] : subscription->loans) {
     subscription->reader->return_loan(loan->samples, loan->infos);
   }
   subscription->reader->set_listener(nullptr);
   subscription->participant->subscriber().delete_datareader(subscription->reader);
   release_topics(*subscription);
+}
+
+void set_faults(rmw_subscription_t& handle, std::unique_ptr<MessageFaults> faults) {
+  Subscription& subscription = subscription_of(handle);
+  subscription.faults = std::make_unique<TakeFaults>(std::move(faults), *subscription.type,
+                                                     [&subscription] { subscription.announce_other_message(); });
+  subscription.handle.can_loan_messages = false;
 }
 
 const EndpointIdentity& identity_of(const rmw_subscription_t& subscription) {

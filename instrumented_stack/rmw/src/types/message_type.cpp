@@ -103,6 +103,21 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks) : ca
   };
 }
 
+std::vector<std::uint8_t> to_bytes(const message_type_support_callbacks_t& callbacks, const OutgoingMessage& message) {
+  if (message.serialized != nullptr) {
+    return {message.serialized->buffer, message.serialized->buffer + message.serialized->buffer_length};
+  }
+  std::vector<std::uint8_t> bytes(kEncapsulationSize + callbacks.get_serialized_size(message.message));
+  bytes.resize(to_cdr(callbacks, message.message, bytes.data(), bytes.size()));
+  return bytes;
+}
+
+bool from_bytes(const message_type_support_callbacks_t& callbacks, const std::vector<std::uint8_t>& bytes,
+                const IncomingMessage& message) {
+  return message.serialized != nullptr ? assign(*message.serialized, bytes.data(), bytes.size())
+                                       : from_cdr(callbacks, bytes.data(), bytes.size(), message.message);
+}
+
 bool is_plain(const message_type_support_callbacks_t& callbacks) {
   char bounds = 0;
   (void)callbacks.max_serialized_size(bounds);

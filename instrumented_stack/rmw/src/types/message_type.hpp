@@ -2,8 +2,10 @@
 // Serializes ROS messages for Fast DDS: an adapter from its TopicDataType to the type support callbacks.
 #pragma once
 
+#include <cstdint>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <string>
+#include <vector>
 
 #include "rmw/serialized_message.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
@@ -47,6 +49,12 @@ class MessageType final : public eprosima::fastdds::dds::TopicDataType {
   bool is_bounded_ = false;
   bool is_plain_ = false;
 };
+
+// The bytes of a message, with the encapsulation header; empty if it cannot be serialized.
+std::vector<std::uint8_t> to_bytes(const message_type_support_callbacks_t& callbacks, const OutgoingMessage& message);
+// False if the bytes are no message of this type.
+bool from_bytes(const message_type_support_callbacks_t& callbacks, const std::vector<std::uint8_t>& bytes,
+                const IncomingMessage& message);
 
 // Whether a message has the same layout in memory and on the wire.
 bool is_plain(const message_type_support_callbacks_t& callbacks);

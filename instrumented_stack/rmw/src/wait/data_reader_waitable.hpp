@@ -61,9 +61,18 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     return take([&] { return reader->take(samples, infos, 1); });
   }
 
+  // A message that the reader does not hold can be taken.
+  void announce_other_message() {
+    count_arrival();
+    notify();
+    on_new_data_.tell(1);
+  }
+
   eprosima::fastdds::dds::DataReader* reader = nullptr;
 
  protected:
+  void count_arrival() { arrivals_.fetch_add(1, std::memory_order_release); }
+
   // What is known without asking the reader.
   std::optional<bool> is_known_to_be_ready() const {
     return is_known_to_be_ready(arrivals_.load(std::memory_order_acquire));

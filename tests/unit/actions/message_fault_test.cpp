@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// <fault topic="…">: which messages it asks for, what the seed draws, and its errors.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "actions/builtin_actions.hpp"
+#include "launcher/visit/launch_plan.hpp"
+
+namespace launch {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+
+struct Planned {
+  std::vector<FaultRequest> faults;
+  std::string error;
+};
+
+Planned plan(const std::string& faults, std::uint64_t seed = 1) {
+  static const Registry registry = builtin_actions();
+  LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
+  context.take_tests(0);
+  context.choose_faults({seed, std::nullopt});
+  const std::string text =
+      "<launch>\n<executable cmd=\"p\"/>\n<test name=\"t\"><output text=\"a\"/>\n" + faults + "\n</test></launch>";
+  try {
+    LaunchPlan plan =
+        plan_launch(context, *parse_launch_description(std::make_shared<SourceFile>("/t.launch.xml", text), registry));
+    return {std::move(plan.tests.at(0).faults), ""};
+  } catch (const LaunchError& error) {
+    return {{}, error.what()};
+  }
+}
+
+const MessageFault& messages(const FaultRequest& fault) {
+  return std::get<MessageFault>(fault.what);
+}
+
+TEST(MessageFault, SaysWhatHappensToWhichMessages) {
+  const Planned planned = plan(R"xml(
+    <fault topic="/scan" do="drop"/>
+    <fault topic="/scan" do="drop" occurrence="3" count="3"/>
+    <fault topic="/scan" do="duplicate" occurrence="5" process="p"/>
+    <fault topic="/scan" do="corrupt" count="all" on="take"/>
+    <fault topic="/scan" do="corrupt" count="all" occurrence="4" on="take" process="p" node="/ns/n"/>
+    <fault topic="/scan" do="delay" by="0.2" every="4" count="3"/>
+    <fault topic="/scan" do="drop" every="4" count="3" occurrence="2"/>
+    <fault topic="/scan" do="drop" every="2" for="3" node="n"/>
+    <group><push_ros_namespace namespace="left"/><fault topic="scan" do="drop" for="1"/></group>)xml");
+  ASSERT_EQ(planned.error, "");
+  std::vector<std::string> texts;
+  for (const FaultRequest& fault : planned.faults) {
+    texts.push_back(describe(fault));
+  }
+  EXPECT_THAT(texts, ElementsAre("drop of message 1 on '/scan'", "drop of messages 3 to 5 on '/scan'",
+                                 "duplicate of message 5 on '/scan' from 'p'",
+                                 "corruption of all messages on '/scan' when taken",
+                                 "corruption of all messages on '/scan' from message 4 on when taken by 'p', '/ns/n'",
+                                 "delay by 0.2 s of 3 messages on '/scan', 1 of 4",
+                                 "drop of 3 messages on '/scan', 1 of 4 from message 2 on",
+                                 "drop of 1 of 2 messages on '/scan' from '/n' for 3 s",
+                                 "drop of all messages on '/left/scan' for 1 s"));
+}
+
+TEST(MessageFault, TheSeedDrawsEachNumber) {
+  const std::string fault =
+      R"xml(<fault topic="/a" do="delay" occurrence="3..9" every="1..2" count="2..4" by="0.1..0.2"/>)xml";
+  std::set<std::uint64_t> first;
+  std::set<std::uint64_t> every;
+  std::set<std::uint64_t> count;
+  std::set<std::uint64_t> bytes;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const FaultRequest drawn = plan(fault, seed).faults.at(0);
+    EXPECT_TRUE(drawn.is_random);
+    first.insert(messages(drawn).first);
+    every.insert(messages(drawn).every);
+    count.insert(*messages(drawn).count);
+    bytes.insert(messages(drawn).seed);
+    EXPECT_GE(messages(drawn).by, 100ms);
+    EXPECT_LE(messages(drawn).by, 200ms);
+  }
+  EXPECT_THAT(first, ElementsAre(3, 4, 5, 6, 7, 8, 9));
+  EXPECT_THAT(every, ElementsAre(1, 2));
+  EXPECT_THAT(count, ElementsAre(2, 3, 4));
+  EXPECT_EQ(bytes.size(), 200U);
+}
+
+TEST(MessageFault, DrawsTheSameForTheSameSeedWhateverTheOtherFaultsAre) {
+  const std::string a = R"xml(<fault topic="/a" do="drop" occurrence="1..1000000"/>)xml";
+  const std::string b = R"xml(<fault topic="/b" do="drop" occurrence="1..1000000"/>)xml";
+  const Planned both = plan(a + b + a, 7);
+  const Planned second = plan(b, 7);
+  EXPECT_EQ(messages(both.faults.at(1)).first, messages(second.faults.at(0)).first);
+  EXPECT_NE(messages(both.faults.at(0)).first, messages(both.faults.at(1)).first);
+  EXPECT_NE(messages(both.faults.at(0)).first, messages(both.faults.at(2)).first);
+  EXPECT_FALSE(plan(R"xml(<fault topic="/a" do="drop" occurrence="3" count="all"/>)xml").faults.at(0).is_random);
+}
+
+TEST(MessageFault, AttributesGoTogether) {
+  const auto error_of = [](const std::string& fault) { return plan(fault).error; };
+  EXPECT_EQ(error_of(R"(<fault do="drop"/>)"),
+            "/t.launch.xml:4:2: error: it is not said whose messages they are\n"
+            "    4 | <fault do=\"drop\"/>\n"
+            "      |  ^~~~~\n"
+            "      = help: topic=\"/scan\" names a topic of the ROS graph");
+  EXPECT_EQ(error_of(R"(<fault process="p" do="kill" topic="/a"/>)"),
+            "/t.launch.xml:4:37: error: topic goes with do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\" "
+            "only\n"
+            "    4 | <fault process=\"p\" do=\"kill\" topic=\"/a\"/>\n"
+            "      |                                     ^~");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" do="delay"/>)"),
+            "/t.launch.xml:4:2: error: it is not said how late the messages are\n"
+            "    4 | <fault topic=\"/a\" do=\"delay\"/>\n"
+            "      |  ^~~~~\n"
+            "      = help: by=\"0.2\": seconds");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" by="1"/>)"),
+            "/t.launch.xml:4:33: error: by goes with do=\"delay\" only\n"
+            "    4 | <fault topic=\"/a\" do=\"drop\" by=\"1\"/>\n"
+            "      |                                 ^");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" count="2" for="1"/>)"),
+            "/t.launch.xml:4:44: error: either count or for says how long messages suffer\n"
+            "    4 | <fault topic=\"/a\" do=\"drop\" count=\"2\" for=\"1\"/>\n"
+            "      |                                            ^");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" on="recieve"/>)"),
+            "/t.launch.xml:4:33: error: on can be publish or take, got 'recieve'\n"
+            "    4 | <fault topic=\"/a\" do=\"drop\" on=\"recieve\"/>\n"
+            "      |                                 ^~~~~~~");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" occurrence="0..3"/>)"),
+            "/t.launch.xml:4:41: error: occurrence takes a whole number from 1, got '0..3'\n"
+            "    4 | <fault topic=\"/a\" do=\"drop\" occurrence=\"0..3\"/>\n"
+            "      |                                         ^~~~\n"
+            "      = help: or a range of them, such as 1..5");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" count="none"/>)"),
+            "/t.launch.xml:4:36: error: count takes a whole number from 1, got 'none'\n"
+            "    4 | <fault topic=\"/a\" do=\"drop\" count=\"none\"/>\n"
+            "      |                                    ^~~~\n"
+            "      = help: or a range of them, such as 1..5");
+}
+
+}  // namespace
+}  // namespace launch
