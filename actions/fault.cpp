@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system, and
-// <fault topic="…" do="drop|duplicate|corrupt|delay">: what it does to messages. The random parts are drawn here, so
-// that a run has nothing left to chance.
+// <fault topic="…" do="drop|duplicate|corrupt|delay">: what it does to messages, and <fault group="…"
+// do="partition|lose|delay">: what it does to the network. The random parts are drawn here, so that a run has nothing
+// left to chance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "actions/depends_on.hpp"
 #include "actions/expectation_fields.hpp"
 #include "actions/message_fault.hpp"
+#include "actions/network_fault.hpp"
 #include "actions/range_field.hpp"
 #include "actions/resource_fields.hpp"
 #include "launcher/language/exit_code_filter.hpp"
@@ -22,8 +24,22 @@ namespace launch {
 
 namespace {
 
-enum class Kind { kKill, kStop, kSlow, kLimit, kDrop, kDuplicate, kCorrupt, kDelay };
-const std::vector<std::string> kKinds = {"kill", "stop", "slow", "limit", "drop", "duplicate", "corrupt", "delay"};
+enum class Kind { kKill, kStop, kSlow, kLimit, kDrop, kDuplicate, kCorrupt, kDelay, kPartition, kLose };
+const std::vector<std::string> kKinds = {"kill",      "stop",    "slow",  "limit",     "drop",
+                                         "duplicate", "corrupt", "delay", "partition", "lose"};
+
+std::optional<NetworkFault::Kind> network_kind(Kind kind, const Fields& fields) {
+  switch (kind) {
+    case Kind::kPartition:
+      return NetworkFault::Kind::kPartition;
+    case Kind::kLose:
+      return NetworkFault::Kind::kLose;
+    case Kind::kDelay:
+      return fields.has("group") ? std::optional(NetworkFault::Kind::kDelay) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
 
 std::optional<MessageFault::Kind> message_kind(Kind kind) {
   switch (kind) {
@@ -79,8 +95,10 @@ class Fault : public Action {
       dependencies_.emplace_back(*item);
     }
     check_literals();
-    if (const auto kind = message_kind(kind_)) {
-      messages_.emplace(fields, *kind);
+    if (const auto network = network_kind(kind_, fields)) {
+      network_.emplace(fields, *network);
+    } else if (const auto messages = message_kind(kind_)) {
+      messages_.emplace(fields, *messages);
     }
   }
 
@@ -106,7 +124,10 @@ class Fault : public Action {
     set_what(fault, scope);
     const std::optional<MessageFaultRanges> messages =
         messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
-    const std::string what = messages ? fmt::format("{} {}", fault.process, messages->identity()) : describe(fault);
+    const std::optional<NetworkFaultRanges> network = network_ ? std::optional(network_->perform(scope)) : std::nullopt;
+    const std::string what = messages  ? fmt::format("{} {}", fault.process, messages->identity())
+                             : network ? network->identity()
+                                       : describe(fault);
     fault.identity = name_
                          ? name_->perform(scope)
                          : fmt::format("{} {}..{} {}..{} {}", what, at.from, at.to, lasts.from, lasts.to, probability);
@@ -122,6 +143,9 @@ class Fault : public Action {
     if (messages) {
       fault.what = messages->draw(draw);
       fault.is_random = fault.is_random || messages->is_random();
+    } else if (network) {
+      fault.what = network->draw(draw);
+      fault.is_random = fault.is_random || network->is_random();
     }
     for (std::size_t i = 0; i < dependencies_.size(); ++i) {
       fault.is_random = fault.is_random || dependencies_[i].is_random(scope);
@@ -142,7 +166,9 @@ class Fault : public Action {
   void check_attributes(const Fields& fields) const {
     static const std::vector<Kind> kOfMessages = {Kind::kDrop, Kind::kDuplicate, Kind::kCorrupt, Kind::kDelay};
     static const char* const kWithMessages = "do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\"";
-    static const std::array<OwnAttribute, 11> kOwn = {{{"signal", {Kind::kKill}, "do=\"kill\""},
+    static const std::vector<Kind> kOfNetwork = {Kind::kPartition, Kind::kLose, Kind::kDelay};
+    static const char* const kWithNetwork = "do=\"partition\", do=\"lose\" and do=\"delay\"";
+    static const std::array<OwnAttribute, 14> kOwn = {{{"signal", {Kind::kKill}, "do=\"kill\""},
                                                        {"topic", kOfMessages, kWithMessages},
                                                        {"node", kOfMessages, kWithMessages},
                                                        {"on", kOfMessages, kWithMessages},
@@ -150,6 +176,9 @@ class Fault : public Action {
                                                        {"every", kOfMessages, kWithMessages},
                                                        {"count", kOfMessages, kWithMessages},
                                                        {"by", {Kind::kDelay}, "do=\"delay\""},
+                                                       {"group", kOfNetwork, kWithNetwork},
+                                                       {"from", kOfNetwork, kWithNetwork},
+                                                       {"share", {Kind::kLose}, "do=\"lose\""},
                                                        {"to", {Kind::kSlow}, "do=\"slow\""},
                                                        {"memory", {Kind::kLimit}, "do=\"limit\""},
                                                        {"files", {Kind::kLimit}, "do=\"limit\""}}};
@@ -163,7 +192,16 @@ class Fault : public Action {
       throw LaunchError("for does not go with do=\"kill\": a kill is over at once", fields.where("for"), {},
                         Finding::kExclusive);
     }
-    if (!process_ && !message_kind(kind_)) {
+    const bool is_of_network = network_kind(kind_, fields).has_value();
+    if (is_of_network) {
+      for (const char* const other : {"process", "topic", "node", "on", "occurrence", "every", "count"}) {
+        if (fields.has(other)) {
+          throw LaunchError(fmt::format("{} does not go with a fault of the network", other), fields.where(other),
+                            "group and from name the processes", Finding::kExclusive);
+        }
+      }
+    }
+    if (!process_ && !is_of_network && !message_kind(kind_)) {
       throw LaunchError("it is not said which process suffers", fields.where(),
                         "process=\"…\": the name of the process or of its node", Finding::kMissingAttribute);
     }
@@ -238,6 +276,7 @@ class Fault : public Action {
   std::optional<Template> memory_;
   std::optional<NumberField> files_;
   std::optional<MessageFaultFields> messages_;
+  std::optional<NetworkFaultFields> network_;
   std::vector<DependsOn> dependencies_;
 };
 
@@ -247,7 +286,7 @@ ActionType fault_action() {
   ActionType type{
       .tag = "fault",
       .help =
-          "In a test: does something to a process of the system or to messages, at a time or when something is "
+          "In a test: does something to a process, to messages or to the network, at a time or when something is "
           "ready.",
       .attributes =
           {{"process", AttributeType::kText, false, "",
@@ -255,7 +294,7 @@ ActionType fault_action() {
            {"do", AttributeType::kLiteral, true, "",
             "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
             "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic are lost, come twice, "
-            "with other bytes, or late",
+            "with other bytes, or late; partition, lose, delay: packets between processes are lost or late",
             true},
            {"at", AttributeType::kText, false, "0",
             "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
@@ -274,8 +313,9 @@ ActionType fault_action() {
       .items = {DependsOn::item_of_fault()},
       .extension = true,
       .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
-  const std::vector<AttributeSpec> of_messages = MessageFaultFields::attributes();
-  type.attributes.insert(type.attributes.end(), of_messages.begin(), of_messages.end());
+  for (const std::vector<AttributeSpec>& more : {MessageFaultFields::attributes(), NetworkFaultFields::attributes()}) {
+    type.attributes.insert(type.attributes.end(), more.begin(), more.end());
+  }
   return type;
 }
 

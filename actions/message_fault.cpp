@@ -15,8 +15,11 @@ constexpr const char* kNoEnd = "all";
 
 const Template& topic_of(const Fields& fields) {
   if (!fields.has("topic")) {
+    const bool is_delay = fields.literal("do") == "delay";
     throw LaunchError("it is not said whose messages they are", fields.where(),
-                      "topic=\"/scan\" names a topic of the ROS graph", Finding::kMissingAttribute);
+                      is_delay ? "topic=\"/scan\" names a topic of the ROS graph; with group=\"…\", the network is late"
+                               : "topic=\"/scan\" names a topic of the ROS graph",
+                      Finding::kMissingAttribute);
   }
   return fields.text("topic");
 }
@@ -71,7 +74,7 @@ std::vector<AttributeSpec> MessageFaultFields::attributes() {
        "with topic: from then on each message of so many; a range of numbers", true},
       {"count", AttributeType::kText, false, "1, or all with for",
        "with topic: how many messages are hit; a range of numbers, or all", true},
-      {"by", AttributeType::kText, false, "", "with delay: seconds, or a range of them", true}};
+      {"by", AttributeType::kText, false, "", "with delay: how late, in seconds, or a range", true}};
 }
 
 MessageFaultFields::MessageFaultFields(const Fields& fields, MessageFault::Kind kind)

@@ -26,7 +26,7 @@ sockaddr ipv4(in_addr_t address) {
 
 }  // namespace
 
-int bring_up_loopback() {
+int bring_up_loopback(bool other_takes_multicast) {
   const UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   ifreq interface {};
   ::strcpy(interface.ifr_name, "lo");
@@ -36,6 +36,9 @@ int bring_up_loopback() {
   interface.ifr_flags = static_cast<short>(interface.ifr_flags | IFF_UP | IFF_RUNNING | IFF_MULTICAST);
   if (::ioctl(socket.get(), SIOCSIFFLAGS, &interface) != 0) {
     return errno;
+  }
+  if (other_takes_multicast) {
+    return 0;
   }
   rtentry route{};
   route.rt_dst = ipv4(0xe0000000);      // 224.0.0.0

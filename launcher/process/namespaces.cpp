@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 #include <sched.h>
 #include <signal.h>
+#include <string.h>
 #include <sys/mount.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,6 +23,7 @@
 #include "launcher/base/pipe.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/process_runner.hpp"
+#include "launcher/process/tap_device.hpp"
 
 namespace launch {
 namespace {
@@ -30,15 +34,57 @@ constexpr std::string_view kWaitFile = "lttng-ust-wait-";  // of LTTng's session
 // Descriptors of a launcher that has just started have smaller numbers than this, and those of launch-exec, too.
 constexpr int kFirstFile = 16;
 
-// What a process that makes the namespaces reports.
+// What a process that makes the namespaces reports, with the descriptor of the network of a host.
 struct Report {
   std::array<char, 48> step;  // empty: all went well
   int error;
 };
 
+// A message with a descriptor, if there is one.
+class Message {
+ public:
+  explicit Message(Report& report) : part_{&report, sizeof report} {
+    header_.msg_iov = &part_;
+    header_.msg_iovlen = 1;
+    header_.msg_control = control_;
+    header_.msg_controllen = sizeof control_;
+  }
+
+  bool send(int socket, int descriptor) {
+    if (descriptor < 0) {
+      header_.msg_controllen = 0;
+    } else {
+      cmsghdr* const rights = CMSG_FIRSTHDR(&header_);
+      rights->cmsg_level = SOL_SOCKET;
+      rights->cmsg_type = SCM_RIGHTS;
+      rights->cmsg_len = CMSG_LEN(sizeof descriptor);
+      ::memcpy(CMSG_DATA(rights), &descriptor, sizeof descriptor);
+    }
+    return ::sendmsg(socket, &header_, MSG_NOSIGNAL) == static_cast<ssize_t>(part_.iov_len);
+  }
+
+  bool receive(int socket, UniqueFd& descriptor) {
+    if (::recvmsg(socket, &header_, MSG_CMSG_CLOEXEC) != static_cast<ssize_t>(part_.iov_len)) {
+      return false;
+    }
+    if (const cmsghdr* const rights = CMSG_FIRSTHDR(&header_)) {
+      int received = -1;
+      ::memcpy(&received, CMSG_DATA(rights), sizeof received);
+      descriptor.reset(received);
+    }
+    return true;
+  }
+
+ private:
+  iovec part_;
+  msghdr header_{};
+  alignas(cmsghdr) char control_[CMSG_SPACE(sizeof(int))] = {};
+};
+
 class Maker {
  public:
-  explicit Maker(int reports) : reports_(reports) {}
+  // Without a host, there is no network but lo.
+  Maker(int reports, std::optional<unsigned> host) : reports_(reports), host_(host) {}
 
   void make(bool user) {
     const uid_t uid = ::geteuid();
@@ -53,17 +99,22 @@ class Maker {
     // Disks that are mounted later appear inside, and nothing that is mounted inside appears outside.
     check("make mounts private", ::mount(nullptr, "/", nullptr, MS_REC | MS_SLAVE, nullptr));
     mount_shared_memory();
-    errno = bring_up_loopback();
+    errno = bring_up_loopback(host_.has_value());
     check("bring up lo", errno == 0 ? 0 : -1);
+    UniqueFd device;
+    if (host_) {
+      device = make_tap_device(*host_);
+      check("make a network device with /dev/net/tun", device ? 0 : -1);
+    }
     check_root();
-    report("", 0);
+    report("", 0, device.get());
   }
 
  private:
-  void report(const char* step, int error) const {
+  void report(const char* step, int error, int descriptor = -1) const {
     Report report{{}, error};
     fmt::format_to_n(report.step.data(), report.step.size() - 1, "{}", step);
-    static_cast<void>(!::write(reports_, &report, sizeof report));
+    Message(report).send(reports_, descriptor);
   }
 
   void check(const char* step, int result) const {
@@ -112,6 +163,7 @@ class Maker {
   }
 
   int reports_;
+  std::optional<unsigned> host_;
 };
 
 // Throws std::system_error.
@@ -132,8 +184,12 @@ std::vector<UniqueFd> open_namespaces(pid_t process, bool user) {
 }
 
 // A process makes the namespaces and waits until they have been opened. Throws std::system_error.
-std::vector<UniqueFd> make_namespaces(bool user) {
-  Pipe reports = make_pipe();
+std::vector<UniqueFd> make_namespaces(bool user, std::optional<unsigned> host, UniqueFd& device) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
+    throw std::system_error(errno, std::system_category(), "socketpair");
+  }
+  Pipe reports{UniqueFd(ends[0]), UniqueFd(ends[1])};
   Pipe end = make_pipe();
   const pid_t maker = ::fork();
   if (maker < 0) {
@@ -141,7 +197,7 @@ std::vector<UniqueFd> make_namespaces(bool user) {
   }
   if (maker == 0) {
     end.write.reset();
-    Maker(reports.write.get()).make(user);
+    Maker(reports.write.get(), host).make(user);
     char nothing = 0;
     static_cast<void>(!::read(end.read.get(), &nothing, 1));
     ::_exit(0);
@@ -156,7 +212,7 @@ std::vector<UniqueFd> make_namespaces(bool user) {
   } reaper{end, maker};
   reports.write.reset();
   Report report{};
-  if (::read(reports.read.get(), &report, sizeof report) != sizeof report) {
+  if (!Message(report).receive(reports.read.get(), device)) {
     throw std::system_error(ECHILD, std::system_category(), "the process that makes namespaces");
   }
   if (report.step[0] != '\0') {
@@ -165,14 +221,25 @@ std::vector<UniqueFd> make_namespaces(bool user) {
   return open_namespaces(maker, user);
 }
 
+std::vector<UniqueFd> make_namespaces(std::optional<unsigned> host, UniqueFd& device) {
+  try {
+    return make_namespaces(false, host, device);
+  } catch (const std::system_error&) {
+    return make_namespaces(true, host, device);  // its error tells more: this is what a user without privileges may do
+  }
+}
+
 }  // namespace
 
 Namespaces Namespaces::make() {
-  try {
-    return Namespaces(make_namespaces(false));
-  } catch (const std::system_error&) {
-    return Namespaces(make_namespaces(true));  // its error tells more: this is what a user without privileges may do
-  }
+  UniqueFd none;
+  return Namespaces(make_namespaces(std::nullopt, none));
+}
+
+Namespaces::Host Namespaces::make_host(unsigned host) {
+  UniqueFd device;
+  Namespaces namespaces(make_namespaces(host, device));
+  return {std::move(namespaces), std::move(device)};
 }
 
 std::string Namespaces::step() const {

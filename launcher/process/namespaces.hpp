@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Network, IPC and mount namespaces of a launch's own, for `launch --isolate`.
+// Network, IPC and mount namespaces of a launch's own, for `launch --isolate`; or of some of its processes, for tests
+// with faults of the network.
 //
-// Only the processes of the launch enter them, through launch-exec. The launcher stays outside: so its control socket,
+// Only the processes enter them, through launch-exec. The launcher stays outside: so its control socket,
 // the session daemon that it starts and the commands of its launch file are where they always are.
 #pragma once
 
@@ -13,14 +14,19 @@
 
 namespace launch {
 
-// lo is the only network; multicast works on it. /dev/shm is empty, but for the files by which LTTng's session daemon
-// wakes the processes that wait for it. All other files are those of the machine. The namespaces exist as long as this
-// object or a process inside.
+// lo is the only network, unless they are those of a host; multicast works on it. /dev/shm is empty, but for the files
+// by which LTTng's session daemon wakes the processes that wait for it. All other files are those of the machine. The
+// namespaces exist as long as this object or a process inside.
 class Namespaces {
  public:
   // Makes them, in a user namespace of their own if that is necessary. Must be called while there is one thread.
   // Throws std::system_error where the machine does not allow it.
   static Namespaces make();
+
+  // Each host of a network has namespaces of its own. Their network ends in this descriptor (tap_device.hpp).
+  struct Host;
+  // With the number of the host, as make_tap_device() takes it. Otherwise as make().
+  static Host make_host(unsigned host);
 
   // The step of launch-exec that enters them, and the descriptors that the step needs.
   std::string step() const;
@@ -33,6 +39,11 @@ class Namespaces {
   explicit Namespaces(std::vector<UniqueFd> files) : files_(std::move(files)) {}
 
   std::vector<UniqueFd> files_;  // in the order in which they have to be entered
+};
+
+struct Namespaces::Host {
+  Namespaces namespaces;
+  UniqueFd device;
 };
 
 }  // namespace launch

@@ -110,7 +110,9 @@ std::optional<LaunchExecFailure> read_failure(const UniqueFd& pipe) {
 
 class PosixProcessRunner final : public ProcessRunner {
  public:
-  PosixProcessRunner(std::string exec_program, const Namespaces* namespaces);
+  using NamespaceChoice = std::function<const Namespaces*(const ProcessSpec&)>;
+
+  PosixProcessRunner(std::string exec_program, NamespaceChoice namespaces_of);
 
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
@@ -122,12 +124,12 @@ class PosixProcessRunner final : public ProcessRunner {
   static ProcessExit wait(const Process& process, int flags);
 
   std::string exec_program_;
-  const Namespaces* namespaces_;
+  NamespaceChoice namespaces_of_;
   std::optional<rlimit> limit_of_children_;  // only if it differs from the launcher's
 };
 
-PosixProcessRunner::PosixProcessRunner(std::string exec_program, const Namespaces* namespaces)
-    : exec_program_(std::move(exec_program)), namespaces_(namespaces) {
+PosixProcessRunner::PosixProcessRunner(std::string exec_program, NamespaceChoice namespaces_of)
+    : exec_program_(std::move(exec_program)), namespaces_of_(std::move(namespaces_of)) {
   for (int fd = 0; fd <= 2; ++fd) {
     if (::fcntl(fd, F_GETFD) < 0) {
       // open() takes the lowest free number. Without this a pipe could get it, and be overwritten by the redirections.
@@ -166,17 +168,18 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
       .group = ChildGroup::kOwn,
       .signals = ChildSignals::kFresh,
   };
-  const bool wrapped = spec.limits.any() || namespaces_ != nullptr;
+  const Namespaces* const namespaces = namespaces_of_(spec);
+  const bool wrapped = spec.limits.any() || namespaces != nullptr;
   Pipe failures;
   if (wrapped) {
     failures = make_pipe();
     child.descriptors.push_back({kLaunchExecError, failures.write.get()});
     std::vector<std::string> wrapper = launch_exec_arguments(spec.limits);
-    if (namespaces_ != nullptr) {
-      for (const ChildDescriptor& descriptor : namespaces_->descriptors()) {
+    if (namespaces != nullptr) {
+      for (const ChildDescriptor& descriptor : namespaces->descriptors()) {
         child.descriptors.push_back(descriptor);
       }
-      wrapper.insert(wrapper.end() - 1, namespaces_->step());
+      wrapper.insert(wrapper.end() - 1, namespaces->step());
     }
     wrapper.insert(wrapper.begin(), exec_program_);
     wrapper.push_back(program);
@@ -265,7 +268,12 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
 
 std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program,
                                                          const Namespaces* namespaces) {
-  return std::make_unique<PosixProcessRunner>(exec_program, namespaces);
+  return make_posix_process_runner(exec_program, [namespaces](const ProcessSpec&) { return namespaces; });
+}
+
+std::unique_ptr<ProcessRunner> make_posix_process_runner(
+    const std::string& exec_program, std::function<const Namespaces*(const ProcessSpec&)> namespaces_of) {
+  return std::make_unique<PosixProcessRunner>(exec_program, std::move(namespaces_of));
 }
 
 std::string default_exec_program() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,5 +52,8 @@ std::string default_exec_program();
 // every process if there are `namespaces`, which must outlive the runner.
 std::unique_ptr<ProcessRunner> make_posix_process_runner(const std::string& exec_program = default_exec_program(),
                                                          const Namespaces* namespaces = nullptr);
+// `namespaces_of` says in which namespaces a process starts; null: in none of its own.
+std::unique_ptr<ProcessRunner> make_posix_process_runner(
+    const std::string& exec_program, std::function<const Namespaces*(const ProcessSpec&)> namespaces_of);
 
 }  // namespace launch

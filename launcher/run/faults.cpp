@@ -40,6 +40,9 @@ struct Faults::Fault {
   std::vector<Limit> limits{};
   std::uint64_t messages = 0;  // that were hit
 
+  std::optional<std::size_t> impairment = std::nullopt;  // of the network, while it lasts
+
+  const NetworkFault* of_network() const { return std::get_if<NetworkFault>(&request.what); }
   const MessageFault* of_messages() const { return std::get_if<MessageFault>(&request.what); }
 };
 
@@ -101,6 +104,10 @@ void Faults::begin(Fault& fault) {
     apply_to_messages(fault);  // before the processes start, so that the first message counts
     return;
   }
+  if (fault.of_network() != nullptr && fault.request.at == Duration(0)) {
+    apply_to_network(fault);
+    return;
+  }
   fault.timer = loop_.after(fault.request.at, [this, &fault] { apply(fault); });
 }
 
@@ -108,6 +115,10 @@ void Faults::apply(Fault& fault) {
   fault.timer.reset();
   if (fault.of_messages() != nullptr) {
     apply_to_messages(fault);
+    return;
+  }
+  if (fault.of_network() != nullptr) {
+    apply_to_network(fault);
     return;
   }
   const std::string& name = fault.request.process;
@@ -131,8 +142,9 @@ void Faults::apply(Fault& fault) {
   for (const ProcessId id : running) {
     const std::string reason = std::visit(
         [&](const auto& what) -> std::string {
-          if constexpr (std::is_same_v<std::decay_t<decltype(what)>, MessageFault>) {
-            return {};
+          using What = std::decay_t<decltype(what)>;
+          if constexpr (std::is_same_v<What, MessageFault> || std::is_same_v<What, NetworkFault>) {
+            return {};  // not applied to a process
           } else {
             return apply(fault, id, what);
           }
@@ -231,6 +243,30 @@ void Faults::end_messages(Fault& fault, const char* when) {
                           seen == 0 ? "no" : std::to_string(seen), seen == 1 ? "" : "s", messages.topic, when));
 }
 
+void Faults::apply_to_network(Fault& fault) {
+  if (network_ == nullptr) {
+    miss(fault, "there is no network for it");
+    return;
+  }
+  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
+  fault.impairment = network_->begin(*fault.of_network());
+  tell(fault, {});
+  if (fault.request.lasts) {
+    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end_network(fault); });
+  } else {
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
+  }
+}
+
+void Faults::end_network(Fault& fault) {
+  if (fault.impairment) {
+    network_->end(*fault.impairment);
+    tell(fault, {.kind = FaultEvent::Kind::kOver, .packets = network_->packets(*fault.impairment)});
+    fault.impairment.reset();
+  }
+  fault.is_over = true;
+}
+
 void Faults::turn(Fault& fault, bool runs) {
   const unsigned percent = std::get<SlowFault>(fault.request.what).percent;
   for (const ProcessId id : fault.processes) {
@@ -315,6 +351,7 @@ void Faults::shutdown() {
     if (fault.of_messages() != nullptr && !fault.is_over) {
       end_messages(fault, "");
     }
+    end_network(fault);
     fault.is_over = true;
     fault.timer.reset();
     fault.turn_timer.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faults of a test: each is applied to its process, or to messages, when its time has come.
+// The faults of a test: each is applied to its process, to messages or to the network, when its time has come.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,7 @@
 #include "launcher/run/dependency_watches.hpp"
 #include "launcher/run/message_faults.hpp"
 #include "launcher/run/processes.hpp"
+#include "launcher/run/test_network.hpp"
 #include "launcher/visit/fault_request.hpp"
 
 namespace launch {
@@ -31,12 +32,13 @@ struct FaultEvent {
   };
   std::size_t number = 0;  // of the fault
   Kind kind = Kind::kApplied;
-  std::vector<std::string> labels = {};  // of kApplied: the processes
-  int signal = 0;                        // of kApplied: what a kill has sent
-  std::string reason = {};               // of kMissed: "'worker' did not run"
-  std::uint64_t messages = 0;            // of kApplied: how many have been hit so far
-  Duration first{0};                     // of kApplied, with messages: when the first one was, as EventLoop::now()
-  Duration latest{0};                    // and the latest one
+  std::vector<std::string> labels = {};       // of kApplied: the processes
+  int signal = 0;                             // of kApplied: what a kill has sent
+  std::string reason = {};                    // of kMissed: "'worker' did not run"
+  std::uint64_t messages = 0;                 // of kApplied: how many have been hit so far
+  Duration first{0};                          // of kApplied, with messages: when the first one was, as EventLoop::now()
+  Duration latest{0};                         // and the latest one
+  std::optional<std::uint64_t> packets = {};  // of kOver: how many a fault of the network has hit
 };
 
 class Faults {
@@ -50,6 +52,9 @@ class Faults {
 
   // Receives what happens to faults, also before a process reports its end. One observer, null for none.
   void observe(std::function<void(const FaultEvent&)> observer) { observer_ = std::move(observer); }
+
+  // The network that faults of the network are applied to. It must outlive this object.
+  void use_network(TestNetwork& network) { network_ = &network; }
 
   // The test begins: the times of its faults count from now. Their dependencies must be resolved. Faults that are left
   // out are passed over. Must be called before its processes start. The directory is for files, which end with this
@@ -82,6 +87,8 @@ class Faults {
   void apply_to_messages(Fault& fault);
   void on_messages(Fault& fault);
   void end_messages(Fault& fault, const char* when);
+  void apply_to_network(Fault& fault);
+  void end_network(Fault& fault);
   void turn(Fault& fault, bool runs);
   void hold(const Fault& fault, ProcessId id);
   void release(const Fault& fault, ProcessId id);
@@ -96,6 +103,7 @@ class Faults {
   std::function<void(const FaultEvent&)> observer_;
   DependencyWatches watches_;
   MessageFaults messages_;
+  TestNetwork* network_ = nullptr;
   std::list<Fault> faults_;                           // their addresses don't change
   std::map<ProcessId, std::set<const Fault*>> held_;  // processes that stand still, and the faults that hold them
 };

@@ -75,6 +75,8 @@ class LaunchService {
   }
   // `prepare` may change each process before its first start.
   void use_test_processes(std::function<void(ProcessSpec&)> prepare) { prepare_for_test_ = std::move(prepare); }
+  // Of a test with faults of the network. It must outlive the service.
+  void use_network(TestNetwork& network) { faults_.use_network(network); }
   void end(const std::string& reason);
 
   // Failures of processes and components don't change the exit code, as with ros2 launch.

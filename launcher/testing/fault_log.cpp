@@ -12,6 +12,9 @@ std::string FaultResult::text() const {
   if (!applied()) {
     return fmt::format("{}: {}: {}", place, what, reason);
   }
+  if (packets) {
+    return fmt::format("{}: {} at {:.3f} s, {} packet{}", place, what, seconds, *packets, *packets == 1 ? "" : "s");
+  }
   const std::string times = messages > 1 ? fmt::format(", {} times until {:.3f} s", messages, latest) : "";
   return fmt::format("{}: {} at {:.3f} s{}", place, what, seconds, times);
 }
@@ -40,6 +43,7 @@ void FaultLog::on_fault(const FaultEvent& event, Duration now) {
       break;
     case FaultEvent::Kind::kOver:
       entry.is_over = true;
+      entry.packets = event.packets;
       break;
   }
 }
@@ -77,6 +81,7 @@ std::vector<FaultResult> FaultLog::results(const std::string& why) const {
     } else if (entry.is_applied) {
       result.seconds = std::chrono::duration<double>(entry.at).count();
       result.messages = entry.messages;
+      result.packets = entry.packets;
       result.latest = entry.messages == 0 ? 0 : std::chrono::duration<double>(entry.latest).count();
     } else {
       result.reason = "not applied: " + (entry.reason.empty() ? why : entry.reason);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,14 @@ struct FaultResult {
   std::string file;
   unsigned line = 0;
   unsigned column = 0;
-  std::string place;           // as messages show it: "system.launch.xml:8:6"
-  std::string what;            // "kill of 'worker'"
-  std::string reason;          // why it was not applied; empty: it was
-  bool left_out = false;       // not drawn, or not chosen on the command line
-  double seconds = 0;          // when it was applied, from the begin of the test
-  std::uint64_t messages = 0;  // that a fault of messages has hit
-  double latest = 0;           // when the latest of them was
+  std::string place;                          // as messages show it: "system.launch.xml:8:6"
+  std::string what;                           // "kill of 'worker'"
+  std::string reason;                         // why it was not applied; empty: it was
+  bool left_out = false;                      // not drawn, or not chosen on the command line
+  double seconds = 0;                         // when it was applied, from the begin of the test
+  std::uint64_t messages = 0;                 // that a fault of messages has hit
+  double latest = 0;                          // when the latest of them was
+  std::optional<std::uint64_t> packets = {};  // that a fault of the network has hit
 
   bool applied() const { return reason.empty(); }
   // "system.launch.xml:8:6: kill of 'worker' at 2.314 s", "…: stop of 'worker': not drawn", "…: drop of messages 3 to 5
@@ -58,6 +60,7 @@ class FaultLog {
     Duration at{0};
     std::uint64_t messages = 0;
     Duration latest{0};
+    std::optional<std::uint64_t> packets = {};
   };
 
   std::vector<Entry> entries_;

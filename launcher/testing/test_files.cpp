@@ -97,6 +97,17 @@ std::string without_number(const std::string& label) {
   return has_number ? label.substr(0, dash) : label;
 }
 
+std::vector<NetworkFault::Member> network_of(const TestRequest& test) {
+  std::vector<NetworkFault::Member> members;
+  for (const FaultRequest& fault : test.faults) {
+    if (const auto* const network = std::get_if<NetworkFault>(&fault.what)) {
+      members.insert(members.end(), network->group.begin(), network->group.end());
+      members.insert(members.end(), network->from.begin(), network->from.end());
+    }
+  }
+  return members;
+}
+
 void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Diagnostic>& errors) {
   std::set<std::string> names;
   bool is_complete = true;
@@ -121,6 +132,9 @@ void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Di
   }
   for (const FaultRequest& fault : test.faults) {
     check(fault.process, fault.process_where);
+  }
+  for (const NetworkFault::Member& member : network_of(test)) {
+    check(member.name, member.where);
   }
 }
 
@@ -161,6 +175,7 @@ TestCase TestFile::test_case(const TestRequest& test, std::size_t number) const 
           .traced = test.is_traced(),
           .events = other_events(test),
           .fault_count = test.faults.size(),
+          .network = network_of(test),
           .shows_seed = !test.faults.empty()};
 }
 

@@ -32,6 +32,7 @@ struct TestCase {
   std::vector<std::string> events;  // that it names, beside those of ROS 2
   bool is_only = false;             // the only one of its file
   std::size_t fault_count = 0;
+  std::vector<NetworkFault::Member> network = {};    // the processes that faults of the network name
   std::uint64_t seed = 1;                            // of its faults
   bool shows_seed = false;                           // the result names the seed
   bool seed_in_name = false;                         // it runs with several

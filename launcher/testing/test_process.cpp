@@ -12,7 +12,9 @@
 #include <chrono>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "launcher/base/domain_lease.hpp"
 #include "launcher/base/own_prefix.hpp"
@@ -23,6 +25,7 @@
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/run/test_network.hpp"
 #include "launcher/testing/artefacts.hpp"
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
@@ -43,8 +46,28 @@ Environment own_surroundings(const TestRun& run, int domain) {
   return environment;
 }
 
+// Nothing without faults of the network, or if they can't be applied here; then the result has a failure.
+std::optional<TestHosts> make_hosts(const TestRun& run, TestResult& result) {
+  if (run.test.network.empty()) {
+    return std::nullopt;
+  }
+  try {
+    return TestHosts::make(run.test.network);
+  } catch (const std::system_error& error) {
+    result.failures.push_back(
+        as_text(Failure{.message = fmt::format("faults of the network are not possible here: {}", error.what()),
+                        .where = run.test.network.front().where,
+                        .help = "they need network namespaces and /dev/net/tun, as root or with user namespaces"}));
+    return std::nullopt;
+  }
+}
+
 // Makes everything that a run needs. The order is that of destruction, backwards.
 void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
+  std::optional<TestHosts> hosts = make_hosts(run, result);  // while there is one thread
+  if (!result.failures.empty()) {
+    return;
+  }
   const DomainLease domain;
   const Environment environment = own_surroundings(run, domain.id());
   ::setenv("ROS_DOMAIN_ID", std::to_string(domain.id()).c_str(), 1);
@@ -55,10 +78,15 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   options.loop = loop.get();
   OutputRouter output(options);
-  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
+  std::optional<TestNetwork> network;
+  if (hosts) {
+    network.emplace(*loop, std::move(*hosts));
+  }
+  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner(
+      default_exec_program(), [&](const ProcessSpec& spec) { return network ? &network->host_of(spec) : nullptr; });
   guardian.set_log(log_directory.path + "/launch.log");
 
-  RosClientProcess ros_client(*loop);
+  RosClientProcess ros_client(*loop, RosClientProcess::default_program(), network ? &network->common_host() : nullptr);
   LaunchContext context(run.registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
@@ -86,6 +114,9 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   launch.use_ros_client(ros_client);
   launch.use_guardian(guardian);
   launch.record_to(tracepoints);
+  if (network) {
+    launch.use_network(*network);
+  }
   launch.use_test(
       [&](TestRequest test) {
         if (test.name == run.test.name) {

@@ -30,6 +30,9 @@ Json json_of(const FaultResult& fault) {
       json["messages"] = fault.messages;
       json["latest_seconds"] = fault.latest;
     }
+    if (fault.packets) {
+      json["packets"] = *fault.packets;
+    }
   } else {
     json["reason"] = fault.reason;
   }
@@ -37,6 +40,8 @@ Json json_of(const FaultResult& fault) {
 }
 
 FaultResult fault_of(const Json& json) {
+  const std::optional<std::uint64_t> packets =
+      json.contains("packets") ? std::optional(json.at("packets").get<std::uint64_t>()) : std::nullopt;
   return {.number = json.at("number").get<std::size_t>(),
           .file = json.at("file").get<std::string>(),
           .line = json.at("line").get<unsigned>(),
@@ -47,7 +52,8 @@ FaultResult fault_of(const Json& json) {
           .left_out = json.at("left_out").get<bool>(),
           .seconds = json.value("seconds", 0.0),
           .messages = json.value("messages", std::uint64_t{0}),
-          .latest = json.value("latest_seconds", 0.0)};
+          .latest = json.value("latest_seconds", 0.0),
+          .packets = packets};
 }
 
 }  // namespace

@@ -31,6 +31,14 @@ std::string describe_messages(const MessageFault& fault) {
                           : fmt::format("1 of {} messages on '{}'{}", fault.every, fault.topic, from);
 }
 
+std::string quoted(const std::vector<NetworkFault::Member>& members) {
+  std::string text;
+  for (const NetworkFault::Member& member : members) {
+    text += fmt::format("{}'{}'", text.empty() ? "" : ", ", member.name);
+  }
+  return members.empty() ? "the others" : text;
+}
+
 struct Describer {
   const std::string& process;
 
@@ -65,6 +73,18 @@ struct Describer {
       return text + " when taken" + (who.empty() ? "" : " by " + who);
     }
     return who.empty() ? text : text + " from " + who;
+  }
+  std::string operator()(const NetworkFault& fault) const {
+    const std::string between = fmt::format("between {} and {}", quoted(fault.group), quoted(fault.from));
+    switch (fault.kind) {
+      case NetworkFault::Kind::kLose:
+        return fmt::format("loss of {:g}% of the packets {}", fault.share * 100, between);
+      case NetworkFault::Kind::kDelay:
+        return fmt::format("delay by {} of the packets {}", seconds(fault.by), between);
+      case NetworkFault::Kind::kPartition:
+        break;
+    }
+    return fmt::format("partition of {} from {}", quoted(fault.group), quoted(fault.from));
   }
 };
 

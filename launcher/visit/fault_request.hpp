@@ -44,10 +44,25 @@ struct MessageFault {
   std::uint64_t seed = 0;                  // of the bytes that are changed
 };
 
+// Packets between two groups of processes are lost or late, in both directions.
+struct NetworkFault {
+  enum class Kind { kPartition, kLose, kDelay };
+  struct Member {
+    std::string name;  // of a process (process_table.hpp)
+    SourceRange where;
+  };
+  Kind kind = Kind::kPartition;
+  std::vector<Member> group;  // one at least
+  std::vector<Member> from;   // empty: all others
+  double share = 1;           // that is lost
+  Duration by{0};             // of a delay
+  std::uint64_t seed = 0;     // of what is lost
+};
+
 struct FaultRequest {
   std::size_t number = 0;  // among the faults of its test, from 1
   std::string process;     // one of its names (process_table.hpp); every process of that name is meant
-  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault> what;
+  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault, NetworkFault> what;
   Duration at{0};                 // from the begin of the test, or from when all dependencies hold
   std::optional<Duration> lasts;  // nullopt: as long as the process; of a MessageFault: until its count is reached
   std::vector<Dependency> dependencies;  // their number of a process means nothing
@@ -59,7 +74,8 @@ struct FaultRequest {
 };
 
 // "kill of 'worker'", "kill of 'worker' by SIGTERM", "stop of 'worker' for 2 s", "slow of 'worker' to 25% for 1 s",
-// "limit of 'worker' to 20 files", "drop of messages 3 to 5 on '/scan'".
+// "limit of 'worker' to 20 files", "drop of messages 3 to 5 on '/scan'", "partition of
+// 'camera' from the others for 2 s".
 std::string describe(const FaultRequest& fault);
 
 }  // namespace launch

@@ -504,6 +504,10 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
                   std::chrono::seconds(100));
   EXPECT_EQ(messages.exit_code, 0) << messages.out << messages.err;
   EXPECT_THAT(messages.out, HasSubstr("6 tests: 6 passed, in "));
+  const CommandResult network = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "49_network_faults.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(network.exit_code, 0) << network.out << network.err;
+  EXPECT_THAT(network.out, HasSubstr("2 tests: 2 passed, in "));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));
