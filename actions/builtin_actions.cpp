@@ -14,6 +14,7 @@ namespace launch {
   ACTION(bool_arg)                     \
   ACTION(call)                         \
   ACTION(change_parameter)             \
+  ACTION(clock)                        \
   ACTION(executable)                   \
   ACTION(fault)                        \
   ACTION(for)                          \

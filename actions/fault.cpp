@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system, and
 // <fault topic="…" do="drop|duplicate|corrupt|delay">: what it does to messages, and <fault group="…"
-// do="partition|lose|delay">: what it does to the network. The random parts are drawn here, so that a run has nothing
-// left to chance.
+// do="partition|lose|delay">: what it does to the network, and <fault clock="…" do="stop|skew|jump">: to simulated
+// time. The random parts are drawn here, so that a run has nothing left to chance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <charconv>
 #include <chrono>
 
+#include "actions/clock_fault.hpp"
 #include "actions/depends_on.hpp"
 #include "actions/expectation_fields.hpp"
 #include "actions/message_fault.hpp"
@@ -24,9 +25,9 @@ namespace launch {
 
 namespace {
 
-enum class Kind { kKill, kStop, kSlow, kLimit, kDrop, kDuplicate, kCorrupt, kDelay, kPartition, kLose };
-const std::vector<std::string> kKinds = {"kill",      "stop",    "slow",  "limit",     "drop",
-                                         "duplicate", "corrupt", "delay", "partition", "lose"};
+enum class Kind { kKill, kStop, kSlow, kLimit, kDrop, kDuplicate, kCorrupt, kDelay, kPartition, kLose, kSkew, kJump };
+const std::vector<std::string> kKinds = {"kill",    "stop",  "slow",      "limit", "drop", "duplicate",
+                                         "corrupt", "delay", "partition", "lose",  "skew", "jump"};
 
 std::optional<NetworkFault::Kind> network_kind(Kind kind, const Fields& fields) {
   switch (kind) {
@@ -36,6 +37,19 @@ std::optional<NetworkFault::Kind> network_kind(Kind kind, const Fields& fields) 
       return NetworkFault::Kind::kLose;
     case Kind::kDelay:
       return fields.has("group") ? std::optional(NetworkFault::Kind::kDelay) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<ClockFault::Kind> clock_kind(Kind kind, const Fields& fields) {
+  switch (kind) {
+    case Kind::kSkew:
+      return ClockFault::Kind::kSkew;
+    case Kind::kJump:
+      return ClockFault::Kind::kJump;
+    case Kind::kStop:
+      return fields.has("clock") ? std::optional(ClockFault::Kind::kStop) : std::nullopt;
     default:
       return std::nullopt;
   }
@@ -97,6 +111,8 @@ class Fault : public Action {
     check_literals();
     if (const auto network = network_kind(kind_, fields)) {
       network_.emplace(fields, *network);
+    } else if (const auto clock = clock_kind(kind_, fields)) {
+      clock_.emplace(fields, *clock);
     } else if (const auto messages = message_kind(kind_)) {
       messages_.emplace(fields, *messages);
     }
@@ -113,9 +129,9 @@ class Fault : public Action {
     std::vector<FaultRequest>& others = context.requests().faults;
     FaultRequest fault;
     fault.number = others.size() + 1;
-    if (process_) {
-      fault.process = process_->perform(scope);
-      fault.process_where = process_->where();
+    if (const Template* const process = clock_ ? &clock_->clock() : process_ ? &*process_ : nullptr) {
+      fault.process = process->perform(scope);
+      fault.process_where = process->where();
     }
     fault.where = where();
     const double probability = perform_probability(scope);
@@ -125,8 +141,10 @@ class Fault : public Action {
     const std::optional<MessageFaultRanges> messages =
         messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
     const std::optional<NetworkFaultRanges> network = network_ ? std::optional(network_->perform(scope)) : std::nullopt;
+    const std::optional<ClockFaultRanges> clock = clock_ ? std::optional(clock_->perform(scope)) : std::nullopt;
     const std::string what = messages  ? fmt::format("{} {}", fault.process, messages->identity())
                              : network ? network->identity()
+                             : clock   ? fmt::format("{} {}", fault.process, clock->identity())
                                        : describe(fault);
     fault.identity = name_
                          ? name_->perform(scope)
@@ -146,6 +164,9 @@ class Fault : public Action {
     } else if (network) {
       fault.what = network->draw(draw);
       fault.is_random = fault.is_random || network->is_random();
+    } else if (clock) {
+      fault.what = clock->draw(draw);
+      fault.is_random = fault.is_random || clock->is_random();
     }
     for (std::size_t i = 0; i < dependencies_.size(); ++i) {
       fault.is_random = fault.is_random || dependencies_[i].is_random(scope);
@@ -168,20 +189,23 @@ class Fault : public Action {
     static const char* const kWithMessages = "do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\"";
     static const std::vector<Kind> kOfNetwork = {Kind::kPartition, Kind::kLose, Kind::kDelay};
     static const char* const kWithNetwork = "do=\"partition\", do=\"lose\" and do=\"delay\"";
-    static const std::array<OwnAttribute, 14> kOwn = {{{"signal", {Kind::kKill}, "do=\"kill\""},
-                                                       {"topic", kOfMessages, kWithMessages},
-                                                       {"node", kOfMessages, kWithMessages},
-                                                       {"on", kOfMessages, kWithMessages},
-                                                       {"occurrence", kOfMessages, kWithMessages},
-                                                       {"every", kOfMessages, kWithMessages},
-                                                       {"count", kOfMessages, kWithMessages},
-                                                       {"by", {Kind::kDelay}, "do=\"delay\""},
-                                                       {"group", kOfNetwork, kWithNetwork},
-                                                       {"from", kOfNetwork, kWithNetwork},
-                                                       {"share", {Kind::kLose}, "do=\"lose\""},
-                                                       {"to", {Kind::kSlow}, "do=\"slow\""},
-                                                       {"memory", {Kind::kLimit}, "do=\"limit\""},
-                                                       {"files", {Kind::kLimit}, "do=\"limit\""}}};
+    static const std::array<OwnAttribute, 16> kOwn = {
+        {{"signal", {Kind::kKill}, "do=\"kill\""},
+         {"topic", kOfMessages, kWithMessages},
+         {"node", kOfMessages, kWithMessages},
+         {"on", kOfMessages, kWithMessages},
+         {"occurrence", kOfMessages, kWithMessages},
+         {"every", kOfMessages, kWithMessages},
+         {"count", kOfMessages, kWithMessages},
+         {"by", {Kind::kDelay, Kind::kJump}, "do=\"delay\" and do=\"jump\""},
+         {"clock", {Kind::kStop, Kind::kSkew, Kind::kJump}, "do=\"stop\", do=\"skew\" and do=\"jump\""},
+         {"rate", {Kind::kSkew}, "do=\"skew\""},
+         {"group", kOfNetwork, kWithNetwork},
+         {"from", kOfNetwork, kWithNetwork},
+         {"share", {Kind::kLose}, "do=\"lose\""},
+         {"to", {Kind::kSlow}, "do=\"slow\""},
+         {"memory", {Kind::kLimit}, "do=\"limit\""},
+         {"files", {Kind::kLimit}, "do=\"limit\""}}};
     for (const OwnAttribute& own : kOwn) {
       if (fields.has(own.name) && std::find(own.kinds.begin(), own.kinds.end(), kind_) == own.kinds.end()) {
         throw LaunchError(fmt::format("{} goes with {} only", own.name, own.with), fields.where(own.name), {},
@@ -201,7 +225,11 @@ class Fault : public Action {
         }
       }
     }
-    if (!process_ && !is_of_network && !message_kind(kind_)) {
+    const bool is_of_clock = clock_kind(kind_, fields).has_value();
+    if (is_of_clock && process_) {
+      throw LaunchError("either a process or a clock suffers", fields.where("process"), {}, Finding::kExclusive);
+    }
+    if (!process_ && !is_of_network && !is_of_clock && !message_kind(kind_)) {
       throw LaunchError("it is not said which process suffers", fields.where(),
                         "process=\"…\": the name of the process or of its node", Finding::kMissingAttribute);
     }
@@ -277,6 +305,7 @@ class Fault : public Action {
   std::optional<NumberField> files_;
   std::optional<MessageFaultFields> messages_;
   std::optional<NetworkFaultFields> network_;
+  std::optional<ClockFaultFields> clock_;
   std::vector<DependsOn> dependencies_;
 };
 
@@ -286,7 +315,8 @@ ActionType fault_action() {
   ActionType type{
       .tag = "fault",
       .help =
-          "In a test: does something to a process, to messages or to the network, at a time or when something is "
+          "In a test: does something to a process, to messages, to the network or to simulated time, at a time or when "
+          "something is "
           "ready.",
       .attributes =
           {{"process", AttributeType::kText, false, "",
@@ -294,7 +324,9 @@ ActionType fault_action() {
            {"do", AttributeType::kLiteral, true, "",
             "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
             "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic are lost, come twice, "
-            "with other bytes, or late; partition, lose, delay: packets between processes are lost or late",
+            "with other bytes, or late; partition, lose, delay: packets between processes are lost or late; stop, "
+            "skew, jump: simulated time stands still, is faster or "
+            "slower, or jumps",
             true},
            {"at", AttributeType::kText, false, "0",
             "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
@@ -313,7 +345,8 @@ ActionType fault_action() {
       .items = {DependsOn::item_of_fault()},
       .extension = true,
       .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
-  for (const std::vector<AttributeSpec>& more : {MessageFaultFields::attributes(), NetworkFaultFields::attributes()}) {
+  for (const std::vector<AttributeSpec>& more :
+       {MessageFaultFields::attributes(), NetworkFaultFields::attributes(), ClockFaultFields::attributes()}) {
     type.attributes.insert(type.attributes.end(), more.begin(), more.end());
   }
   return type;

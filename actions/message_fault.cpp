@@ -74,7 +74,8 @@ std::vector<AttributeSpec> MessageFaultFields::attributes() {
        "with topic: from then on each message of so many; a range of numbers", true},
       {"count", AttributeType::kText, false, "1, or all with for",
        "with topic: how many messages are hit; a range of numbers, or all", true},
-      {"by", AttributeType::kText, false, "", "with delay: how late, in seconds, or a range", true}};
+      {"by", AttributeType::kText, false, "", "with delay: how late, with jump: how far, in seconds, or a range",
+       true}};
 }
 
 MessageFaultFields::MessageFaultFields(const Fields& fields, MessageFault::Kind kind)

@@ -10,12 +10,13 @@
 
 namespace launch {
 
-std::optional<RangeField> RangeField::of(const Fields& fields, const std::string& attribute, bool whole) {
+std::optional<RangeField> RangeField::of(const Fields& fields, const std::string& attribute, bool whole,
+                                         bool may_be_negative) {
   std::optional<Template> text = fields.optional_text(attribute);
   if (!text) {
     return std::nullopt;
   }
-  RangeField field(attribute, *std::move(text), whole);
+  RangeField field(attribute, *std::move(text), whole, may_be_negative);
   if (field.text_.is_literal()) {
     Scope nothing;
     field.perform(nothing);
@@ -44,9 +45,13 @@ double RangeField::number(std::string_view text) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
   constexpr double kMost = 1e9;
-  if (!is_number || value < (whole_ ? 1 : 0) || value > kMost || (whole_ && value != std::floor(value))) {
+  const double least = whole_ ? 1 : may_be_negative_ ? -kMost : 0;
+  if (!is_number || value < least || value > kMost || (whole_ && value != std::floor(value))) {
     throw LaunchError(fmt::format("{} takes {}, got '{}'", attribute_,
-                                  whole_ ? "a whole number from 1" : "a number that is not negative", text),
+                                  whole_             ? "a whole number from 1"
+                                  : may_be_negative_ ? "a number"
+                                                     : "a number that is not negative",
+                                  text),
                       where(), "or a range of them, such as 1..5", Finding::kWrongType);
   }
   return value;

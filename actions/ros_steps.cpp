@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// <publish>, <receive>, <call>, <send_goal>, <change_parameter>, <transition>: steps that take part in the ROS graph,
-// each a process that runs the command of the same kind (`launch topic pub`, …). So they can start at a time, when
+// <publish>, <clock>, <receive>, <call>, <send_goal>, <change_parameter>, <transition>: steps that take part in the ROS
+// graph, each a process that runs the command of the same kind (`launch topic pub`, …). So they can start at a time, when
 // something is ready or after another step, and their end tells whether they have succeeded.
 #include <fmt/format.h>
 
@@ -84,7 +84,9 @@ class RosStep : public Action {
     if (condition_) {
       spec.argv.push_back("--filter=" + condition);
     }
-    spec.argv.emplace_back("--");
+    if (!words.empty()) {
+      spec.argv.emplace_back("--");
+    }
     spec.argv.insert(spec.argv.end(), words.begin(), words.end());
     spec.name = name_ ? name_->perform(scope) : type_.tag;
     process_.request(context, std::move(spec));
@@ -151,6 +153,19 @@ ActionType publish_action() {
       .words = {"topic", "type", "values"},
       .numbers = {{"--rate", "rate", 1}, {"--times", "count", 1}},
       .type_of_values = [](InterfaceLibrary& library, const std::string& name) { return library.message(name); }};
+  return action_of(type);
+}
+
+ActionType clock_action() {
+  static const StepType type = {
+      .tag = "clock",
+      .help = "Publishes simulated time on /clock until it is ended. Faults can stop, skew and jump it.",
+      .attributes = {{"rate", AttributeType::kFloat, false, "1", "seconds of simulated time in a second"},
+                     {"start", AttributeType::kFloat, false, "0", "the first time, in seconds"},
+                     {"frequency", AttributeType::kFloat, false, "100", "messages in a second"}},
+      .command = {"clock"},
+      .words = {},
+      .numbers = {{"--rate", "rate", 1}, {"--start", "start", 0}, {"--frequency", "frequency", 100}}};
   return action_of(type);
 }
 

@@ -15,6 +15,7 @@ const std::vector<CommandInfo>& further_commands() {
       {"action", "VERB", "lists and describes actions, and sends goals"},
       {"build", "PACKAGE", "builds the packages of a workspace"},
       {"check", "FILE", "finds errors without running anything"},
+      {"clock", "", "publishes simulated time on /clock"},
       {"component", "VERB", "lists, loads and unloads components"},
       {"events", "", "prints what happens in a running launch"},
       {"explain", "ID", "explains a finding of launch check"},
@@ -45,8 +46,8 @@ const std::vector<CommandInfo>& further_commands() {
 }
 
 bool is_ros_command(std::string_view command) {
-  constexpr std::array<std::string_view, 9> kCommands = {"action", "component", "interface", "lifecycle", "loglevel",
-                                                         "node",   "param",     "service",   "topic"};
+  constexpr std::array<std::string_view, 10> kCommands = {"action",   "clock", "component", "interface", "lifecycle",
+                                                          "loglevel", "node",  "param",     "service",   "topic"};
   return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/process_supervisor.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <exception>
@@ -306,6 +308,14 @@ void ProcessSupervisor::resume(ProcessId id) {
 std::optional<std::uint64_t> ProcessSupervisor::limit(ProcessId id, int resource, std::uint64_t soft) {
   const Supervised& process = *impl_->processes.at(id - 1);
   return process.unreaped && !process.exited ? impl_->runner.limit(process.process, resource, soft) : std::nullopt;
+}
+
+bool ProcessSupervisor::write(ProcessId id, std::string_view text) {
+  const Supervised& process = *impl_->processes.at(id - 1);
+  // The pipe would block this loop if the process did not read.
+  const int pipe = process.unreaped && !process.exited ? process.process.in.get() : -1;
+  return pipe >= 0 && ::fcntl(pipe, F_SETFL, O_NONBLOCK) == 0 &&
+         ::write(pipe, text.data(), text.size()) == static_cast<ssize_t>(text.size());
 }
 
 void ProcessSupervisor::stop(ProcessId id) {

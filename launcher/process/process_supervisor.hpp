@@ -99,6 +99,9 @@ class ProcessSupervisor {
   // As ProcessRunner::limit(); nullopt for a process that does not run, too.
   std::optional<std::uint64_t> limit(ProcessId id, int resource, std::uint64_t soft);
 
+  // Writes to the standard input of a running process. False if it does not run, or does not read.
+  bool write(ProcessId id, std::string_view text);
+
   // Ends one process as shutdown() ends all of them: it does not respawn, whatever its policy says.
   void stop(ProcessId id);
 

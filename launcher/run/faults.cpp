@@ -10,6 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "launcher/visit/clock_process.hpp"
+
 namespace launch {
 
 namespace {
@@ -197,6 +199,27 @@ std::string Faults::apply(Fault& fault, ProcessId id, const LimitFault& limit) {
   return {};
 }
 
+std::string Faults::apply(Fault& fault, ProcessId id, const ClockFault& clock) {
+  if (!is_clock(supervisor_.view(id).spec)) {
+    return fmt::format("'{}' is no clock", fault.request.process);
+  }
+  const std::string command = clock.kind == ClockFault::Kind::kSkew   ? fmt::format("scale {}\n", clock.rate)
+                              : clock.kind == ClockFault::Kind::kJump ? fmt::format("jump {}\n", clock.by)
+                                                                      : "stop\n";
+  return supervisor_.write(id, command) ? "" : fmt::format("'{}' does not obey", fault.request.process);
+}
+
+// The clock, after a fault that lasts for a time.
+void Faults::go_on(const Fault& fault) const {
+  const auto* const clock = std::get_if<ClockFault>(&fault.request.what);
+  if (clock == nullptr || clock->kind == ClockFault::Kind::kJump) {
+    return;
+  }
+  for (const ProcessId id : fault.processes) {
+    supervisor_.write(id, clock->kind == ClockFault::Kind::kStop ? "go\n" : fmt::format("scale {}\n", 1 / clock->rate));
+  }
+}
+
 void Faults::apply_to_messages(Fault& fault) {
   messages_.arm(fault.request.number, true);
   if (fault.request.lasts) {
@@ -309,6 +332,7 @@ void Faults::end(Fault& fault) {
     supervisor_.limit(limit.id, limit.resource, limit.before);
   }
   fault.limits.clear();
+  go_on(fault);
   fault.is_over = true;
   tell(fault, {.kind = FaultEvent::Kind::kOver});
 }

@@ -89,6 +89,8 @@ class Faults {
   void end_messages(Fault& fault, const char* when);
   void apply_to_network(Fault& fault);
   void end_network(Fault& fault);
+  std::string apply(Fault& fault, ProcessId id, const ClockFault& clock);
+  void go_on(const Fault& fault) const;
   void turn(Fault& fault, bool runs);
   void hold(const Fault& fault, ProcessId id);
   void release(const Fault& fault, ProcessId id);

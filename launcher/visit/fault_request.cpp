@@ -74,6 +74,17 @@ struct Describer {
     }
     return who.empty() ? text : text + " from " + who;
   }
+  std::string operator()(const ClockFault& fault) const {
+    switch (fault.kind) {
+      case ClockFault::Kind::kSkew:
+        return fmt::format("skew of clock '{}' to {:g} times its rate", process, fault.rate);
+      case ClockFault::Kind::kJump:
+        return fmt::format("jump of clock '{}' by {:g} s", process, fault.by);
+      case ClockFault::Kind::kStop:
+        break;
+    }
+    return fmt::format("stop of clock '{}'", process);
+  }
   std::string operator()(const NetworkFault& fault) const {
     const std::string between = fmt::format("between {} and {}", quoted(fault.group), quoted(fault.from));
     switch (fault.kind) {

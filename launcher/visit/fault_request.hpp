@@ -59,10 +59,18 @@ struct NetworkFault {
   std::uint64_t seed = 0;     // of what is lost
 };
 
+// The simulated time of a clock (clock_process.hpp) stands still, runs at another rate, or jumps.
+struct ClockFault {
+  enum class Kind { kStop, kSkew, kJump };
+  Kind kind = Kind::kStop;
+  double rate = 1;  // of kSkew: so many times its rate
+  double by = 0;    // of kJump: seconds
+};
+
 struct FaultRequest {
   std::size_t number = 0;  // among the faults of its test, from 1
   std::string process;     // one of its names (process_table.hpp); every process of that name is meant
-  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault, NetworkFault> what;
+  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault, NetworkFault, ClockFault> what;
   Duration at{0};                 // from the begin of the test, or from when all dependencies hold
   std::optional<Duration> lasts;  // nullopt: as long as the process; of a MessageFault: until its count is reached
   std::vector<Dependency> dependencies;  // their number of a process means nothing

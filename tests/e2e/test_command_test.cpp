@@ -508,6 +508,9 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
       {.argv = {LAUNCH_PROGRAM, "test", folder + "49_network_faults.launch." + GetParam()}}, std::chrono::seconds(100));
   EXPECT_EQ(network.exit_code, 0) << network.out << network.err;
   EXPECT_THAT(network.out, HasSubstr("2 tests: 2 passed, in "));
+  const CommandResult clock = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "47_clock_faults.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(clock.exit_code, 0) << clock.out << clock.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));

@@ -32,6 +32,7 @@ struct FakeProcessRunner::Running {
   UniqueFd exited;  // an eventfd as pidfd
   UniqueFd out;
   UniqueFd err;
+  UniqueFd in;
   bool dead = false;
   bool dying = false;
   ProcessExit exit;
@@ -85,6 +86,9 @@ Process FakeProcessRunner::spawn(const ProcessSpec& spec) {
   process.err = std::move(err[0]);
   running.out = std::move(out[1]);
   running.err = std::move(err[1]);
+  auto in = make_pipe();
+  running.in = std::move(in[0]);
+  process.in = std::move(in[1]);
   running.exited.reset(::eventfd(0, EFD_CLOEXEC));
   process.pidfd.reset(::fcntl(running.exited.get(), F_DUPFD_CLOEXEC, 0));
   if (!process.pidfd) {
@@ -105,6 +109,15 @@ Process FakeProcessRunner::spawn(const ProcessSpec& spec) {
   spawned_.push_back({spec, process.pid, loop_.now()});
   running_.emplace(process.pid, std::move(owned));
   return process;
+}
+
+std::string FakeProcessRunner::take_input(pid_t pid) {
+  std::string text;
+  std::array<char, 1024> bytes{};
+  for (ssize_t size = 0; (size = ::read(running_.at(pid)->in.get(), bytes.data(), bytes.size())) > 0;) {
+    text.append(bytes.data(), static_cast<std::size_t>(size));
+  }
+  return text;
 }
 
 bool FakeProcessRunner::signal_group(const Process& process, int signal) {

@@ -74,6 +74,8 @@ class FakeProcessRunner final : public ProcessRunner {
   const std::vector<Signalled>& signals() const { return signals_; }
   const std::vector<Limited>& limits() const { return limits_; }
   std::vector<int> signals_of(pid_t pid) const;
+  // What a process that is not yet reaped has got on its standard input since the last call.
+  std::string take_input(pid_t pid);
   // Started and not yet reaped.
   std::size_t unreaped() const;
 

@@ -76,6 +76,7 @@ bool is_hidden(std::string_view name);
 // Writes to standard output at once.
 void put(std::string_view text);
 
+std::unique_ptr<Verb> make_clock();
 std::unique_ptr<Verb> make_topic_list();
 std::unique_ptr<Verb> make_topic_info();
 std::unique_ptr<Verb> make_topic_type();

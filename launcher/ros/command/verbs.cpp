@@ -44,6 +44,7 @@ const std::vector<VerbInfo>& all_verbs() {
       {"lifecycle", "list", "lists the transitions of a node", make_lifecycle_list},
       {"lifecycle", "nodes", "lists the nodes with a life cycle", make_lifecycle_nodes},
       {"lifecycle", "set", "makes a transition", make_lifecycle_set},
+      {"clock", "", "publishes simulated time on /clock", make_clock},
       {"loglevel", "", "prints or sets the level of the loggers of nodes", make_loglevel},
       {"component", "list", "lists containers and their components", make_component_list},
       {"component", "load", "loads a component into a container", make_component_load},
@@ -67,6 +68,7 @@ const std::vector<CommandOfVerbs>& all_commands() {
       {"action", "lists and describes actions, and sends goals"},
       {"lifecycle", "shows and changes the states of nodes with a life cycle"},
       {"component", "lists, loads and unloads components"},
+      {"clock", "publishes simulated time on /clock"},
       {"loglevel", "prints or sets the level of the loggers of nodes"},
       {"interface", "shows the messages, services and actions that are installed"},
   };

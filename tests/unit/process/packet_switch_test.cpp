@@ -71,10 +71,8 @@ TEST_F(PacketSwitchTest, PassesToAllUntilItKnowsAnAddress) {
   EXPECT_THAT(b_.received(), ElementsAre("to all", "to one that is not known"));
   EXPECT_THAT(c_.received(), ElementsAre("to all", "to one that is not known"));
   b_.send(1, "an answer");
-  a_.send(2, "to one");
   run_for(1ms);
   EXPECT_THAT(a_.received(), ElementsAre("an answer"));
-  EXPECT_THAT(c_.received(), IsEmpty());
   a_.send(2, "to one");
   run_for(1ms);
   EXPECT_THAT(c_.received(), IsEmpty());

@@ -118,6 +118,28 @@ TEST_F(FaultsTest, TheNextRunOfAProcessIsFree) {
   EXPECT_EQ(runner_.limits().size(), 1U);
 }
 
+TEST_F(FaultsTest, AClockGetsItsCommandsAndTheirOpposites) {
+  runner_.default_script({.exits_after = 9s});
+  std::vector<std::string> input;
+  std::vector<EventLoop::SourcePtr> sources;
+  for (int second = 1; second <= 4; ++second) {
+    sources.push_back(
+        loop_.after(second * 1s + 500ms, [&] { input.push_back(runner_.take_input(runner_.spawned().front().pid)); }));
+  }
+  run_with(R"(<clock rate="2"/>)", R"(<fault clock="clock" do="stop" at="1" for="2"/>
+                                      <fault clock="clock" do="skew" rate="0.5" at="2" for="2"/>
+                                      <fault clock="clock" do="jump" by="-3" at="4"/>)");
+  EXPECT_THAT(errors_, IsEmpty());
+  EXPECT_THAT(input, ElementsAre("stop\n", "scale 0.5\n", "go\n", "jump -3\nscale 2\n"));
+  EXPECT_EQ(events_.front(), "1 s: 1 applied to clock-1");
+}
+
+TEST_F(FaultsTest, OnlyAClockHasSimulatedTime) {
+  runner_.default_script({.exits_after = 9s});
+  run_with(R"(<executable cmd="p"/>)", R"(<fault clock="p" do="stop" at="1"/>)");
+  EXPECT_THAT(events_, ElementsAre("1 s: 1 applied to p-1", "1 s: 1 missed: 'p' is no clock"));
+}
+
 TEST_F(FaultsTest, SaysWhyItCouldNotBeApplied) {
   runner_.script("p", {{.exits_after = 1s, .exit_code = 4}});
   runner_.script("q", {{.exits_after = 9s}});
