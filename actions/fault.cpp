@@ -332,7 +332,8 @@ ActionType fault_action() {
             "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
             "the seed draws",
             true},
-           {"for", AttributeType::kText, false, "until the end", "not with kill: seconds, or a range of them", true},
+           {"for", AttributeType::kText, false, "until the end", "not with kill and jump: seconds, or a range of them",
+            true},
            {"probability", AttributeType::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
            {"signal", AttributeType::kText, false, "SIGKILL", "with kill: the name or number of the signal", true},
            {"to", AttributeType::kText, false, "", "with slow: the part of the time in which it runs, such as 25%",

@@ -50,18 +50,15 @@ void PacketSwitch::mend(std::size_t impairment) {
 }
 
 void PacketSwitch::receive(Port from) {
-  Frame frame(kLargestFrame);
+  std::array<std::uint8_t, kLargestFrame> buffer;
   for (int i = 0; i < kFramesPerTurn; ++i) {
-    frame.resize(kLargestFrame);
-    const ssize_t size = ::read(devices_[from].fd.get(), frame.data(), frame.size());
-    if (size < static_cast<ssize_t>(kHeader)) {
-      if (size <= 0) {
-        return;
-      }
-      continue;
+    const ssize_t size = ::read(devices_[from].fd.get(), buffer.data(), buffer.size());
+    if (size <= 0) {
+      return;
     }
-    frame.resize(static_cast<std::size_t>(size));
-    pass(from, frame);
+    if (size >= static_cast<ssize_t>(kHeader)) {
+      pass(from, Frame(buffer.begin(), buffer.begin() + size));
+    }
   }
 }
 

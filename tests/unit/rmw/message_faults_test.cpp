@@ -308,6 +308,33 @@ TEST(Corrupt, ChangesAByteInEach64BehindTheHeader) {
   EXPECT_EQ(header, std::vector<std::uint8_t>(4));
 }
 
+// A process reads its faults once, so each of these is one of its own.
+void ask_for_faults(const std::string& variable) {
+  ::setenv("RMW_MESSAGE_FAULTS", variable.c_str(), 1);
+  const bool none = rmw_fastrtps::MessageFaults::of(Side::kPublish, "/drop", "/node") == nullptr;
+  ::_exit(none ? 0 : 1);
+}
+
+TEST(TableOfFaults, IsToldWhenItCannotBeRead) {
+  EXPECT_EXIT(ask_for_faults("1:/nowhere/table"), testing::ExitedWithCode(0),
+              "^\\[rmw\\] the faults of \\$RMW_MESSAGE_FAULTS cannot be read: '/nowhere/table': No such file or "
+              "directory\n$");
+  EXPECT_EXIT(ask_for_faults("1:/proc/self/exe"), testing::ExitedWithCode(0),
+              "^\\[rmw\\] the faults of \\$RMW_MESSAGE_FAULTS cannot be read: '/proc/self/exe': ");
+  EXPECT_EXIT(ask_for_faults("no colon"), testing::ExitedWithCode(0), "^$");
+}
+
+TEST(TableOfFaults, IsOfOneVersion) {
+  char path[] = "/tmp/table_of_faults.XXXXXX";
+  const int file = ::mkstemp(path);
+  const Table other{Table::kMagic, sizeof(Fault) + 8, 1};
+  ASSERT_EQ(::write(file, &other, sizeof other), static_cast<ssize_t>(sizeof other));
+  ::close(file);
+  EXPECT_EXIT(ask_for_faults(std::string("1:") + path), testing::ExitedWithCode(0),
+              "' was written by another version\n$");
+  ::unlink(path);
+}
+
 TEST(DelayedCalls, ComeInTheOrderOfTheirTimesUnlessTheyAreForgotten) {
   rmw_fastrtps::DelayedCalls calls;
   const auto now = rmw_fastrtps::DelayedCalls::Clock::now();

@@ -63,9 +63,12 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message,
                         now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec);
   const Publisher& owner = publisher_of(*publisher);
-  // With faults, nothing is on loan.
-  const bool is_written = owner.faults == nullptr ? owner.writer->write(data, params)
-                                                  : owner.faults->write(*static_cast<OutgoingMessage*>(data), params);
+  bool is_written = false;
+  if (owner.faults == nullptr) [[likely]] {
+    is_written = owner.writer->write(data, params);
+  } else {
+    is_written = owner.faults->write(*static_cast<OutgoingMessage*>(data), params);  // then nothing is on loan
+  }
   if (!is_written) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a message on topic '%s' cannot be written", publisher->topic_name);
     return RMW_RET_ERROR;

@@ -52,8 +52,9 @@ Table* map_table(const std::string& path) {
     ::close(file);
   }
   if (memory == MAP_FAILED) {
+    const bool is_short = file >= 0 && static_cast<std::size_t>(status.st_size) < sizeof(Table);
     std::fprintf(stderr, "[rmw] the faults of $%s cannot be read: '%s': %s\n", rmw_message_faults::kVariable,
-                 path.c_str(), file < 0 || status.st_size >= 1 ? std::strerror(error) : "it is empty");
+                 path.c_str(), is_short ? "it is too short" : std::strerror(error));
     return nullptr;
   }
   auto* const table = static_cast<Table*>(memory);
