@@ -14,7 +14,7 @@ struct ProcessUsage {
   std::uint64_t memory = 0;  // bytes that are resident, shared ones included
 };
 
-// From /proc/PID/stat. Nothing when the process has gone.
+// Nothing when the process has gone.
 std::optional<ProcessUsage> read_process_usage(pid_t pid);
 
 }  // namespace launch

@@ -60,12 +60,18 @@ std::string place_text(const nlohmann::ordered_json& place) {
   if (!place.is_object()) {
     return "-";
   }
-  const std::filesystem::path file = place.value("file", "");
-  std::error_code unknown;
-  static const std::filesystem::path here = std::filesystem::current_path(unknown);
-  const std::string relative = file.lexically_relative(here).string();
-  return fmt::format("{}:{}", relative.empty() || relative.starts_with("..") ? file.string() : relative,
-                     place.value("line", 0));
+  // Most processes are asked for by one file, and a path takes longer than the rest of a row.
+  static std::string last;
+  static std::string shown;
+  const std::string file = place.value("file", "");
+  if (file != last || shown.empty()) {
+    std::error_code unknown;
+    static const std::filesystem::path here = std::filesystem::current_path(unknown);
+    const std::string relative = std::filesystem::path(file).lexically_relative(here).string();
+    last = file;
+    shown = relative.empty() || relative.starts_with("..") ? file : relative;
+  }
+  return fmt::format("{}:{}", shown, place.value("line", 0));
 }
 
 std::size_t columns_of(std::string_view text) {

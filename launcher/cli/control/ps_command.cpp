@@ -13,6 +13,7 @@
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/control/control_protocol.hpp"
+#include "launcher/control/process_usage.hpp"
 
 namespace launch {
 namespace {
@@ -21,20 +22,21 @@ using Json = ControlClient::Json;
 using ProcessRow = std::array<std::string, 8>;
 
 // As ps(1): the share of a processor since the start.
-std::string cpu_text(const Json& process) {
+std::string cpu_text(const std::optional<ProcessUsage>& usage, const Json& process) {
   const double running_for = process.value("running_for", 0.0);
-  return process.contains("cpu") && running_for > 0
-             ? fmt::format("{:.1f} %", 100 * process["cpu"].get<double>() / running_for)
-             : "-";
+  return usage && running_for > 0 ? fmt::format("{:.1f} %", 100 * usage->cpu / running_for) : "-";
 }
 
+// Looks for what the process uses by itself: to put it into the JSON first takes as long as to find it.
 ProcessRow row_of(const Json& process) {
+  const auto pid = process.find("pid");
+  const std::optional<ProcessUsage> usage = pid == process.end() ? std::nullopt : read_process_usage(pid->get<pid_t>());
   return {process["name"].get<std::string>(),
           state_text(process),
-          process.contains("pid") ? process["pid"].dump() : "-",
+          pid == process.end() ? "-" : pid->dump(),
           process.contains("restarts") ? process["restarts"].dump() : "-",
-          cpu_text(process),
-          process.contains("memory") ? memory_text(process["memory"].get<std::uint64_t>()) : "-",
+          cpu_text(usage, process),
+          usage ? memory_text(usage->memory) : "-",
           process.contains("running_for") ? duration_text(process["running_for"].get<double>()) : "-",
           place_text(process["place"])};
 }
@@ -107,8 +109,8 @@ int ps_command(const std::string& name, const std::vector<std::string>& words, c
   for (ControlClient& launch : asked) {
     try {
       Json answer = launch.ask({{"do", "ps"}, {"processes", names}});
-      for (Json& process : answer["processes"]) {
-        add_usage(process);
+      if (as_json) {
+        std::for_each(answer["processes"].begin(), answer["processes"].end(), add_usage);
       }
       answer.erase("ok");
       answer.erase("version");
