@@ -3,18 +3,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <string_view>
 
 #include "launcher/base/process_mark.hpp"
 #include "launcher/base/unique_fd.hpp"
@@ -22,84 +27,173 @@
 namespace launch {
 namespace {
 
-void check(int error) {
-  if (error != 0) {
-    throw std::system_error(error, std::system_category(), "cannot prepare a process");
+constexpr int kNoProgram = 127;  // the exit code of a child without a program
+
+// A signal's disposition as the kernel has it. All zero: the default.
+struct KernelSignalAction {
+  std::uintptr_t handler = 0;
+  unsigned long flags = 0;
+  std::uintptr_t restorer = 0;
+  std::uint64_t mask = 0;
+};
+constexpr int kSignals = 64;
+constexpr std::size_t kMaskSize = sizeof(std::uint64_t);
+constexpr std::uint64_t kAllSignals = ~std::uint64_t{0};
+
+// What the child needs between its birth and its program.
+struct Birth {
+  const ChildProgram& child;
+  std::vector<std::string> programs;  // to be tried one after the other
+  char* const* argv;
+  char* const* environment;
+  std::vector<unsigned> kept;  // the numbers of its descriptors from 3 on, in order
+  unsigned first_needless;     // no descriptor from here on is needed
+  std::uint64_t mask;          // of signals
+  bool shares_descriptors;     // it begins with the table of this process
+  int error = 0;               // why it has no program
+  bool stays_shared = false;   // the reason is that it can't get a table of its own
+};
+
+// The functions of the child run in the memory of this process, while the calling thread waits for it. So they make
+// system calls and nothing else: the C library and sanitizers would take them for this process.
+#define RUNS_IN_CHILD __attribute__((no_sanitize("address", "thread", "undefined")))
+
+RUNS_IN_CHILD bool give_descriptors(const Birth& birth) {
+  for (const ChildDescriptor& given : birth.child.descriptors) {
+    if (given.source == kDevNull) {
+      const int mode = given.number == STDIN_FILENO ? O_RDONLY : O_WRONLY;
+      const long opened = ::syscall(SYS_openat, AT_FDCWD, "/dev/null", mode, 0);
+      if (opened < 0 || (opened != given.number && ::syscall(SYS_dup3, opened, given.number, 0) < 0)) {
+        return false;
+      }
+      if (opened != given.number) {
+        ::syscall(SYS_close, opened);
+      }
+    } else if (given.source == given.number) {
+      ::syscall(SYS_fcntl, given.number, F_SETFD, 0);
+    } else if (::syscall(SYS_dup3, given.source, given.number, 0) < 0) {
+      return false;
+    }
+  }
+  if (birth.child.only_given_descriptors) {
+    unsigned begin = STDERR_FILENO + 1;
+    for (const unsigned number : birth.kept) {
+      if (number > begin) {
+        ::syscall(SYS_close_range, begin, number - 1, 0U);
+      }
+      begin = number + 1;
+    }
+    ::syscall(SYS_close_range, begin, ~0U, 0U);
+  }
+  return true;
+}
+
+// A handler of this process must not run in the child, and an ignored signal stays ignored in a program.
+RUNS_IN_CHILD void set_signals(const Birth& birth) {
+  const KernelSignalAction by_default;
+  for (int signal = 1; signal <= kSignals; ++signal) {
+    KernelSignalAction now;
+    if (birth.child.signals != ChildSignals::kFresh) {
+      ::syscall(SYS_rt_sigaction, signal, nullptr, &now, kMaskSize);
+      if (now.handler <= reinterpret_cast<std::uintptr_t>(SIG_IGN)) {
+        continue;
+      }
+    }
+    ::syscall(SYS_rt_sigaction, signal, &by_default, nullptr, kMaskSize);
   }
 }
 
-class FileActions {
- public:
-  explicit FileActions(const ChildProgram& child) {
-    check(posix_spawn_file_actions_init(&actions_));
-    try {
-      add(child);
-    } catch (...) {
-      posix_spawn_file_actions_destroy(&actions_);
-      throw;
+RUNS_IN_CHILD int fail_in_child(Birth& birth) {
+  birth.error = errno;
+  ::syscall(SYS_exit_group, kNoProgram);
+  return 0;
+}
+
+RUNS_IN_CHILD int be_born(void* data) {
+  Birth& birth = *static_cast<Birth*>(data);
+  if (birth.shares_descriptors && ::syscall(SYS_close_range, birth.first_needless, ~0U, CLOSE_RANGE_UNSHARE) != 0) {
+    birth.stays_shared = true;
+    return fail_in_child(birth);
+  }
+  set_signals(birth);
+  if ((birth.child.group == ChildGroup::kOwnSession && ::syscall(SYS_setsid) < 0) ||
+      (birth.child.group == ChildGroup::kOwn && ::syscall(SYS_setpgid, 0, 0) != 0) || !give_descriptors(birth) ||
+      (!birth.child.directory.empty() && ::syscall(SYS_chdir, birth.child.directory.c_str()) != 0)) {
+    return fail_in_child(birth);
+  }
+  if (birth.child.open_files) {
+    ::syscall(SYS_prlimit64, 0, RLIMIT_NOFILE, &*birth.child.open_files, nullptr);
+  }
+  ::syscall(SYS_rt_sigprocmask, SIG_SETMASK, &birth.mask, nullptr, kMaskSize);
+  bool is_refused = false;
+  for (const std::string& program : birth.programs) {
+    ::syscall(SYS_execve, program.c_str(), birth.argv, birth.environment);
+    is_refused = is_refused || errno == EACCES;
+    if (errno != ENOENT && errno != ENOTDIR && errno != EACCES) {
+      break;
     }
   }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
+  errno = is_refused ? EACCES : errno;
+  return fail_in_child(birth);
+}
 
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
+// Starts the child, which has its program, or an error, when this returns. Returns its number, or -1 and errno.
+//
+// A copy of all descriptors for each child, and their closing at exec, would make the start of a process slower with
+// each process that a launcher has. So the child begins with the table of this process and takes along only what it
+// needs. posix_spawn(3) can't do that.
+pid_t give_birth(Birth& birth) {
+  alignas(16) std::array<char, 32 * 1024> stack;  // not initialised: it is memory for the child
+  const int files = birth.shares_descriptors ? CLONE_FILES : 0;
+  std::uint64_t before = 0;
+  ::syscall(SYS_rt_sigprocmask, SIG_SETMASK, &kAllSignals, &before, kMaskSize);
+  if (birth.child.signals == ChildSignals::kInherited) {
+    birth.mask = before;
+  }
+  const pid_t pid = ::clone(be_born, stack.data() + stack.size(), CLONE_VM | CLONE_VFORK | files | SIGCHLD, &birth);
+  const int error = errno;
+  ::syscall(SYS_rt_sigprocmask, SIG_SETMASK, &before, nullptr, kMaskSize);
+  errno = error;
+  return pid;
+}
 
- private:
-  void add(const ChildProgram& child) {
-    for (const auto& [number, source] : child.descriptors) {
-      if (source == kDevNull) {
-        const int mode = number == STDIN_FILENO ? O_RDONLY : O_WRONLY;
-        check(posix_spawn_file_actions_addopen(&actions_, number, "/dev/null", mode, 0));
-      } else {
-        check(posix_spawn_file_actions_adddup2(&actions_, source, number));
-      }
+// The paths that may be the program.
+std::vector<std::string> programs_of(const ChildProgram& child) {
+  if (!child.search_path || child.program.find('/') != std::string::npos) {
+    return {child.program};
+  }
+  const char* const path = std::getenv("PATH");
+  const std::string_view directories = path == nullptr ? "/usr/bin:/bin" : path;
+  std::vector<std::string> programs;
+  for (std::size_t begin = 0; begin <= directories.size();) {
+    const std::size_t end = std::min(directories.find(':', begin), directories.size());
+    const std::string directory(directories.substr(begin, end - begin));
+    programs.push_back((directory.empty() ? "." : directory) + "/" + child.program);
+    begin = end + 1;
+  }
+  return programs;
+}
+
+Birth prepare_birth(const ChildProgram& child, char* const* argv, char* const* environment) {
+  Birth birth{.child = child,
+              .programs = programs_of(child),
+              .argv = argv,
+              .environment = environment,
+              .kept = {},
+              .first_needless = STDERR_FILENO + 1,
+              .mask = child.signals == ChildSignals::kAllBlocked ? kAllSignals : 0,
+              .shares_descriptors = child.only_given_descriptors};
+  for (const ChildDescriptor& given : child.descriptors) {
+    if (given.number > STDERR_FILENO) {
+      birth.kept.push_back(static_cast<unsigned>(given.number));
     }
-    if (child.only_standard_descriptors) {
-      check(posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1));
-    }
-    if (!child.directory.empty()) {
-      check(posix_spawn_file_actions_addchdir_np(&actions_, child.directory.c_str()));
+    if (given.source != kDevNull) {
+      birth.first_needless = std::max(birth.first_needless, static_cast<unsigned>(given.source) + 1);
     }
   }
-
-  posix_spawn_file_actions_t actions_;
-};
-
-class SpawnAttributes {
- public:
-  explicit SpawnAttributes(const ChildProgram& child) {
-    check(posix_spawnattr_init(&attributes_));
-    int flags = 0;
-    if (child.signals != ChildSignals::kInherited) {
-      sigset_t blocked;
-      child.signals == ChildSignals::kAllBlocked ? sigfillset(&blocked) : sigemptyset(&blocked);
-      posix_spawnattr_setsigmask(&attributes_, &blocked);
-      flags |= POSIX_SPAWN_SETSIGMASK;
-    }
-    if (child.signals == ChildSignals::kFresh) {
-      sigset_t all;
-      sigfillset(&all);
-      posix_spawnattr_setsigdefault(&attributes_, &all);
-      flags |= POSIX_SPAWN_SETSIGDEF;
-    }
-    if (child.group == ChildGroup::kOwn) {
-      posix_spawnattr_setpgroup(&attributes_, 0);
-      flags |= POSIX_SPAWN_SETPGROUP;
-    } else if (child.group == ChildGroup::kOwnSession) {
-      flags |= POSIX_SPAWN_SETSID;
-    }
-    posix_spawnattr_setflags(&attributes_, static_cast<short>(flags));
-  }
-  ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
-  SpawnAttributes(const SpawnAttributes&) = delete;
-  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
-
-  const posix_spawnattr_t* get() const { return &attributes_; }
-
- private:
-  posix_spawnattr_t attributes_;
-};
+  std::sort(birth.kept.begin(), birth.kept.end());
+  return birth;
+}
 
 // A null-terminated array of C strings, as exec wants it.
 class StringArray {
@@ -151,8 +245,6 @@ SpawnError::SpawnError(int error, const std::string& program)
     : std::system_error(error, std::system_category(), fmt::format("cannot start '{}'", program)) {}
 
 pid_t spawn(const ChildProgram& child) {
-  const FileActions actions(child);
-  const SpawnAttributes attributes(child);
   const StringArray argv(child.argv);
   std::optional<StringArray> variables;
   const std::string inherited_mark = child.mark.empty() ? own_mark() : std::string();
@@ -160,12 +252,24 @@ pid_t spawn(const ChildProgram& child) {
   if (child.environment != nullptr) {
     variables.emplace(*child.environment, mark.empty() ? nullptr : mark.c_str());
   }
-  const auto start = child.search_path ? ::posix_spawnp : ::posix_spawn;
-  pid_t pid = -1;
-  const int error = start(&pid, child.program.c_str(), actions.get(), attributes.get(), argv.get(),
-                          variables ? variables->get() : environ);
-  if (error != 0) {
-    throw SpawnError(error, child.program);
+  // Old kernels, and containers that know no new system calls, need a copy of the descriptors.
+  static std::atomic<bool> can_share = true;
+  Birth birth = prepare_birth(child, argv.get(), variables ? variables->get() : environ);
+  birth.shares_descriptors = birth.shares_descriptors && can_share;
+  pid_t pid = give_birth(birth);
+  if (pid >= 0 && birth.stays_shared) {
+    can_share = false;
+    wait_for(pid);
+    birth.shares_descriptors = birth.stays_shared = false;
+    birth.error = 0;
+    pid = give_birth(birth);
+  }
+  if (pid < 0) {
+    throw SpawnError(errno, child.program);
+  }
+  if (birth.error != 0) {
+    wait_for(pid);
+    throw SpawnError(birth.error, child.program);
   }
   return pid;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts another program with posix_spawn(3).
+// Starts another program, as posix_spawn(3) does.
 //
 //   const pid_t pid = spawn({
 //       .program = "/usr/bin/sort",
@@ -9,15 +9,18 @@
 //   const int status = wait_for(pid);
 //
 // Everything that is left out stays as in this process: descriptors, environment, directory, process group, signals.
-// Threads do no harm: posix_spawn stops only the calling thread until the program runs, whereas fork(2) would copy a
-// process in which other threads may hold locks. The child shares the memory until then, so a start costs the same in a
-// large process as in a small one.
+// Threads do no harm: only the calling thread waits until the program runs, whereas fork(2) would copy a process in
+// which other threads may hold locks. The child shares the memory until then, so a start costs the same in a large
+// process as in a small one. With `only_given_descriptors` it also costs the same whatever number of descriptors is
+// open.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -56,7 +59,8 @@ struct ChildProgram {
   std::string mark;       // "LAUNCH_PROCESS=…", on top of `environment`; "": the mark of this process, if it has one
   std::string directory;  // "": the directory of this process
   std::vector<ChildDescriptor> descriptors;
-  bool only_standard_descriptors = false;  // closes all others from 3 on, even those that are not close-on-exec
+  bool only_given_descriptors = false;  // closes all others from 3 on, even those that are not close-on-exec
+  std::optional<rlimit> open_files;     // RLIMIT_NOFILE of the child
   ChildGroup group = ChildGroup::kOurs;
   ChildSignals signals = ChildSignals::kInherited;
 };

@@ -55,7 +55,7 @@ std::vector<HelpOption> options_of_command(const std::vector<std::string>& words
     const pid_t pid = spawn({.program = own_prefix() + "/bin/launch",
                              .argv = std::move(argv),
                              .descriptors = {{0, kDevNull}, {1, pipe.write.get()}, {2, kDevNull}},
-                             .only_standard_descriptors = true});
+                             .only_given_descriptors = true});
     pipe.write.reset();
     const std::string help = read_to_end(pipe.read);
     wait_for(pid);

@@ -24,7 +24,7 @@ TimedCommand run_timed(const std::vector<std::string>& argv, const std::string& 
                  .argv = argv,
                  .search_path = true,
                  .descriptors = {{STDIN_FILENO, kDevNull}, {STDOUT_FILENO, to}, {STDERR_FILENO, to}},
-                 .only_standard_descriptors = true,
+                 .only_given_descriptors = true,
                  .group = ChildGroup::kOwn,
                  .signals = ChildSignals::kFresh});
   } catch (const SpawnError&) {

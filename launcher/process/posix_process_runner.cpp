@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ProcessRunner on posix_spawn(3). Never fork(2): the launcher has threads.
+// The ProcessRunner of real processes (launcher/base/spawn.hpp).
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <linux/close_range.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -37,6 +36,14 @@ namespace {
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::system_category(), what);
+}
+
+// The start of a process copies the descriptors below the highest one that the process gets (spawn.hpp). So low numbers
+// are left to what is about to be given.
+UniqueFd out_of_the_way(UniqueFd fd) {
+  constexpr int kHigh = 128;
+  UniqueFd moved(fd && fd.get() < kHigh ? ::fcntl(fd.get(), F_DUPFD_CLOEXEC, kHigh) : -1);
+  return moved ? std::move(moved) : std::move(fd);  // without room above, it may stay
 }
 
 // The channel for the output of a child: two ends of a pipe or of a pseudo-terminal, both close-on-exec.
@@ -165,6 +172,8 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
       .descriptors = {{STDIN_FILENO, in.read.get()},
                       {STDOUT_FILENO, out.child.get()},
                       {STDERR_FILENO, err.child.get()}},
+      .only_given_descriptors = true,
+      .open_files = spec.limits.open_files ? std::nullopt : limit_of_children_,
       .group = ChildGroup::kOwn,
       .signals = ChildSignals::kFresh,
   };
@@ -187,10 +196,6 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
     child.program = exec_program_;
   }
 
-  // Libraries open descriptors without close-on-exec, and the program that started us may have left some open. One call
-  // marks all of them (Linux 5.11; older kernels leave the marks as they are).
-  static_cast<void>(::syscall(SYS_close_range, 3U, ~0U, CLOSE_RANGE_CLOEXEC));
-
   Process process;
   try {
     process.pid = launch::spawn(child);
@@ -208,10 +213,6 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
                               limit_failure(failure->step, failure->error, spec.limits));
     }
   }
-  if (limit_of_children_ && !spec.limits.open_files) {
-    // Lowering our own limit around the spawn would be exact, but could fail an open() of another thread meanwhile.
-    static_cast<void>(::prlimit(process.pid, RLIMIT_NOFILE, &*limit_of_children_, nullptr));
-  }
   process.pidfd.reset(static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));
   if (!process.pidfd) {
     const int open_error = errno;
@@ -219,9 +220,10 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
     wait_for(process.pid);
     throw std::system_error(open_error, std::system_category(), "cannot open a descriptor for a process");
   }
-  process.in = std::move(in.write);
-  process.out = std::move(out.parent);
-  process.err = std::move(err.parent);
+  process.pidfd = out_of_the_way(std::move(process.pidfd));
+  process.in = out_of_the_way(std::move(in.write));
+  process.out = out_of_the_way(std::move(out.parent));
+  process.err = out_of_the_way(std::move(err.parent));
   return process;
 }
 

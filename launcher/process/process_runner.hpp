@@ -41,11 +41,9 @@ class ProcessRunner {
 // ../lib/launch/launch-exec, relative to the directory of this program.
 std::string default_exec_program();
 
-// posix_spawn(3) and pidfds. Prepares the launcher itself: SIGCHLD gets its default disposition (else children would be
-// reaped by the kernel), closed standard descriptors become /dev/null, and the soft limit of open descriptors is raised
-// to the hard one. Children get the old limit, right after their start: a program that reads it in its first
-// instructions can still see the raised one, unless its spec has a limit of its own. Any descriptor of the launcher but
-// the standard ones is marked close-on-exec before each start.
+// spawn() and pidfds. Prepares the launcher itself: SIGCHLD gets its default disposition (else children would be reaped
+// by the kernel), closed standard descriptors become /dev/null, and the soft limit of open descriptors is raised to the
+// hard one. Children have the old limit, and no descriptors but the standard ones.
 //
 // A process with limits is started through `exec_program`, launch-exec, which applies the limits to itself and then
 // becomes the program. spawn() returns when that has happened, and throws when a limit is refused. The same holds for

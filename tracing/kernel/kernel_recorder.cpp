@@ -67,7 +67,7 @@ std::string start_and_listen(const std::vector<std::string>& arguments) {
         .descriptors = {{STDIN_FILENO, launch::kDevNull},
                         {STDOUT_FILENO, pipe.write.get()},
                         {STDERR_FILENO, launch::kDevNull}},
-        .only_standard_descriptors = true,
+        .only_given_descriptors = true,
         .group = launch::ChildGroup::kOwnSession,
     });
     pipe.write.reset();

@@ -99,7 +99,7 @@ pid_t spawn_daemon(const DaemonOutput& output) {
         .search_path = true,
         .environment = &environment.variables(),
         .descriptors = {{STDIN_FILENO, launch::kDevNull}, {STDOUT_FILENO, out}, {STDERR_FILENO, out}},
-        .only_standard_descriptors = true,
+        .only_given_descriptors = true,
         // Our session would let Ctrl-C reach it; our blocked signals would make it deaf to SIGTERM for ever.
         .group = launch::ChildGroup::kOwnSession,
         .signals = launch::ChildSignals::kFresh,

@@ -162,7 +162,7 @@ int launch_in_top(std::vector<std::string> words, const Environment& environment
       {.program = program,
        .argv = std::move(words),
        .descriptors = {{STDIN_FILENO, kDevNull}, {STDOUT_FILENO, pipe.write.get()}, {STDERR_FILENO, pipe.write.get()}},
-       .only_standard_descriptors = true,
+       .only_given_descriptors = true,
        .group = ChildGroup::kOwn});
   launch_pid = pid;
   pipe.write.reset();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/base/spawn.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -89,10 +90,43 @@ TEST(Spawn, ClosesAllOthersOnRequest) {
   ChildProgram child = shell("ls /proc/self/fd | wc -l");
   child.descriptors = {{STDIN_FILENO, kDevNull}};
   const int with_others = std::stoi(run(child).output);
-  child.only_standard_descriptors = true;
+  child.only_given_descriptors = true;
   // ls opens one itself for the listing.
   EXPECT_EQ(run(child).output, "4\n");
   EXPECT_GT(with_others, 4);
+}
+
+TEST(Spawn, KeepsGivenDescriptorsAmongThoseThatItCloses) {
+  Pipe extra = make_pipe();
+  const UniqueFd far(::fcntl(extra.write.get(), F_DUPFD, 700));  // not close-on-exec
+  ChildProgram child = shell("echo seven >&7; echo nine >&9; ls /proc/self/fd | tr '\\n' ' '; echo");
+  child.descriptors = {{9, far.get()}, {7, far.get()}, {STDIN_FILENO, kDevNull}};
+  child.only_given_descriptors = true;
+  EXPECT_EQ(run(child).output, "0 1 2 3 7 9 \n") << "3 is the directory that ls reads";
+  extra.write.reset();
+  EXPECT_EQ(::fcntl(far.get(), F_GETFD), 0) << "the descriptors of this process are as they were";
+}
+
+TEST(Spawn, GivesALimitOfOpenFilesFromTheFirstInstructionOn) {
+  ChildProgram child{.program = "/bin/sh", .argv = {"sh", "-c", "ulimit -n"}};
+  child.open_files = rlimit{77, 99};
+  EXPECT_EQ(run(child).output, "77\n");
+}
+
+TEST(Spawn, FailsInTheChildWithoutATrace) {
+  EXPECT_THROW(spawn({.program = "/bin/true", .argv = {"true"}, .directory = "/nowhere"}), SpawnError);
+  EXPECT_THROW(
+      spawn({.program = "/bin/true", .argv = {"true"}, .descriptors = {{1, 77777}}, .only_given_descriptors = true}),
+      SpawnError);
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "no child is left";
+  EXPECT_EQ(run(shell("echo goes on")).output, "goes on\n");
+}
+
+TEST(Spawn, RunsNoHandlerOfThisProcessInTheChild) {
+  const auto before = ::signal(SIGUSR1, [](int) { ::_exit(99); });
+  EXPECT_FALSE(signals_of_child({.program = "/bin/cat", .argv = {"cat", "/proc/self/status"}}, "SigCgt") &
+               bit(SIGUSR1));
+  ::signal(SIGUSR1, before);
 }
 
 TEST(Spawn, PutsTheChildIntoAGroupOrSessionOfItsOwn) {

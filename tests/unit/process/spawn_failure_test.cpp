@@ -8,6 +8,8 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "launcher/process/process_runner.hpp"
 #include "temporary_directory.hpp"
@@ -94,6 +96,30 @@ TEST_F(SpawnFailure, OfARelativeProgramIsSearchedInTheWorkingDirectory) {
   working_directory = directory.path();
   directory.write("talker", "", 0644);
   EXPECT_EQ(failure("./talker", EACCES), "'./talker' is not executable (chmod +x makes it so): Permission denied");
+}
+
+TEST_F(SpawnFailure, OfALinkToItself) {
+  const std::string link = directory.path() + "/talker";
+  std::filesystem::create_symlink(link, link);
+  EXPECT_EQ(failure(link, ELOOP), fmt::format("cannot find the program '{}': Too many levels of symbolic links", link));
+}
+
+TEST_F(SpawnFailure, OfANameThatIsTooLong) {
+  const std::string name = "/" + std::string(300, 'x');
+  EXPECT_EQ(failure(name, ENAMETOOLONG), fmt::format("cannot find the program '{}': File name too long", name));
+}
+
+TEST_F(SpawnFailure, BelowAFile) {
+  const std::string file = directory.write("file", "", 0755);
+  EXPECT_EQ(failure(file + "/talker", ENOTDIR),
+            fmt::format("cannot find the program '{}/talker': Not a directory", file));
+}
+
+TEST_F(SpawnFailure, OfAProgramThatIsBeingWritten) {
+  const std::string file = directory.path() + "/talker";
+  std::filesystem::copy_file("/bin/true", file);
+  const std::ofstream writer(file, std::ios::app);
+  EXPECT_EQ(failure(file, ETXTBSY), fmt::format("cannot run the program '{}': Text file busy", file));
 }
 
 TEST_F(SpawnFailure, WithTooManyArguments) {
