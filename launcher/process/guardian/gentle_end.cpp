@@ -110,7 +110,10 @@ std::vector<FoundProcess> GentleEnd::find() {
             all.end());
   std::vector<FoundProcess> found = members_.by_mark ? marked(all) : descendants(all, {::getpid()});
   const auto stays = [this](const FoundProcess& process) {
-    return process.is_dead() || (process.session != members_.session && ending_of(process).mark.leave_running);
+    const bool goes_on =
+        !process.is_dead() && process.session != members_.session && ending_of(process).mark.leave_running;
+    leaves_some_ = leaves_some_ || goes_on;
+    return process.is_dead() || goes_on;
   };
   found.erase(std::remove_if(found.begin(), found.end(), stays), found.end());
   for (const FoundProcess& process : found) {
@@ -122,9 +125,10 @@ std::vector<FoundProcess> GentleEnd::find() {
 std::vector<FoundProcess> GentleEnd::marked(const std::vector<FoundProcess>& all) {
   std::set<pid_t> roots;
   std::vector<FoundProcess> found;
+  const std::set<pid_t> in_cgroup = members_.cgroup.members();
   for (const FoundProcess& process : all) {
     if (process.pid != ::getpid() && !process.is_dead() &&
-        (ending_of(process).mark.ours || holds(process.pid, members_.records))) {
+        (in_cgroup.count(process.pid) != 0 || ending_of(process).mark.ours || holds(process.pid, members_.records))) {
       roots.insert(process.pid);
       found.push_back(process);
     }
@@ -166,6 +170,7 @@ void GentleEnd::tell(const std::string& launcher_ended, const std::vector<FoundP
 GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& found) {
   const Clock::time_point now = Clock::now();
   Clock::time_point next = now + kBetweenLooks;
+  bool kills_all = !leaves_some_;
   for (const FoundProcess& process : found) {
     Ending& ending = ending_of(process);
     const Clock::time_point terminate = begin_ + milliseconds(ending.mark.sigterm_timeout);
@@ -174,6 +179,7 @@ GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& 
     if (due == SIGKILL) {
       next = now + kBetweenLooksAtKilled;
     } else {
+      kills_all = false;
       next = std::min(next, due == SIGTERM ? kill : terminate);
     }
     if (ending.sent != due) {
@@ -186,6 +192,9 @@ GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& 
         ending.refused = !send(process, due);
       }
     }
+  }
+  if (kills_all) {
+    members_.cgroup.kill();
   }
   first_ = false;
   return next;

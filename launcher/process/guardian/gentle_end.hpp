@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "launcher/process/guardian/guardian_log.hpp"
+#include "launcher/process/guardian/launch_cgroup.hpp"
 #include "launcher/process/guardian/left_output.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 
@@ -29,6 +30,7 @@ struct LaunchMembers {
   // the launch, those that still have the launcher's descriptor of the records, and all their descendants.
   bool by_mark = false;
   int records = -1;
+  LaunchCgroup cgroup{};  // further members, where there is one
 };
 
 class GentleEnd {
@@ -74,7 +76,8 @@ class GentleEnd {
   std::set<std::pair<pid_t, int>> asked_groups_;  // and the signals that they got
   Clock::time_point begin_ = Clock::now();
   bool first_ = true;
-  int steps_ = 0;  // 1: SIGTERM now, 2: SIGKILL now
+  bool leaves_some_ = false;  // that are meant to go on
+  int steps_ = 0;             // 1: SIGTERM now, 2: SIGKILL now
   Clock::time_point last_step_{};
 };
 

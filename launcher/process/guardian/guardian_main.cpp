@@ -23,6 +23,7 @@
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/guardian/clean_ups.hpp"
 #include "launcher/process/guardian/gentle_end.hpp"
+#include "launcher/process/guardian/launch_cgroup.hpp"
 #include "launcher/process/guardian/unanswered_signals.hpp"
 
 namespace {
@@ -70,6 +71,7 @@ class GuardianProcess {
   UniqueFd own_process_ = open_process(::getpid());
   UniqueFd signals_;
   launch::UnansweredSignals unanswered_{launcher_};
+  launch::LaunchCgroup cgroup_;
   pid_t spare_ = -1;
   int status_ = 0;
   bool ended_all_ = true;
@@ -84,6 +86,7 @@ GuardianProcess::GuardianProcess(std::string id, pid_t launcher, int records, Un
 
 int GuardianProcess::run() {
   watch_signals();
+  cgroup_ = launch::LaunchCgroup::make(id_, launcher_);  // before the launcher is told that this process is ready
   start_spare();
   for (bool ended = reap(); !ended;) {
     signalfd_siginfo signal{};
@@ -100,8 +103,8 @@ int GuardianProcess::run() {
     }
   }
   strangers_.insert(spare_);
-  end_rest({.launch_id = id_, .group = group_, .session = session_, .strangers = strangers_}, launcher_ended(),
-           signals_.get());
+  end_rest({.launch_id = id_, .group = group_, .session = session_, .strangers = strangers_, .cgroup = cgroup_},
+           launcher_ended(), signals_.get());
   ::kill(spare_, SIGKILL);
   ::waitpid(spare_, nullptr, 0);
   return status_;
@@ -152,8 +155,9 @@ void GuardianProcess::be_spare() {
   // A guardian that somebody has stopped must go on now.
   ::syscall(SYS_pidfd_send_signal, own_process_.get(), SIGCONT, nullptr, 0);
   wait_for_end(own_process_);
-  end_rest({.launch_id = id_, .group = group_, .session = session_, .by_mark = true, .records = records_},
-           "launcher and guardian have gone", -1);
+  end_rest(
+      {.launch_id = id_, .group = group_, .session = session_, .by_mark = true, .records = records_, .cgroup = cgroup_},
+      "launcher and guardian have gone", -1);
   ::_exit(EXIT_SUCCESS);
 }
 
@@ -212,6 +216,7 @@ void GuardianProcess::end_rest(launch::LaunchMembers members, const std::string&
   if (!children || *children != members.strangers) {
     ended_all_ = launch::GentleEnd(std::move(members), log).run(launcher_ended, signals);
   }
+  cgroup_.remove();
   for (auto command = work.clean_ups.rbegin(); command != work.clean_ups.rend(); ++command) {
     if (const std::string failure = launch::run_clean_up(command->second); !failure.empty()) {
       log.say("ERROR", failure);

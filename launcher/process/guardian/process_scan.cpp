@@ -83,7 +83,11 @@ void read_mark_value(std::string_view value, const std::string& launch_id, Proce
 }  // namespace
 
 std::string read_proc_file(pid_t pid, const char* name) {
-  const UniqueFd fd(::open(("/proc/" + std::to_string(pid) + "/" + name).c_str(), O_RDONLY | O_CLOEXEC));
+  return read_whole_file("/proc/" + std::to_string(pid) + "/" + name);
+}
+
+std::string read_whole_file(const std::string& path) {
+  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   std::string text;
   while (fd) {
     const std::size_t size = text.size();

@@ -36,6 +36,8 @@ struct FoundProcess {
   bool is_dead() const { return state == 'Z' || state == 'X'; }
 };
 
+// The bytes of a file whose size the kernel does not tell; empty when there is none.
+std::string read_whole_file(const std::string& path);
 // The bytes of /proc/PID/NAME; empty when the process has gone.
 std::string read_proc_file(pid_t pid, const char* name);
 
