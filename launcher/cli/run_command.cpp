@@ -193,6 +193,10 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   });
   service.use_ros_client(ros_client);
   service.use_guardian(guardian);
+  service.give_up_by([&output] {
+    output.show_status("");
+    ::_exit(EXIT_FAILURE);
+  });
   if (const auto variable = environment.find("OVERRIDE_LAUNCH_IGNORE_FAILURES");
       command.ignore_failures || (variable != environment.end() && variable->second == "1")) {
     service.ignore_failures();

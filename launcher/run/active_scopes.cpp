@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/run/active_scopes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -75,6 +77,13 @@ void ActiveScopes::on_ended(const std::exception_ptr& error) {
   release(scope);
   active_.pop_back();
   end_last();
+}
+
+std::string ActiveScopes::busy_with() const {
+  const RunScope* const scope = beginning_                  ? beginning_.get()
+                                : done_ && !active_.empty() ? active_.back().get()
+                                                            : nullptr;
+  return scope == nullptr ? "" : fmt::format("{} ({})", scope->kind(), to_string(scope->origin()));
 }
 
 void ActiveScopes::hurry() {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
@@ -38,6 +39,8 @@ class ActiveScopes {
   // Ends all scopes, the last one first. `failed` gets the error of a scope that ends with one; the others end all the
   // same. `done` follows at once when no scope is active.
   void end(std::function<void(const LaunchError&)> failed, std::function<void()> done);
+  // What is beginning or ending now: "trace (system.launch.xml:2:3)"; empty: nothing.
+  std::string busy_with() const;
   // The user is in a hurry: ends finish at once, with the data that is there.
   void hurry();
 

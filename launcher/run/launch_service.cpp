@@ -148,6 +148,7 @@ void LaunchService::on_interrupt_again(int number, const std::string& name) {
     say("ending at once");
     scopes_.hurry();
     crashes_.hurry();
+    watch_hurry();
   } else if (!std::exchange(terminated_, true)) {
     const Duration until_kill = supervisor_.terminate_all();
     say(fmt::format("sent SIGTERM to {}; SIGKILL follows in {:g} s, or with a third signal", list_some(left),
@@ -157,8 +158,25 @@ void LaunchService::on_interrupt_again(int number, const std::string& name) {
     supervisor_.kill_all();
     scopes_.hurry();
     crashes_.hurry();
+    watch_hurry();
   }
   check_finished();
+}
+
+void LaunchService::watch_hurry() {
+  if (!give_up_ || give_up_timer_) {
+    return;
+  }
+  give_up_timer_ = loop_.after(kPatienceInAHurry, [this] {
+    give_up_timer_.reset();
+    if (const std::string scope = scopes_.busy_with(); !scope.empty() && supervisor_.alive().empty()) {
+      context_.message(LogLevel::kError, "launch",
+                       fmt::format("{} does not answer: giving up, launch-guardian cleans up", scope));
+      give_up_();
+    } else {
+      watch_hurry();
+    }
+  });
 }
 
 void LaunchService::suspend() {

@@ -85,6 +85,11 @@ class LaunchService {
   // Called before the system stops by Ctrl-Z and after it goes on.
   void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
 
+  // Called when the end does not come, although a second signal has asked for it at once: a session daemon that does
+  // not answer can block a trace for ever. It must end this process.
+  static constexpr Duration kPatienceInAHurry = std::chrono::seconds(5);
+  void give_up_by(std::function<void()> end) { give_up_ = std::move(end); }
+
   // Visits the description, runs the loop until nothing is left, and tells what has failed. Returns the exit code
   // (outcome.hpp). SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM
   // to what is left, a third one SIGKILL. A signal less than a second after another one does not count.
@@ -137,6 +142,8 @@ class LaunchService {
   // Checks later, because the code that reports an end may still be at work.
   void post_check();
   void end_scopes();
+  // Gives up later if something that is to begin or end does not.
+  void watch_hurry();
 
   LaunchContext& context_;
   EventLoop& loop_;
@@ -147,6 +154,8 @@ class LaunchService {
   std::function<void()> test_ending_;
   std::function<void(ProcessSpec&)> prepare_for_test_;
   std::function<void(bool stops)> on_suspension_;
+  std::function<void()> give_up_;
+  EventLoop::SourcePtr give_up_timer_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
   std::vector<TimedStep> timing_;

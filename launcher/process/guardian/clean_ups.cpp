@@ -4,15 +4,18 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/signalfd.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <string_view>
 
+#include "launcher/base/ending_signals.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 
@@ -20,7 +23,7 @@ namespace launch {
 namespace {
 
 // A command that hangs must not block the guardian, and everything that waits for it, for ever.
-constexpr int kLimitMilliseconds = 10'000;
+constexpr std::chrono::seconds kLimit{10};
 
 std::string read_whole(int file) {
   std::string text;
@@ -60,6 +63,29 @@ int start(const std::vector<std::string>& command, pid_t& pid) {
   return error;
 }
 
+// Whether a user has asked to end.
+bool is_asked_to_end(int signals) {
+  bool asked = false;
+  for (signalfd_siginfo info{}; ::read(signals, &info, sizeof info) == sizeof info;) {
+    asked = asked || asks_to_end(static_cast<int>(info.ssi_signo));
+  }
+  return asked;
+}
+
+// Whether the process ends in time.
+bool ends_in_time(int process, int signals) {
+  const auto end = std::chrono::steady_clock::now() + kLimit;
+  std::array<pollfd, 2> descriptors{{{process, POLLIN, 0}, {signals, POLLIN, 0}}};  // poll(2) skips a negative one
+  while ((descriptors[0].revents & POLLIN) == 0) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
+    if (left <= 0 || (descriptors[1].revents != 0 && is_asked_to_end(signals))) {
+      return false;
+    }
+    ::poll(descriptors.data(), descriptors.size(), static_cast<int>(left));
+  }
+  return true;
+}
+
 }  // namespace
 
 LeftWork read_records(int file) {
@@ -89,7 +115,7 @@ LeftWork read_records(int file) {
   return work;
 }
 
-std::string run_clean_up(const std::vector<std::string>& command) {
+std::string run_clean_up(const std::vector<std::string>& command, int signals) {
   if (command.empty()) {
     return "";
   }
@@ -98,12 +124,8 @@ std::string run_clean_up(const std::vector<std::string>& command) {
     return "cannot run " + command.front() + ": " + std::strerror(error);
   }
   const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
-  pollfd ended{pidfd.get(), POLLIN, 0};
-  int ready = 0;
-  while ((ready = ::poll(&ended, 1, kLimitMilliseconds)) < 0 && errno == EINTR) {
-  }
   std::string failure;
-  if (ready == 0) {
+  if (!ends_in_time(pidfd.get(), signals)) {
     failure = "'";
     for (const std::string& word : command) {
       failure += (failure.size() == 1 ? "" : " ") + word;

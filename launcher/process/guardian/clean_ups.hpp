@@ -17,7 +17,8 @@ struct LeftWork {
 // Reads the memory file from its beginning.
 LeftWork read_records(int file);
 
-// Runs a command. Returns what went wrong, or "". A command that takes longer than ten seconds is killed.
-std::string run_clean_up(const std::vector<std::string>& command);
+// Runs a command. Returns what went wrong, or "". A command that takes longer than ten seconds is killed, and so is one
+// that runs when a user asks to end again. `signals` is a signalfd with the signals of users, or -1.
+std::string run_clean_up(const std::vector<std::string>& command, int signals);
 
 }  // namespace launch

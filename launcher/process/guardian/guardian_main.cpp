@@ -218,7 +218,7 @@ void GuardianProcess::end_rest(launch::LaunchMembers members, const std::string&
   }
   cgroup_.remove();
   for (auto command = work.clean_ups.rbegin(); command != work.clean_ups.rend(); ++command) {
-    if (const std::string failure = launch::run_clean_up(command->second); !failure.empty()) {
+    if (const std::string failure = launch::run_clean_up(command->second, signals); !failure.empty()) {
       log.say("ERROR", failure);
     }
   }
