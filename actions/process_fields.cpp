@@ -84,6 +84,8 @@ std::vector<AttributeSpec> ProcessFields::attributes() {
       {"on_exit", AttributeType::kLiteral, false, "", "shutdown: when the process ends, the whole system ends"},
       {"shell", AttributeType::kBoolean, false, "false", "run the words, joined by spaces, through /bin/sh -c"},
       {"emulate_tty", AttributeType::kBoolean, false, "false", "make standard output and error pseudo-terminals"},
+      {"stdin", AttributeType::kText, false, "none",
+       "terminal: the process reads the terminal of the launch; none: it has nothing to read", true},
       {.name = "trace",
        .type = AttributeType::kBoolean,
        .default_value = "true",
@@ -130,6 +132,7 @@ ProcessFields::ProcessFields(const Fields& fields)
       required_where_(fields.where("required")),
       shell_(fields.boolean("shell", false)),
       emulate_tty_(fields.boolean("emulate_tty", false)),
+      stdin_(fields.optional_text("stdin")),
       traced_(fields.boolean("trace", true)),
       leave_running_(fields.boolean("leave-running", false)),
       sigterm_timeout_(not_negative(fields.number("sigterm_timeout"))),
@@ -187,6 +190,7 @@ void ProcessFields::request(LaunchContext& context, ProcessSpec spec) const {
   spec.shutdown_on_exit = shutdown_on_exit_;
   spec.shell = shell_.perform(scope);
   spec.emulate_tty = emulate_tty(scope);
+  spec.terminal_input = terminal_input(scope);
   spec.sigterm_timeout = timeout(scope, sigterm_timeout_, "sigterm_timeout");
   spec.sigkill_timeout = timeout(scope, sigkill_timeout_, "sigkill_timeout");
   spec.origin = where_;
@@ -304,6 +308,15 @@ bool ProcessFields::emulate_tty(Scope& scope) const {
     return *value;
   }
   return emulate_tty_.perform(scope);
+}
+
+bool ProcessFields::terminal_input(Scope& scope) const {
+  const std::string text = stdin_ ? stdin_->perform(scope) : std::string("none");
+  if (text != "terminal" && text != "none") {
+    throw LaunchError(fmt::format("'{}' is no standard input, expected terminal or none", text), stdin_->where(),
+                      did_you_mean(text, {"terminal", "none"}));
+  }
+  return text == "terminal";
 }
 
 Duration ProcessFields::timeout(Scope& scope, const std::optional<NumberField>& given,

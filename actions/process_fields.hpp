@@ -33,6 +33,7 @@ class ProcessFields {
   Environment environment(Scope& scope) const;
   OutputRouting output(LaunchContext& context) const;
   bool emulate_tty(Scope& scope) const;
+  bool terminal_input(Scope& scope) const;
   Duration timeout(Scope& scope, const std::optional<NumberField>& given, const std::string& configuration) const;
 
   SourceRange where_;
@@ -54,6 +55,7 @@ class ProcessFields {
   bool shutdown_on_exit_ = false;
   BooleanField shell_;
   BooleanField emulate_tty_;
+  std::optional<Template> stdin_;
   BooleanField traced_;
   BooleanField leave_running_;
   std::optional<NumberField> sigterm_timeout_;

@@ -101,9 +101,9 @@ void TraceScope::in_background(EventLoop& loop, std::function<void()> work,
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   if (choices_.snapshot_on_signal != 0) {
     // Before any thread is started, because the signal must be blocked in all threads.
-    signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](int signal) {
+    signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](EventLoop::Signal signal) {
       if (flight_recorder_) {
-        flight_recorder_->request(fmt::format("SIG{}", ::sigabbrev_np(signal)));
+        flight_recorder_->request(fmt::format("SIG{}", ::sigabbrev_np(signal.number)));
       }
     });
   }

@@ -45,6 +45,9 @@ Json process_as_json(const ProcessSpec& spec, const Environment& launcher_enviro
   }
   process["env"] = std::move(environment);
   process["shell"] = spec.shell;
+  if (spec.terminal_input) {
+    process["stdin"] = "terminal";
+  }
   if (!spec.files.empty()) {
     Json contents = Json::array();
     for (const GeneratedFile& file : spec.files) {
@@ -154,6 +157,9 @@ std::string process_as_text(const ProcessSpec& spec, const Environment& launcher
   for (const auto& [name, value] : environment_difference(spec.environment, launcher_environment)) {
     text +=
         value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
+  }
+  if (spec.terminal_input) {
+    text += "  stdin: terminal\n";
   }
   for (const std::string& limit : describe(spec.limits)) {
     text += fmt::format("  limit: {}\n", limit);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/cli/run_command.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -20,6 +21,7 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/process_mark.hpp"
 #include "launcher/base/terminal_colour.hpp"
+#include "launcher/base/unique_fd.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"
@@ -178,6 +180,9 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   ProcessSupervisor supervisor(*loop, *runner, output);
   supervisor.use_guardian(guardian);
   supervisor.observe(process_messages(output));
+  if (const UniqueFd terminal(::open("/dev/tty", O_RDONLY | O_NOCTTY | O_CLOEXEC)); terminal) {
+    supervisor.watch_terminal();
+  }
 
   RosClientProcess ros_client(*loop, RosClientProcess::default_program(), namespaces);
   LaunchContext context(registry, environment, own_prefix(),

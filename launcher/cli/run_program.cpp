@@ -77,11 +77,10 @@ class Wait {
  public:
   // To be made before the program starts: from now on signals wait for the loop.
   explicit Wait(EventLoop& loop)
-      : loop_(loop), signals_(loop.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](int signal) {
-          const bool from_terminal =
-              (signal == SIGINT || signal == SIGQUIT) && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp();
-          if (!from_terminal) {
-            end(signal);
+      : loop_(loop), signals_(loop.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](EventLoop::Signal signal) {
+          const bool by_key = signal.by_terminal && signal.number != SIGHUP;
+          if (!by_key) {
+            end(signal.number);
           }
         })) {}
 

@@ -167,6 +167,10 @@ struct EventWriter {
     json["event"] = "respawn_slowed";
     json["runs"] = slowed.runs;
   }
+  void operator()(const ProcessWaitsForTerminal& waits) const {
+    json["event"] = "waits_for_terminal";
+    json["pid"] = waits.pid;
+  }
   void operator()(const ProcessDone&) const { json["event"] = "done"; }
 };
 

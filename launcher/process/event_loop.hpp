@@ -23,6 +23,11 @@ class EventLoop {
   using SourcePtr = std::unique_ptr<Source>;
   using Callback = std::function<void()>;
 
+  struct Signal {
+    int number;
+    bool by_terminal = false;  // Ctrl-C and the like: the whole foreground group has got it
+  };
+
   virtual ~EventLoop() = default;
 
   // Calls back whenever `fd` is readable, at end of file and on errors too. Does not own the descriptor.
@@ -36,7 +41,7 @@ class EventLoop {
   [[nodiscard]] virtual SourcePtr after(Duration delay, Callback callback) = 0;
   // Calls back on each delivery of one of the signals, before other pending work. The signals are blocked for the
   // process from now on; children get them unblocked (process_runner.hpp).
-  [[nodiscard]] virtual SourcePtr on_signal(const std::vector<int>& signals, std::function<void(int)> callback) = 0;
+  [[nodiscard]] virtual SourcePtr on_signal(const std::vector<int>& signals, std::function<void(Signal)> callback) = 0;
 
   // Runs the callback in a later turn of the loop. The only function that other threads may call.
   virtual void post(Callback callback) = 0;

@@ -24,8 +24,10 @@
 #include "launcher/base/pipe.hpp"
 #include "launcher/base/process_mark.hpp"
 #include "launcher/base/spawn.hpp"
+#include "launcher/base/terminal_state.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "launcher/process/guardian/process_scan.hpp"
 #include "launcher/process/namespaces.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/program_search.hpp"
@@ -115,6 +117,21 @@ std::optional<LaunchExecFailure> read_failure(const UniqueFd& pipe) {
   return size == sizeof failure ? std::optional(failure) : std::nullopt;
 }
 
+// A process that has the terminal shares the group of the launcher with others, perhaps programs of a shell. Its
+// descendants there have its mark.
+std::vector<pid_t> fellows_in_our_group(const Process& process) {
+  std::vector<pid_t> found{process.pid};
+  const pid_t group = ::getpgrp();
+  const std::string mark = '\0' + process.mark + '\0';
+  for (const FoundProcess& other : all_processes()) {
+    const bool candidate = other.group == group && other.pid != process.pid && !process.mark.empty();
+    if (candidate && ('\0' + read_proc_file(other.pid, "environ")).find(mark) != std::string::npos) {
+      found.push_back(other.pid);
+    }
+  }
+  return found;
+}
+
 class PosixProcessRunner final : public ProcessRunner {
  public:
   using NamespaceChoice = std::function<const Namespaces*(const ProcessSpec&)>;
@@ -124,15 +141,19 @@ class PosixProcessRunner final : public ProcessRunner {
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
+  std::vector<StoppedChild> take_stopped() override;
+  bool in_foreground() const override { return ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
   ProcessExit outcome(const Process& process) override { return wait(process, WNOWAIT); }
   ProcessExit reap(const Process& process) override { return wait(process, 0); }
 
  private:
-  static ProcessExit wait(const Process& process, int flags);
+  bool signal_fellows(const Process& process, int signal);
+  ProcessExit wait(const Process& process, int flags);
 
   std::string exec_program_;
   NamespaceChoice namespaces_of_;
   std::optional<rlimit> limit_of_children_;  // only if it differs from the launcher's
+  std::optional<TerminalState> terminal_;    // before a process got the terminal
 };
 
 PosixProcessRunner::PosixProcessRunner(std::string exec_program, NamespaceChoice namespaces_of)
@@ -159,8 +180,13 @@ PosixProcessRunner::PosixProcessRunner(std::string exec_program, NamespaceChoice
 Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   const std::string program = spec.shell ? "/bin/sh" : find_program(spec);
 
-  Pipe in = make_pipe();
-
+  const bool has_terminal = spec.terminal_input && ::isatty(STDIN_FILENO) == 1;
+  Pipe in;
+  if (!has_terminal) {
+    in = make_pipe();
+  } else if (!terminal_) {
+    terminal_ = TerminalState::of(STDIN_FILENO);
+  }
   Channel out = make_channel(spec);
   Channel err = make_channel(spec);
   ChildProgram child{
@@ -169,12 +195,12 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
       .environment = &spec.environment.variables(),
       .mark = spec.mark,
       .directory = spec.working_directory,
-      .descriptors = {{STDIN_FILENO, in.read.get()},
+      .descriptors = {{STDIN_FILENO, has_terminal ? STDIN_FILENO : in.read.get()},
                       {STDOUT_FILENO, out.child.get()},
                       {STDERR_FILENO, err.child.get()}},
       .only_given_descriptors = true,
       .open_files = spec.limits.open_files ? std::nullopt : limit_of_children_,
-      .group = ChildGroup::kOwn,
+      .group = has_terminal ? ChildGroup::kOurs : ChildGroup::kOwn,
       .signals = ChildSignals::kFresh,
   };
   const Namespaces* const namespaces = namespaces_of_(spec);
@@ -216,10 +242,12 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   process.pidfd.reset(static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));
   if (!process.pidfd) {
     const int open_error = errno;
-    ::kill(-process.pid, SIGKILL);
+    ::kill(has_terminal ? process.pid : -process.pid, SIGKILL);
     wait_for(process.pid);
     throw std::system_error(open_error, std::system_category(), "cannot open a descriptor for a process");
   }
+  process.has_terminal = has_terminal;
+  process.mark = has_terminal ? spec.mark : std::string();
   process.pidfd = out_of_the_way(std::move(process.pidfd));
   process.in = out_of_the_way(std::move(in.write));
   process.out = out_of_the_way(std::move(out.parent));
@@ -228,6 +256,9 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
 }
 
 bool PosixProcessRunner::signal_group(const Process& process, int signal) {
+  if (process.has_terminal) {
+    return signal_fellows(process, signal);
+  }
   if (::kill(-process.pid, signal) != 0) {
     if (errno != ESRCH && errno != EPERM) {
       fail("cannot send a signal");
@@ -239,6 +270,28 @@ bool PosixProcessRunner::signal_group(const Process& process, int signal) {
     ::kill(-process.pid, SIGCONT);
   }
   return true;
+}
+
+bool PosixProcessRunner::signal_fellows(const Process& process, int signal) {
+  bool refused = false;
+  bool sent = false;
+  for (const pid_t pid : fellows_in_our_group(process)) {
+    const bool done = ::kill(pid, signal) == 0;
+    refused = refused || (!done && errno == EPERM);
+    sent = sent || done;
+    if (done && asks_to_end(signal)) {
+      ::kill(pid, SIGCONT);
+    }
+  }
+  return sent || !refused;
+}
+
+std::vector<StoppedChild> PosixProcessRunner::take_stopped() {
+  std::vector<StoppedChild> stopped;
+  for (siginfo_t info{}; ::waitid(P_ALL, 0, &info, WSTOPPED | WNOHANG) == 0 && info.si_pid != 0; info = {}) {
+    stopped.push_back({info.si_pid, info.si_status});
+  }
+  return stopped;
 }
 
 std::optional<std::uint64_t> PosixProcessRunner::limit(const Process& process, int resource, std::uint64_t soft) {
@@ -263,6 +316,9 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
   }
   exit.code = info.si_code == CLD_EXITED ? info.si_status : -info.si_status;
   exit.core_dumped = info.si_code == CLD_DUMPED;
+  if (process.has_terminal && terminal_) {
+    terminal_->restore();
+  }
   return exit;
 }
 

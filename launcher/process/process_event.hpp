@@ -20,6 +20,7 @@ enum class ProcessState { kStarting, kRunning, kInterrupting, kTerminating, kKil
 
 struct ProcessStarted {
   pid_t pid;
+  bool lacks_terminal = false;  // its spec wants the terminal, and the launcher has none as standard input
 };
 struct ProcessStartFailed {
   std::string reason;  // "no program 'talkr' in the PATH of the process: No such file or directory"
@@ -46,6 +47,13 @@ struct ProcessLeft {
 struct RespawnSlowed {
   int runs;
 };
+// It has read the terminal, or wanted to set its modes, and the system has stopped it: only programs in the foreground
+// may do so. It goes on when it gets SIGCONT.
+struct ProcessWaitsForTerminal {
+  pid_t pid;
+  bool reads;         // else it sets modes
+  bool has_terminal;  // its spec wants the terminal: it waits until the launch is in the foreground again
+};
 struct ProcessDone {};  // will not run again
 
 // `spec` and `label` stay valid as long as the supervisor.
@@ -53,7 +61,8 @@ struct ProcessEvent {
   ProcessId id;
   const std::string& label;
   const ProcessSpec& spec;
-  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, RespawnSlowed, ProcessDone>
+  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, RespawnSlowed,
+               ProcessWaitsForTerminal, ProcessDone>
       what;
 };
 

@@ -32,6 +32,11 @@ class Messages {
 
   void operator()(const ProcessStarted& started) const {
     say(LogLevel::kInfo, fmt::format("process started with pid [{}]", started.pid));
+    if (started.lacks_terminal) {
+      say(LogLevel::kWarning,
+          fmt::format("process has nothing to read, because standard input of the launch is no terminal{}",
+                      place(event_.spec)));
+    }
   }
 
   void operator()(const ProcessStartFailed& failed) const {
@@ -71,6 +76,14 @@ class Messages {
     say(LogLevel::kWarning, fmt::format("process has ended {} times in a row less than a second after its start; it is "
                                         "started again more slowly, at last every 5 seconds{}",
                                         slowed.runs, place(event_.spec)));
+  }
+
+  void operator()(const ProcessWaitsForTerminal& waits) const {
+    const char* const help = waits.has_terminal ? "it goes on when the launch is in the foreground again"
+                                                : "stdin=\"terminal\" lets it have the terminal";
+    say(LogLevel::kWarning,
+        fmt::format("process waits for {}; {}{}", waits.reads ? "terminal input" : "the terminal, to set its modes",
+                    help, place(event_.spec)));
   }
 
   void operator()(const ProcessDone&) const {}

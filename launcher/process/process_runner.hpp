@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "launcher/process/process_spec.hpp"
 
@@ -14,11 +15,18 @@ namespace launch {
 
 class Namespaces;
 
+// A child that a signal has stopped.
+struct StoppedChild {
+  pid_t pid;
+  int signal;
+};
+
 class ProcessRunner {
  public:
   virtual ~ProcessRunner() = default;
 
-  // Starts a process in a process group of its own, with default signal dispositions and nothing blocked.
+  // Starts a process in a process group of its own, with default signal dispositions and nothing blocked. A process
+  // that gets the terminal stays in the group of the launcher.
   // Throws std::system_error when it can't be started (no such program, no permission, no such directory).
   virtual Process spawn(const ProcessSpec& spec) = 0;
 
@@ -29,6 +37,12 @@ class ProcessRunner {
   // Sets a soft limit of a process that runs, such as RLIMIT_NOFILE; the hard limit stays. Returns the soft limit
   // before; nullopt when the system refuses.
   virtual std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) = 0;
+
+  // The children that have been stopped since the last call.
+  virtual std::vector<StoppedChild> take_stopped() = 0;
+
+  // Whether the launcher and the processes that have the terminal may read it now.
+  virtual bool in_foreground() const = 0;
 
   // How an exited process ended, without reaping it: its number, and with it the number of its group, stays reserved,
   // so that signal_group() can't hit strangers. Must only be called once its pidfd is readable.

@@ -79,6 +79,7 @@ struct ProcessSpec {
   std::string working_directory;  // empty: the launcher's
   bool shell = false;             // run argv joined with spaces through /bin/sh -c
   bool emulate_tty = false;       // stdout and stderr are pseudo-terminals
+  bool terminal_input = false;    // stdin is that of the launcher, if that is a terminal
   OutputRouting output;
   ResourceLimits limits;
   RespawnPolicy respawn;
@@ -94,9 +95,12 @@ struct ProcessSpec {
   SourceRange origin;  // the launch-file line that asked for it
 };
 
-// Invocation: one running process. The group of the process has the number `pid`.
+// Invocation: one running process. The group of the process has the number `pid`, unless the process has the terminal:
+// only the group of the launcher may read it.
 struct Process {
   pid_t pid = -1;
+  bool has_terminal = false;
+  std::string mark{};  // of a process that has the terminal: its descendants in the launcher's group have it, too
   UniqueFd pidfd;
   UniqueFd out;  // read end of standard output
   UniqueFd err;

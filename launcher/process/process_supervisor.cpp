@@ -28,14 +28,14 @@ using Event = SupervisionEvent;
 
 // clang-format off
 const std::array<std::array<Supervision::Handler, Supervision::kEvents>, Supervision::kStates> Supervision::kTable{{
-  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kTerminate                     kKill                       kStop                       kRestart
-  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore},
-  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart},
-  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::give_up,      &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again},
-  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now},
-  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::ignore,          &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive},
+  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kTerminate                     kKill                       kStop                       kRestart                       kTerminalSignal
+  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore, &Supervision::ignore},
+  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart, &Supervision::note_signal_of_terminal},
+  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore},
+  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore},
+  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::give_up,      &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore},
+  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now, &Supervision::ignore},
+  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::ignore,          &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive, &Supervision::ignore},
 }};
 // clang-format on
 
@@ -71,6 +71,7 @@ void Supervision::spawn(Supervised& process) {
   process.exited = false;
   process.signalled = false;
   process.refused = false;
+  process.waits_for_foreground = false;
   process.request = Request::kNone;
   try {
     if (process.state == ProcessState::kStarting) {
@@ -95,7 +96,7 @@ void Supervision::spawn(Supervised& process) {
   ++process.runs;
   process.output.follow(process.process, [this, &process] { handle(process, Event::kOutputClosed); });
   process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
-  notify(process, ProcessStarted{process.process.pid});
+  notify(process, ProcessStarted{process.process.pid, process.spec.terminal_input && !process.process.has_terminal});
 }
 
 void Supervision::observe_lines() {

@@ -89,6 +89,13 @@ class ProcessSupervisor {
   // process that does not run.
   void signal(ProcessId id, int signal);
 
+  // The terminal has sent a signal that ends programs to the processes that have it: they are being ended, without
+  // SIGINT from here.
+  void note_signal_of_terminal();
+
+  // From now on, ProcessWaitsForTerminal tells of processes that read the terminal from the background.
+  void watch_terminal();
+
   // Stops all processes with SIGSTOP, as Ctrl-Z stops a program of a shell, and lets them go on.
   void suspend();
   void resume();

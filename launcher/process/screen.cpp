@@ -128,8 +128,11 @@ void Screen::erase_status() {
 }
 
 void Screen::draw_status() {
+  if (gone_ || status_.empty() || !queue_.empty()) {
+    return;
+  }
   const pid_t foreground = ::tcgetpgrp(fd_);  // -1 for a terminal that is not ours
-  if (gone_ || status_.empty() || !queue_.empty() || (foreground >= 0 && foreground != ::getpgrp())) {
+  if (foreground >= 0 && foreground != ::getpgrp()) {
     return;
   }
   status_shown_ = true;

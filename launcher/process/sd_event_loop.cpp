@@ -56,7 +56,7 @@ class SdEventLoop final : public EventLoop {
   SourcePtr on_writable(int fd, Callback callback) override { return watch_.on_writable(fd, std::move(callback)); }
   SourcePtr on_exit(int pidfd, Callback callback) override { return watch_.on_exit(pidfd, std::move(callback)); }
   SourcePtr after(Duration delay, Callback callback) override;
-  SourcePtr on_signal(const std::vector<int>& signals, std::function<void(int)> callback) override;
+  SourcePtr on_signal(const std::vector<int>& signals, std::function<void(Signal)> callback) override;
   void post(Callback callback) override;
   Duration now() const override;
   void run() override;
@@ -69,7 +69,7 @@ class SdEventLoop final : public EventLoop {
 
     SdEventLoop& loop;
     Callback callback;
-    std::function<void(int)> signal_callback;
+    std::function<void(Signal)> signal_callback;
     std::vector<SdSource> sources;
     bool cancelled = false;
   };
@@ -166,7 +166,7 @@ int SdEventLoop::expired(sd_event_source*, std::uint64_t, void* data) {
   return 0;
 }
 
-EventLoop::SourcePtr SdEventLoop::on_signal(const std::vector<int>& signals, std::function<void(int)> callback) {
+EventLoop::SourcePtr SdEventLoop::on_signal(const std::vector<int>& signals, std::function<void(Signal)> callback) {
   auto registration = std::make_shared<Registration>(*this);
   registration->signal_callback = std::move(callback);
   sigset_t mask;
@@ -187,7 +187,8 @@ EventLoop::SourcePtr SdEventLoop::on_signal(const std::vector<int>& signals, std
 
 int SdEventLoop::signalled(sd_event_source*, const signalfd_siginfo* info, void* data) {
   const auto registration = static_cast<Registration*>(data)->shared_from_this();
-  registration->loop.guard([&] { registration->signal_callback(static_cast<int>(info->ssi_signo)); });
+  const Signal signal{static_cast<int>(info->ssi_signo), info->ssi_code == SI_KERNEL};
+  registration->loop.guard([&] { registration->signal_callback(signal); });
   return 0;
 }
 

@@ -31,7 +31,8 @@ enum class SupervisionEvent {
   kTerminate,
   kKill,
   kStop,
-  kRestart
+  kRestart,
+  kTerminalSignal
 };
 
 // What was asked for during a run. At the end of the run it counts before the respawn policy.
@@ -59,7 +60,8 @@ struct Supervised {
   bool unreaped = false;  // `process` names a process, alive or a zombie, so its group may be signalled
   bool exited = false;    // a zombie, kept because descendants hold its output open
   bool signalled = false;
-  bool refused = false;  // the last signal: every process of the group belongs to another user
+  bool waits_for_foreground = false;  // it has the terminal, and was stopped because it is not ours now
+  bool refused = false;               // the last signal: every process of the group belongs to another user
   Duration started{0};
   Duration ran_for{0};
   std::int64_t runs = 0;  // started so far
@@ -74,7 +76,7 @@ struct Supervised {
 struct Supervision {
   using Event = SupervisionEvent;
   using Request = SupervisionRequest;
-  static constexpr std::size_t kEvents = 10;
+  static constexpr std::size_t kEvents = 11;
   static constexpr std::size_t kStates = 7;
   using Handler = void (Supervision::*)(Supervised&);
   struct Pending {
@@ -115,6 +117,7 @@ struct Supervision {
   void start_again(Supervised& process);
   void restart_now(Supervised& process);
   void revive(Supervised& process);
+  void note_signal_of_terminal(Supervised& process);
 
   bool respawns(const Supervised& process) const;
   void conclude(Supervised& process);
@@ -125,6 +128,8 @@ struct Supervision {
   void reap_after_kill(Supervised& process);
   // To be called after a change of the two observers of lines.
   void observe_lines();
+  void tell_of_stopped();
+  void continue_in_foreground();
 
   static const std::array<std::array<Handler, kEvents>, kStates> kTable;
 
@@ -141,6 +146,9 @@ struct Supervision {
   bool handling = false;
   GeneratedFiles files;
   Guardian* guardian = nullptr;
+  EventLoop::SourcePtr state_changes;  // of children
+  EventLoop::SourcePtr look_at_stopped;
+  EventLoop::SourcePtr look_at_foreground;
 };
 
 }  // namespace launch

@@ -21,10 +21,10 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       loop_(loop),
       supervisor_(supervisor),
       errors_(std::move(errors)),
-      signals_(loop,
-               {[this] { return on_lost_guardian(); }, [this](const std::string& signal) { on_interrupt(signal); },
-                [this](int number, const std::string& signal) { on_interrupt_again(number, signal); },
-                [this] { suspend(); }}),
+      signals_(loop, {[this] { return on_lost_guardian(); }, [this] { supervisor_.note_signal_of_terminal(); },
+                      [this](const std::string& signal) { on_interrupt(signal); },
+                      [this](int number, const std::string& signal) { on_interrupt_again(number, signal); },
+                      [this] { suspend(); }}),
       crashes_(loop,
                [this](bool warning, const std::string& text) {
                  context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch", text);

@@ -33,10 +33,13 @@ void UserSignals::listen() {
       ending.push_back(signal);
     }
   }
-  ending_ = loop_.on_signal(ending, [this](int signal) { on_signal(signal); });
+  ending_ = loop_.on_signal(ending, [this](EventLoop::Signal signal) { on_signal(signal); });
   if (!is_ignored(SIGTSTP)) {
-    stopping_ = loop_.on_signal({SIGTSTP}, [this](int) { acts_.stop(); });
+    stopping_ = loop_.on_signal({SIGTSTP}, [this](EventLoop::Signal) { acts_.stop(); });
   }
+  // When a process reads the terminal from the background, its whole group is asked to stop. The launcher goes on.
+  ::signal(SIGTTIN, SIG_IGN);
+  ::signal(SIGTTOU, SIG_IGN);
 }
 
 bool UserSignals::count_as_first() {
@@ -47,13 +50,20 @@ bool UserSignals::count_as_first() {
   return true;
 }
 
-void UserSignals::on_signal(int signal) {
-  if (acts_.intercept() || (counted_ && loop_.now() - *counted_ < kSameWish)) {
+void UserSignals::on_signal(EventLoop::Signal signal) {
+  if (acts_.intercept()) {
     return;
   }
-  const std::string name = signal == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal));
+  if (signal.by_terminal) {
+    acts_.by_terminal();
+  }
+  if (counted_ && loop_.now() - *counted_ < kSameWish) {
+    return;
+  }
+  const std::string name =
+      signal.number == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal.number));
   if (std::exchange(counted_, loop_.now())) {
-    acts_.again(signal, name);
+    acts_.again(signal.number, name);
   } else {
     acts_.first(name);
   }

@@ -17,7 +17,8 @@ namespace launch {
 class UserSignals {
  public:
   struct Acts {
-    std::function<bool()> intercept;  // true: the signal has told something else, and does not count
+    std::function<bool()> intercept;    // true: the signal has told something else, and does not count
+    std::function<void()> by_terminal;  // the processes that have the terminal have got the signal, too
     std::function<void(const std::string& signal)> first;  // "ctrl-c (SIGINT)", "SIGTERM"
     std::function<void(int number, const std::string& signal)> again;
     std::function<void()> stop;  // Ctrl-Z
@@ -37,7 +38,7 @@ class UserSignals {
   static void stop_this_process();
 
  private:
-  void on_signal(int signal);
+  void on_signal(EventLoop::Signal signal);
 
   EventLoop& loop_;
   Acts acts_;

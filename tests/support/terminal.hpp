@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -50,7 +51,7 @@ class Terminal {
       ::kill(pid_, SIGKILL);
       ::waitpid(pid_, nullptr, 0);
     }
-    ::close(fd_);
+    if (fd_ >= 0) ::close(fd_);
   }
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
@@ -59,6 +60,20 @@ class Terminal {
   void resize(unsigned short lines, unsigned short columns) {
     const winsize size{lines, columns, 0, 0};
     ::ioctl(fd_, TIOCSWINSZ, &size);
+  }
+
+  // As when a window is closed. Returns the exit code of the program, -1 after a signal.
+  int close() {
+    ::close(fd_);
+    fd_ = -1;
+    return reap();
+  }
+  pid_t pid() const { return pid_; }
+  // Echo, line editing and the like.
+  tcflag_t local_modes() const {
+    termios modes{};
+    ::tcgetattr(fd_, &modes);
+    return modes.c_lflag;
   }
 
   // The line of the screen that holds `text`, or "".
@@ -94,14 +109,18 @@ class Terminal {
   // Reads to the end of the program. Returns its exit code, -1 after a signal.
   int wait() {
     read_until([] { return false; });
+    return reap();
+  }
+  const std::string& everything() const { return everything_; }
+
+ private:
+  int reap() {
     int status = 0;
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  const std::string& everything() const { return everything_; }
 
- private:
   template <typename Done>
   bool read_until(Done done) {
     const auto end = std::chrono::steady_clock::now() + kTerminalPatience;

@@ -13,7 +13,7 @@ struct FakeEventLoop::Registration {
   int fd = -1;
   std::set<int> signals;
   Callback callback;
-  std::function<void(int)> signal_callback;
+  std::function<void(Signal)> signal_callback;
   bool cancelled = false;
 };
 
@@ -57,7 +57,7 @@ EventLoop::SourcePtr FakeEventLoop::after(Duration delay, Callback callback) {
   return std::make_unique<Handle>(std::move(registration));
 }
 
-EventLoop::SourcePtr FakeEventLoop::on_signal(const std::vector<int>& signals, std::function<void(int)> callback) {
+EventLoop::SourcePtr FakeEventLoop::on_signal(const std::vector<int>& signals, std::function<void(Signal)> callback) {
   auto registration = std::make_shared<Registration>();
   registration->signals = std::set<int>(signals.begin(), signals.end());
   registration->signal_callback = std::move(callback);
@@ -70,14 +70,14 @@ void FakeEventLoop::post(Callback callback) {
   posts_.push_back(std::move(callback));
 }
 
-void FakeEventLoop::deliver_signal(int signal) {
+void FakeEventLoop::deliver_signal(int signal, bool by_terminal) {
   const bool watched = std::any_of(signals_.begin(), signals_.end(), [&](const RegistrationPtr& registration) {
     return !registration->cancelled && registration->signals.contains(signal);
   });
   if (!watched) {
     throw std::logic_error(fmt::format("signal {} was delivered, but nobody watches it", signal));
   }
-  delivered_signals_.push_back(signal);
+  delivered_signals_.push_back({signal, by_terminal});
 }
 
 void FakeEventLoop::run_until_idle() {
@@ -118,11 +118,11 @@ bool FakeEventLoop::run_signals() {
   if (delivered_signals_.empty()) {
     return false;
   }
-  const int signal = delivered_signals_.front();
+  const Signal signal = delivered_signals_.front();
   delivered_signals_.pop_front();
   const std::vector<RegistrationPtr> watchers = signals_;
   for (const RegistrationPtr& watcher : watchers) {
-    if (!watcher->cancelled && watcher->signals.contains(signal)) {
+    if (!watcher->cancelled && watcher->signals.contains(signal.number)) {
       watcher->signal_callback(signal);
     }
   }

@@ -30,7 +30,7 @@ class FakeEventLoop final : public EventLoop {
   void advance(Duration duration);
   // Delivers a signal to its callback in the next turn. Throws std::logic_error when there is no callback for it: a
   // real signal would have ended the process.
-  void deliver_signal(int signal);
+  void deliver_signal(int signal, bool by_terminal = false);
 
   // Runs pending callbacks, then jumps to the next timer, until quit(). Throws std::logic_error if nothing can happen
   // any more. A real loop would wait for ever then.
@@ -41,7 +41,7 @@ class FakeEventLoop final : public EventLoop {
   SourcePtr on_writable(int fd, Callback callback) override;
   SourcePtr on_exit(int pidfd, Callback callback) override;
   SourcePtr after(Duration delay, Callback callback) override;
-  SourcePtr on_signal(const std::vector<int>& signals, std::function<void(int)> callback) override;
+  SourcePtr on_signal(const std::vector<int>& signals, std::function<void(Signal)> callback) override;
   void post(Callback callback) override;
   Duration now() const override { return now_; }
 
@@ -65,7 +65,7 @@ class FakeEventLoop final : public EventLoop {
   std::vector<RegistrationPtr> exits_;
   std::map<TimerKey, RegistrationPtr> timers_;
   std::vector<RegistrationPtr> signals_;
-  std::deque<int> delivered_signals_;
+  std::deque<Signal> delivered_signals_;
   std::mutex post_mutex_;
   std::deque<Callback> posts_;  // guarded by post_mutex_
 };

@@ -80,6 +80,7 @@ Process FakeProcessRunner::spawn(const ProcessSpec& spec) {
   running.script = script;
   Process process;
   process.pid = ++last_pid_;
+  process.has_terminal = spec.terminal_input && !script.lacks_terminal;
   auto out = make_pipe();
   auto err = make_pipe();
   process.out = std::move(out[0]);

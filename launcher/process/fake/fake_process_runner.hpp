@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "launcher/process/fake/fake_event_loop.hpp"
@@ -31,6 +32,7 @@ struct FakeScript {
   std::optional<Duration> descendants_for{};
   std::optional<int> spawn_error{};  // errno of a start that fails
   bool refuses_signals = false;      // it belongs to another user
+  bool lacks_terminal = false;       // the launcher has none, although the spec asks for it
 };
 
 // Records the requests that it gets. The processes are not real, so their pids (from 1,000,001 on) must not be
@@ -67,8 +69,14 @@ class FakeProcessRunner final : public ProcessRunner {
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
+  std::vector<StoppedChild> take_stopped() override { return std::exchange(stopped_, {}); }
+  bool in_foreground() const override { return foreground_; }
   ProcessExit outcome(const Process& process) override;
   ProcessExit reap(const Process& process) override;
+
+  void put_into_background(bool background) { foreground_ = !background; }
+  // From now on take_stopped() tells of it.
+  void stop(pid_t pid, int signal) { stopped_.push_back({pid, signal}); }
 
   const std::vector<Spawned>& spawned() const { return spawned_; }
   const std::vector<Signalled>& signals() const { return signals_; }
@@ -95,6 +103,8 @@ class FakeProcessRunner final : public ProcessRunner {
   std::vector<Spawned> spawned_;
   std::vector<Signalled> signals_;
   std::vector<Limited> limits_;
+  std::vector<StoppedChild> stopped_;
+  bool foreground_ = true;
 };
 
 }  // namespace launch

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 
 namespace launch {
 namespace {
@@ -35,6 +36,13 @@ void write_to_screen(std::string_view text) {
 
 void GuardianLog::open(const std::string& path) {
   log_.reset(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+}
+
+void GuardianLog::erase_status_line() {
+  const char* const type = std::getenv("TERM");
+  if (type != nullptr && std::string_view(type) != "dumb" && ::tcgetpgrp(STDOUT_FILENO) == ::getpgrp()) {
+    write_to_screen("\r\033[K");
+  }
 }
 
 void GuardianLog::say(std::string_view level, std::string_view text) {

@@ -15,6 +15,9 @@ class GuardianLog {
   // Appends to the file of this path from now on.
   void open(const std::string& path);
 
+  // The launcher was killed, perhaps while a status line was shown below all others (Screen).
+  static void erase_status_line();
+
   // A message of the launcher: "[WARNING] [launch]: text".
   void say(std::string_view level, std::string_view text);
   // A line of a process.

@@ -20,6 +20,7 @@
 #include <string>
 #include <utility>
 
+#include "launcher/base/terminal_state.hpp"
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/guardian/clean_ups.hpp"
 #include "launcher/process/guardian/gentle_end.hpp"
@@ -70,6 +71,7 @@ class GuardianProcess {
   UniqueFd launcher_process_ = open_process(launcher_);
   UniqueFd own_process_ = open_process(::getpid());
   UniqueFd signals_;
+  const std::optional<launch::TerminalState> terminal_ = launch::TerminalState::of(STDIN_FILENO);
   launch::UnansweredSignals unanswered_{launcher_};
   launch::LaunchCgroup cgroup_;
   pid_t spare_ = -1;
@@ -103,8 +105,14 @@ int GuardianProcess::run() {
     }
   }
   strangers_.insert(spare_);
+  if (WIFSIGNALED(status_)) {
+    launch::GuardianLog::erase_status_line();
+  }
   end_rest({.launch_id = id_, .group = group_, .session = session_, .strangers = strangers_, .cgroup = cgroup_},
            launcher_ended(), signals_.get());
+  if (WIFSIGNALED(status_) && terminal_) {
+    terminal_->restore();  // a process that had it may have been killed
+  }
   ::kill(spare_, SIGKILL);
   ::waitpid(spare_, nullptr, 0);
   return status_;

@@ -14,7 +14,7 @@ from lifecycle_msgs.msg import Transition
 
 def generate_launch_description():
     first = ExecuteProcess(cmd=['echo', 'ready'], name='first', leave_running=True,
-                           allowed_exit_codes='1, SIGTERM', crash_dir='/crashes')
+                           allowed_exit_codes='1, SIGTERM', crash_dir='/crashes', stdin='terminal')
     second = ExecuteProcess(cmd=['second'], output={'stdout': ['screen', 'own_log']}, env={'PATH': '/bin'},
                             required=True, nice=5)
     managed = LifecycleNode(package='demo_nodes', executable='talker', name='other', namespace='/left')

@@ -34,6 +34,7 @@ TEST(Executable, DefaultsAreThoseOfRos2) {
   EXPECT_EQ(spec.output, *launch::OutputRouting::from_mode("log"));
   EXPECT_FALSE(spec.shell);
   EXPECT_FALSE(spec.emulate_tty);
+  EXPECT_FALSE(spec.terminal_input);
   EXPECT_FALSE(spec.respawn.enabled);
   EXPECT_FALSE(spec.shutdown_on_exit);
   EXPECT_EQ(spec.sigterm_timeout, std::chrono::seconds(5));
@@ -45,7 +46,7 @@ TEST(Executable, EveryAttributeIsTaken) {
   const ProcessSpec spec = only_process(R"xml(
     <executable cmd="prog a" name="label" cwd="/tmp" launch-prefix="nice -n '5'" output="full" respawn="yes"
                 respawn_delay="0.25" respawn_max_retries="3" on_exit="shutdown" shell="true" emulate_tty="true"
-                sigterm_timeout="1.5" sigkill_timeout="2">
+                sigterm_timeout="1.5" sigkill_timeout="2" stdin="terminal">
       <env name="A" value="1"/>
     </executable>)xml");
   EXPECT_THAT(spec.argv, ElementsAre("nice", "-n", "5", "prog", "a"));
@@ -58,6 +59,7 @@ TEST(Executable, EveryAttributeIsTaken) {
   EXPECT_TRUE(spec.shutdown_on_exit);
   EXPECT_TRUE(spec.shell);
   EXPECT_TRUE(spec.emulate_tty);
+  EXPECT_TRUE(spec.terminal_input);
   EXPECT_EQ(spec.sigterm_timeout, std::chrono::milliseconds(1500));
   EXPECT_EQ(spec.sigkill_timeout, std::chrono::seconds(2));
   EXPECT_EQ(spec.environment.at("A"), "1");

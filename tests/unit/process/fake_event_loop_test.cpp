@@ -45,7 +45,7 @@ TEST(FakeEventLoop, RunsSignalsThenOutputThenExitsThenTimersThenPosts) {
     ::eventfd_read(output.get(), &count);
     order.emplace_back("output");
   });
-  const auto signal = loop.on_signal({SIGINT}, [&](int) { order.emplace_back("signal"); });
+  const auto signal = loop.on_signal({SIGINT}, [&](EventLoop::Signal) { order.emplace_back("signal"); });
   loop.deliver_signal(SIGINT);
   loop.run_until_idle();
   EXPECT_EQ(order, (std::vector<std::string>{"signal", "output", "exit", "timer", "post"}));

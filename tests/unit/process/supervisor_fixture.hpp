@@ -43,6 +43,9 @@ class EventText {
                        std::chrono::duration<double>(sent.waited).count());
   }
   std::string operator()(const ProcessLeft& left) const { return left.foreign ? "left, foreign" : "left"; }
+  std::string operator()(const ProcessWaitsForTerminal& waits) const {
+    return fmt::format("waits for the terminal{}", waits.has_terminal ? ", which it has" : "");
+  }
   std::string operator()(const RespawnSlowed& slowed) const { return fmt::format("slowed after {} runs", slowed.runs); }
   std::string operator()(const ProcessDone&) const { return "done"; }
 

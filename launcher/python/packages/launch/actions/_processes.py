@@ -116,7 +116,7 @@ class _Process(Action):
     # Arguments that only this launcher has, named as in XML, with "_" for "-".
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
                    'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace', 'leave_running',
-                   'allowed_exit_codes', 'crash_dir')
+                   'allowed_exit_codes', 'crash_dir', 'stdin')
 
     _DASHED = ('leave_running', 'allowed_exit_codes', 'crash_dir')
 
