@@ -44,6 +44,17 @@ std::string reason(const TraceChoices& choices, const std::string& rule) {
   return "event " + rule;
 }
 
+// The names of the events whose rules are among the reasons.
+std::vector<std::string> late_events(const TraceChoices& choices, const std::vector<std::string>& reasons) {
+  std::vector<std::string> names;
+  for (const std::string& rule : choices.watched_events()) {
+    if (std::find(reasons.begin(), reasons.end(), reason(choices, rule)) != reasons.end()) {
+      names.push_back(rule.substr(0, rule.find(' ')));
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> TraceChoices::watched_events() const {
@@ -206,12 +217,12 @@ void TraceScope::look_around_later(EventLoop& loop, const Tell& tell) {
 // Called on the thread of the loop. The session daemon takes a millisecond for these registrations.
 void TraceScope::start_flight_recorder(EventLoop& loop, const Tell& tell) {
   flight_recorder_ = std::make_unique<tracing::FlightRecorder>(
-      config_, [&loop, tell, observer = snapshot_observer_](const tracing::TakenSnapshot& taken) {
-        loop.post([tell, taken, observer] {
+      config_, [&loop, tell, observer = snapshot_observer_, choices = choices_](const tracing::TakenSnapshot& taken) {
+        loop.post([tell, taken, observer, late = late_events(choices, taken.reasons)] {
           const std::string reasons = fmt::format("{}", fmt::join(taken.reasons, ", "));
           if (taken.error.empty()) {
             if (observer) {
-              observer(taken.reasons, taken.directory.string());
+              observer(taken.reasons, taken.directory.string(), late);
             }
             tell(false, fmt::format("snapshot written to: {} ({})", taken.directory.string(), reasons));
           } else {

@@ -140,7 +140,7 @@ std::string script(const Crash& crash, const std::vector<std::string>& words) {
   return text + "  " + command + "\n";
 }
 
-std::string summary(const Crash& crash) {
+std::string summary(const Crash& crash, const std::string& what) {
   const std::time_t time = std::chrono::system_clock::to_time_t(crash.time);
   return fmt::format(
       "{}: {}\n\n"
@@ -149,8 +149,8 @@ std::string summary(const Crash& crash) {
       "asked for:  {}\n"
       "command:    {}\n"
       "directory:  {}\n",
-      crash.process, describe(crash.exit), fmt::localtime(time), crash.pid,
-      crash.place.empty() ? "by no launch file" : crash.place, fmt::join(crash.argv, " "), crash.directory);
+      crash.process, what, fmt::localtime(time), crash.pid, crash.place.empty() ? "by no launch file" : crash.place,
+      fmt::join(crash.argv, " "), crash.directory);
 }
 
 // The lines about the core, after it has been put into the bundle.
@@ -177,6 +177,35 @@ std::string take_core(const Crash& crash, const fs::path& bundle, const std::ato
                      write_backtrace(bundle, *core, hurry));
 }
 
+// The first line of /proc/…, or "" for a thread that has ended.
+std::string first_line(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
+}
+
+// "4711 planner waits in futex_wait_queue": names and waits are those of the kernel.
+std::string threads(pid_t pid) {
+  std::string text;
+  std::error_code gone;
+  for (fs::directory_iterator thread(fmt::format("/proc/{}/task", pid), gone), end; !gone && thread != end;
+       thread.increment(gone)) {
+    const std::string waits = first_line(thread->path() / "wchan");
+    text += fmt::format("{} {} {}\n", thread->path().filename().string(), first_line(thread->path() / "comm"),
+                        waits.empty() || waits == "0" ? "runs" : "waits in " + waits);
+  }
+  return text.empty() ? "The process has ended meanwhile.\n" : text;
+}
+
+// What a bundle of a crash and one of a deadline have in common.
+void write_common(const Crash& crash, const fs::path& bundle) {
+  write(bundle / "output.log",
+        fmt::format("{}{}", fmt::join(crash.last_lines, "\n"), crash.last_lines.empty() ? "" : "\n"));
+  write(bundle / "command.sh", script(crash, with_copied_parameters(crash, bundle)));
+  fs::permissions(bundle / "command.sh", fs::perms::owner_exec, fs::perm_options::add);
+}
+
 fs::path make_directory(const Crash& crash, const fs::path& parent) {
   std::string name = crash.process;
   std::replace(name.begin(), name.end(), '/', '_');
@@ -191,12 +220,19 @@ fs::path make_directory(const Crash& crash, const fs::path& parent) {
 
 fs::path write_crash_bundle(const Crash& crash, const fs::path& parent, const std::atomic<bool>& hurry) {
   fs::path bundle = make_directory(crash, parent);
-  write(bundle / "crash.txt", summary(crash));
-  write(bundle / "output.log",
-        fmt::format("{}{}", fmt::join(crash.last_lines, "\n"), crash.last_lines.empty() ? "" : "\n"));
-  write(bundle / "command.sh", script(crash, with_copied_parameters(crash, bundle)));
-  fs::permissions(bundle / "command.sh", fs::perms::owner_exec, fs::perm_options::add);
+  write(bundle / "crash.txt", summary(crash, describe(crash.exit)));
+  write_common(crash, bundle);
   std::ofstream(bundle / "crash.txt", std::ios::app) << take_core(crash, bundle, hurry);
+  return bundle;
+}
+
+fs::path write_deadline_bundle(const Crash& late, const std::vector<std::string>& reasons, const fs::path& parent) {
+  fs::path bundle = make_directory(late, parent);
+  write(bundle / "deadline.txt", summary(late, fmt::format("{}", fmt::join(reasons, ", "))));
+  write(bundle / "threads.txt", threads(late.pid));
+  std::ifstream maps(fmt::format("/proc/{}/maps", late.pid));
+  std::ofstream(bundle / "maps.txt") << maps.rdbuf();
+  write_common(late, bundle);
   return bundle;
 }
 

@@ -15,6 +15,7 @@
 
 namespace launch {
 
+// Also of a process that runs on, but has missed a deadline.
 struct Crash {
   std::string process;  // its label, "talker-1"
   pid_t pid = 0;
@@ -38,6 +39,14 @@ struct Crash {
 // Takes seconds when there is a core. Throws std::filesystem::filesystem_error when the directory can't be made.
 std::filesystem::path write_crash_bundle(const Crash& crash, const std::filesystem::path& parent,
                                          const std::atomic<bool>& hurry);
+
+// Makes a directory as above for a process that has missed a deadline and runs on, with `reasons`, sentences that say
+// what it has missed. It holds
+// - deadline.txt: the reasons, and what crash.txt says of the process;
+// - threads.txt: the threads of the process, and what each waits for in the kernel. The process is not stopped;
+// - maps.txt, output.log and command.sh, as above.
+std::filesystem::path write_deadline_bundle(const Crash& late, const std::vector<std::string>& reasons,
+                                            const std::filesystem::path& parent);
 
 // Adds the events before the crash: `snapshot`, with hard links where that is possible.
 void add_snapshot(const std::filesystem::path& bundle, const std::filesystem::path& snapshot);

@@ -2,10 +2,14 @@
 #include "launcher/crash/crash_collector.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <utility>
+
+#include "launcher/crash/late_processes.hpp"
 
 namespace launch {
 
@@ -40,7 +44,10 @@ void CrashCollector::on_process_event(const ProcessEvent& event) {
   if (event.spec.crash_directory.empty()) {
     return;
   }
-  if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
+  if (const auto* const started = std::get_if<ProcessStarted>(&event.what)) {
+    runs_.erase(event.id);
+    runs_.emplace(event.id, Run{started->pid, event.label, event.spec});
+  } else if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
     if (!exited->expected && !event.spec.allowed_exits.contains(exited->exit.code)) {
       collect(event, *exited);
     }
@@ -56,22 +63,8 @@ void CrashCollector::collect(const ProcessEvent& event, const ProcessExited& exi
     }
     return;
   }
-  Crash crash;
-  crash.process = event.label;
-  crash.pid = exited.pid;
+  Crash crash = describe_run(event.id, {exited.pid, event.label, event.spec});
   crash.exit = exited.exit;
-  crash.time = std::chrono::system_clock::now();
-  crash.place = event.spec.origin ? place_with_path(event.spec.origin) : "";
-  crash.argv = event.spec.argv;
-  crash.shell = event.spec.shell;
-  crash.environment = event.spec.environment.variables();
-  std::error_code unknown;
-  crash.directory = std::filesystem::current_path(unknown).string();
-  if (!event.spec.working_directory.empty()) {
-    crash.directory = (std::filesystem::path(crash.directory) / event.spec.working_directory).string();
-  }
-  const Output& output = output_[event.id];
-  crash.last_lines.assign(output.lines.begin(), output.lines.end());
   add([this, crash = std::move(crash), parent = std::filesystem::path(event.spec.crash_directory)] {
     const std::filesystem::path bundle = write_crash_bundle(crash, parent, hurry_);
     last_bundle_[crash.process] = bundle;
@@ -79,7 +72,31 @@ void CrashCollector::collect(const ProcessEvent& event, const ProcessExited& exi
   });
 }
 
-void CrashCollector::on_snapshot(const std::vector<std::string>& reasons, const std::filesystem::path& directory) {
+Crash CrashCollector::describe_run(ProcessId id, const Run& run) const {
+  Crash crash;
+  crash.process = run.label;
+  crash.pid = run.pid;
+  crash.time = std::chrono::system_clock::now();
+  crash.place = run.spec.origin ? place_with_path(run.spec.origin) : "";
+  crash.argv = run.spec.argv;
+  crash.shell = run.spec.shell;
+  crash.environment = run.spec.environment.variables();
+  std::error_code unknown;
+  crash.directory = std::filesystem::current_path(unknown).string();
+  if (!run.spec.working_directory.empty()) {
+    crash.directory = (std::filesystem::path(crash.directory) / run.spec.working_directory).string();
+  }
+  if (const auto output = output_.find(id); output != output_.end()) {
+    crash.last_lines.assign(output->second.lines.begin(), output->second.lines.end());
+  }
+  return crash;
+}
+
+void CrashCollector::on_snapshot(const std::vector<std::string>& reasons, const std::filesystem::path& directory,
+                                 const std::vector<std::string>& late) {
+  if (!late.empty() && !runs_.empty()) {
+    add([this, reasons, directory, late] { find_late(reasons, directory, late); });
+  }
   if (crashes_.empty()) {
     return;
   }
@@ -94,12 +111,51 @@ void CrashCollector::on_snapshot(const std::vector<std::string>& reasons, const 
   });
 }
 
+// On the thread. Snapshots clear nothing, so one holds the missed deadlines of the one before, too.
+void CrashCollector::find_late(const std::vector<std::string>& reasons, const std::filesystem::path& snapshot,
+                               const std::vector<std::string>& events) {
+  for (const auto& [pid, time] : late_processes(snapshot, events, hurry_)) {
+    std::int64_t& told = last_missed_[pid];
+    if (time > told) {
+      told = time;
+      loop_.post([this, pid = pid, reasons, snapshot] { collect_late(pid, reasons, snapshot); });
+    }
+  }
+}
+
+void CrashCollector::collect_late(pid_t pid, const std::vector<std::string>& reasons,
+                                  const std::filesystem::path& snapshot) {
+  const pid_t group = ::getpgid(pid);  // a script may have started the program that was late
+  const auto found = std::find_if(runs_.begin(), runs_.end(),
+                                  [&](const auto& run) { return run.second.pid == pid || run.second.pid == group; });
+  if (found == runs_.end() || missed_[found->first] >= kMostOfOneProcess) {
+    return;
+  }
+  const auto& [id, run] = *found;
+  if (++missed_[id] == kMostOfOneProcess) {
+    tell_(true, fmt::format("{} has missed a deadline {} times; this is the last bundle of one", run.label,
+                            kMostOfOneProcess));
+  }
+  add([this, late = describe_run(id, run), reasons, snapshot,
+       parent = std::filesystem::path(run.spec.crash_directory)] {
+    const std::filesystem::path bundle = write_deadline_bundle(late, reasons, parent);
+    add_snapshot(bundle, snapshot);
+    tell_later(false, fmt::format("bundle of a deadline that {} has missed: {}", late.process, bundle.string()));
+  });
+}
+
 void CrashCollector::finish(std::function<void()> done) {
-  if (!thread_.joinable()) {
+  if (is_idle()) {
     loop_.post(std::move(done));
     return;
   }
-  add([this, done = std::move(done)] { loop_.post(done); });
+  // A job may have asked the loop for another one, which comes before this.
+  add([this, done = std::move(done)] { loop_.post([this, done] { finish(done); }); });
+}
+
+bool CrashCollector::is_idle() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return jobs_.empty() && !works_;
 }
 
 void CrashCollector::add(Job job) {
@@ -118,12 +174,14 @@ void CrashCollector::work() {
     Job job;
     {
       std::unique_lock<std::mutex> lock(mutex_);
+      works_ = false;
       changed_.wait(lock, [this] { return stop_ || !jobs_.empty(); });
       if (stop_) {
         return;
       }
       job = std::move(jobs_.front());
       jobs_.pop_front();
+      works_ = true;
     }
     try {
       job();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a bundle of each crash of the processes whose spec has a crash directory. A crash is an end that nobody asked
-// for and that the spec does not allow.
+// for and that the spec does not allow. A process that misses a deadline, and runs on, gets a bundle, too.
 //
 // The work is done on a thread of its own, one bundle after the other, because a debugger takes seconds.
 #pragma once
@@ -26,7 +26,7 @@ namespace launch {
 
 class CrashCollector {
  public:
-  // A process that crashes more often gets no further bundle.
+  // A process that crashes, or misses a deadline, more often gets no further bundle.
   static constexpr std::size_t kMostOfOneProcess = 5;
   // So much of the output of each process is kept.
   static constexpr std::size_t kLines = 1000;
@@ -46,8 +46,10 @@ class CrashCollector {
 
   void on_line(const ProcessSpec& spec, ProcessId id, std::string_view line);
   void on_process_event(const ProcessEvent& event);
-  // A flight recorder has written what happened before. Each reason begins with the label of a process.
-  void on_snapshot(const std::vector<std::string>& reasons, const std::filesystem::path& directory);
+  // A flight recorder has written what happened before. A reason that is a crash begins with the label of a process.
+  // `late`: the events by which processes have said that they missed a deadline, if reasons are such.
+  void on_snapshot(const std::vector<std::string>& reasons, const std::filesystem::path& directory,
+                   const std::vector<std::string>& late);
 
   // Calls `done` in a later turn of the loop, when all bundles are complete; at once if there is none to wait for.
   void finish(std::function<void()> done);
@@ -61,7 +63,19 @@ class CrashCollector {
   };
   using Job = std::function<void()>;
 
+  // The last run of a process. The references are valid as long as the supervisor.
+  struct Run {
+    pid_t pid;
+    const std::string& label;
+    const ProcessSpec& spec;
+  };
+
   void collect(const ProcessEvent& event, const ProcessExited& exited);
+  Crash describe_run(ProcessId id, const Run& run) const;
+  void find_late(const std::vector<std::string>& reasons, const std::filesystem::path& snapshot,
+                 const std::vector<std::string>& events);
+  void collect_late(pid_t pid, const std::vector<std::string>& reasons, const std::filesystem::path& snapshot);
+  bool is_idle();
   void add(Job job);
   void work();
   void tell_later(bool warning, std::string text);
@@ -71,13 +85,17 @@ class CrashCollector {
   bool watches_ = false;
   std::map<ProcessId, Output> output_;
   std::map<ProcessId, std::size_t> crashes_;
+  std::map<ProcessId, std::size_t> missed_;  // deadlines
+  std::map<ProcessId, Run> runs_;            // of processes with a crash directory
 
   std::atomic<bool> hurry_ = false;
   std::map<std::string, std::filesystem::path> last_bundle_;  // of each process; for the thread alone
+  std::map<pid_t, std::int64_t> last_missed_;                 // deadline that is told; for the thread alone
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   bool stop_ = false;
+  bool works_ = false;
   std::thread thread_;
 };
 

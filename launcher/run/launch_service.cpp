@@ -78,9 +78,9 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                 {[this](const Invocation& invocation) { visit_farewell(invocation); }, [this] { stop_processes(); },
                  [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
-  scopes_.observe_snapshots([this](const std::vector<std::string>& reasons, const std::string& directory) {
-    crashes_.on_snapshot(reasons, directory);
-  });
+  scopes_.observe_snapshots(
+      [this](const std::vector<std::string>& reasons, const std::string& directory,
+             const std::vector<std::string>& late) { crashes_.on_snapshot(reasons, directory, late); });
   ros_tasks_.observe_failures(
       [this](const std::string& what, const SourceRange& where) { outcome_.on_component_failure(what, where); });
 }

@@ -71,7 +71,9 @@ class RunScope {
 
   // The observer is called on the loop's thread, before end() is completed, when the scope has written down what
   // happened before something went wrong. A reason that is the end of a process begins with the label of the process.
-  using SnapshotObserver = std::function<void(const std::vector<std::string>& reasons, const std::string& directory)>;
+  // `late` names the events by which processes have told that they missed a deadline, if that is a reason.
+  using SnapshotObserver = std::function<void(const std::vector<std::string>& reasons, const std::string& directory,
+                                              const std::vector<std::string>& late)>;
   virtual void observe_snapshots(SnapshotObserver) {}
 
   // "trace", and its evaluated settings.

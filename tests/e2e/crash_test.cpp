@@ -139,6 +139,28 @@ TEST_F(CrashTest, HoldsTheSnapshotOfAFlightRecorder) {
   EXPECT_THAT(read_file(bundles()[0] / "snapshot/verdict.json"), HasSubstr("app-1 died of SIGABRT"));
 }
 
+TEST_F(CrashTest, OfADeadlineHasTheProcessThatWasLateAndTheSnapshot) {
+  const fs::path file = sandbox_.directory() / "system.launch.xml";
+  write_file(file,
+             "<launch><trace session-name=\"run\" snapshot-on-late-callback=\"20\"/>\n"
+             "<executable name=\"late\" cmd=\"" TRACE_COST_NODE
+             " 30\"/>\n"
+             "<executable name=\"other\" cmd=\"sleep 1000\"/></launch>");
+  RunningCommand run(
+      {.argv = {LAUNCH_PROGRAM, "--crash-dir", "crashes", file.string()}, .directory = sandbox_.directory()});
+  ASSERT_TRUE(run.wait_for_output("bundle of a deadline that late-1 has missed: ", kPatience))
+      << run.out() << run.err();
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+  ASSERT_THAT(bundles(), SizeIs(1)) << run.out();
+  const fs::path bundle = bundles()[0];
+  EXPECT_THAT(read_file(bundle / "deadline.txt"), HasSubstr("late-1: a callback took more than 20 ms\n"));
+  EXPECT_THAT(read_file(bundle / "threads.txt"), ContainsRegex("[0-9]+ trace_cost_node waits in "));
+  EXPECT_THAT(read_file(bundle / "maps.txt"), HasSubstr("trace_cost_node"));
+  EXPECT_THAT(read_file(bundle / "command.sh"), HasSubstr("trace_cost_node 30"));
+  EXPECT_THAT(read_file(bundle / "snapshot/verdict.json"), HasSubstr("a callback took more than 20 ms"));
+}
+
 TEST_F(CrashTest, InADirectoryThatCannotBeMadeIsToldOf) {
   write_file(sandbox_.directory() / "file", "");
   const CommandResult result = launch({"--crash-dir", "file/crashes"}, R"xml(<executable cmd="false"/>)xml");
