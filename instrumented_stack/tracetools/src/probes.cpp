@@ -15,18 +15,6 @@ bool is_mark(const Probe& probe) {
 
 }  // namespace
 
-ProbesInUse::ProbesInUse() : locked_(LTTNG_UST_TP_RCU_LINK_TEST() != 0) {
-  if (locked_) lttng_ust_tp_rcu_read_lock();
-}
-
-ProbesInUse::~ProbesInUse() {
-  if (locked_) lttng_ust_tp_rcu_read_unlock();
-}
-
-const Probe* ProbesInUse::of(const Tracepoint& tracepoint) const {
-  return locked_ ? lttng_ust_tp_rcu_dereference(tracepoint.probes) : nullptr;
-}
-
 Session* session_of(const Probe& probe) {
   if (is_mark(probe)) return nullptr;
   const auto* const event = static_cast<const lttng_ust_event_common*>(probe.data);

@@ -19,13 +19,19 @@ using Session = lttng_ust_session;
 /// While one exists, LTTng frees no probes, and no sessions that have probes.
 class ProbesInUse {
  public:
-  ProbesInUse();
-  ~ProbesInUse();
+  ProbesInUse() : locked_(LTTNG_UST_TP_RCU_LINK_TEST() != 0) {
+    if (locked_) lttng_ust_tp_rcu_read_lock();
+  }
+  ~ProbesInUse() {
+    if (locked_) lttng_ust_tp_rcu_read_unlock();
+  }
   ProbesInUse(const ProbesInUse&) = delete;
   ProbesInUse& operator=(const ProbesInUse&) = delete;
 
   /// The first probe; the last one is followed by one without a function. Null if there are none.
-  const Probe* of(const Tracepoint& tracepoint) const;
+  const Probe* of(const Tracepoint& tracepoint) const {
+    return locked_ ? __atomic_load_n(&tracepoint.probes, __ATOMIC_CONSUME) : nullptr;
+  }
 
  private:
   bool locked_;

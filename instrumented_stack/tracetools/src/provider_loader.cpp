@@ -14,6 +14,7 @@
 #include "deadline.hpp"
 #include "event_counters.hpp"
 #include "object_state.hpp"
+#include "recording.hpp"
 #include "registration_watch.hpp"
 #include "state_dump_request.hpp"
 
@@ -78,6 +79,9 @@ bool offer_state_dumps() {
   if (provider == nullptr) {
     std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
     return;
+  }
+  for (const char* const name : {"tracetools_probes_of_ros2", "tracetools_probes_of_ros2_ext"}) {
+    add_generated_probes(*reinterpret_cast<const lttng_ust_probe_desc* (*)()>(dlsym(provider, name))());
   }
   loaded = true;
   count_missed_events();

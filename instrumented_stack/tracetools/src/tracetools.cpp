@@ -37,22 +37,8 @@ bool ros_trace_runtime_status(void) {
 #include "provider_ext.h"
 #include "provider_loader.hpp"
 #include "provider_session.h"
+#include "record_functions.hpp"
 
-// The provider must be written literally, because LTTng's macros paste the name before expanding it.
-#define RECORD_IF_ENABLED(name, ...)                                  \
-  do {                                                                \
-    if (lttng_ust_tracepoint_enabled(ros2, name)) {                   \
-      tracetools::count(tracetools::CountedEvent::name);              \
-      lttng_ust_do_tracepoint(ros2, name __VA_OPT__(, ) __VA_ARGS__); \
-    }                                                                 \
-  } while (false)
-#define RECORD_EXT_IF_ENABLED(name, ...)                                  \
-  do {                                                                    \
-    if (lttng_ust_tracepoint_enabled(ros2_ext, name)) {                   \
-      tracetools::count(tracetools::CountedEvent::name);                  \
-      lttng_ust_do_tracepoint(ros2_ext, name __VA_OPT__(, ) __VA_ARGS__); \
-    }                                                                     \
-  } while (false)
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 
 // For sessions that start late. Does nothing if no session can start.
@@ -125,40 +111,44 @@ inline void fetch_followers<tracetools::event::rclcpp_executor_get_next_ready>()
   (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::provider_is_loaded())
 
 // Usually no session records, and the code of these functions is no longer in the processor's caches when a message
-// comes. So the check takes a few instructions in each, side by side, and the recording code is kept apart.
-#define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments, RECORD)                    \
-  template <typename... Arguments>                                                                 \
-  [[gnu::noinline]] static void record_##prefix##_##name(Arguments... values) {                    \
-    RECORD(name, values...);                                                                       \
-    watch<tracetools::event::name>(values...);                                                     \
-  }                                                                                                \
-  [[gnu::hot]] void prefix##_##name parameters {                                                   \
-    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                            \
-      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                          \
-    } else {                                                                                       \
-      NOTE(name, WITHOUT_PARENTHESES arguments)                                                    \
-      fetch_followers<tracetools::event::name>();                                                  \
-      if (lttng_ust_tracepoint_enabled(provider, name) || is_watched<tracetools::event::name>()) { \
-        record_##prefix##_##name arguments;                                                        \
-      }                                                                                            \
-    }                                                                                              \
-  }                                                                                                \
-  bool prefix##_enabled_##name(void) {                                                             \
-    return IS_WANTED(name, lttng_ust_tracepoint_enabled(provider, name));                          \
-  }                                                                                                \
-  void prefix##_do_##name parameters {                                                             \
-    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                            \
-      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                          \
-    } else {                                                                                       \
-      NOTE(name, WITHOUT_PARENTHESES arguments)                                                    \
-      record_##prefix##_##name arguments;                                                          \
-    }                                                                                              \
+// comes. So the check takes a few instructions in each, side by side, and the recording code is kept apart
+// (record_functions.hpp).
+#define RECORD_IF_WANTED(provider, name, arguments)          \
+  if (is_watched<tracetools::event::name>()) {               \
+    watched_##provider##_##name arguments;                   \
+  } else if (lttng_ust_tracepoint_enabled(provider, name)) { \
+    record_##provider##_##name arguments;                    \
+  }
+#define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments)                      \
+  template <typename... Arguments>                                                           \
+  [[gnu::noinline]] static void watched_##provider##_##name(Arguments... values) {           \
+    if (lttng_ust_tracepoint_enabled(provider, name)) record_##provider##_##name(values...); \
+    watch<tracetools::event::name>(values...);                                               \
+  }                                                                                          \
+  [[gnu::hot]] void prefix##_##name parameters {                                             \
+    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                      \
+      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                    \
+    } else {                                                                                 \
+      NOTE(name, WITHOUT_PARENTHESES arguments)                                              \
+      fetch_followers<tracetools::event::name>();                                            \
+      RECORD_IF_WANTED(provider, name, arguments)                                            \
+    }                                                                                        \
+  }                                                                                          \
+  bool prefix##_enabled_##name(void) {                                                       \
+    return IS_WANTED(name, lttng_ust_tracepoint_enabled(provider, name));                    \
+  }                                                                                          \
+  void prefix##_do_##name parameters {                                                       \
+    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                      \
+      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                    \
+    } else {                                                                                 \
+      NOTE(name, WITHOUT_PARENTHESES arguments)                                              \
+      RECORD_IF_WANTED(provider, name, arguments)                                            \
+    }                                                                                        \
   }
 
-#define DEFINE_EVENT(name, parameters, arguments) \
-  DEFINE_FUNCTIONS(ros_trace, ros2, name, parameters, arguments, RECORD_IF_ENABLED)
+#define DEFINE_EVENT(name, parameters, arguments) DEFINE_FUNCTIONS(ros_trace, ros2, name, parameters, arguments)
 #define DEFINE_EXT_EVENT(name, parameters, arguments) \
-  DEFINE_FUNCTIONS(ros_trace_ext, ros2_ext, name, parameters, arguments, RECORD_EXT_IF_ENABLED)
+  DEFINE_FUNCTIONS(ros_trace_ext, ros2_ext, name, parameters, arguments)
 
 bool ros_trace_compile_status(void) {
   return true;

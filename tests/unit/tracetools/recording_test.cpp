@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Events of plain fields are recorded without LTTng's generated probes. Sessions get what these would have recorded.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using test_support::run_command;
+using test_support::Sandbox;
+
+void succeed(const std::vector<std::string>& argv) {
+  const auto result = run_command(argv);
+  ASSERT_EQ(result.exit_code, 0) << testing::PrintToString(argv) << result.out << result.err;
+}
+
+struct Recording : testing::Test {
+  void SetUp() override { succeed({"lttng-sessiond", "--daemonize"}); }
+
+  void create(const std::string& session) {
+    succeed({"lttng", "create", session, "--output=" + (sandbox.directory() / session).string()});
+  }
+  void enable(const std::string& session, const std::string& event, const std::vector<std::string>& further = {}) {
+    std::vector<std::string> argv = {"lttng", "enable-event", "--userspace", event, "--session=" + session};
+    argv.insert(argv.end(), further.begin(), further.end());
+    succeed(argv);
+  }
+  // What `fire_all_events` leaves in a trace, without times: "rmw_take: taken = 1" for `fields` = "taken".
+  std::vector<std::string> events_of(const std::string& session) const {
+    const auto text = run_command({"babeltrace2", "--names=none", (sandbox.directory() / session).string()});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    std::vector<std::string> events;
+    std::istringstream stream(text.out);
+    for (std::string line; std::getline(stream, line);) {
+      const std::size_t name = line.find("ros2:") + 5;
+      const std::size_t payload = line.rfind('{');
+      events.push_back(line.substr(name, line.find(':', name) - name) + " " + line.substr(payload));
+    }
+    return events;
+  }
+
+  Sandbox sandbox;
+};
+
+using Events = std::vector<std::string>;
+
+TEST_F(Recording, LeavesTheDecisionToAFilter) {
+  create("some");
+  enable("some", "ros2:rmw_take", {"--filter", "taken == 1 && source_timestamp == -1"});
+  enable("some", "ros2:rcl_publish", {"--filter", "message != 2"});
+  enable("some", "ros2:rcl_take", {"--filter", "message == 1"});
+  succeed({"lttng", "start", "some"});
+  succeed({FIRE_ALL_EVENTS});
+  succeed({"lttng", "destroy", "some"});
+  EXPECT_EQ(events_of("some"), (Events{"rmw_take { 0x1, 0xFFFFFFFFFFFFFFFF, -1, 1 }", "rcl_take { 0x1 }"}));
+}
+
+TEST_F(Recording, HappensInEachSessionThatWantsTheEvent) {
+  create("all");
+  enable("all", "ros2:rcl_*take");
+  create("filtered");
+  enable("filtered", "ros2:rcl_take,ros2:rclcpp_take", {"--filter", "message == 2"});
+  create("stopped");
+  enable("stopped", "ros2:rcl_take");
+  create("one");
+  enable("one", "ros2:rcl_take");
+  for (const char* const session : {"all", "filtered", "stopped", "one"}) succeed({"lttng", "start", session});
+  succeed({"lttng", "stop", "stopped"});
+  succeed({FIRE_ALL_EVENTS});
+  succeed({"lttng", "destroy", "--all"});
+  EXPECT_EQ(events_of("all"), (Events{"rcl_take { 0x1 }"}));
+  EXPECT_EQ(events_of("filtered"), Events{});
+  EXPECT_EQ(events_of("stopped"), Events{});
+  EXPECT_EQ(events_of("one"), (Events{"rcl_take { 0x1 }"}));
+}
+
+// An event goes to each channel of a session, with the fields of its context.
+TEST_F(Recording, HappensInEachChannel) {
+  create("channels");
+  succeed({"lttng", "enable-channel", "--userspace", "first"});
+  succeed({"lttng", "enable-channel", "--userspace", "second"});
+  enable("channels", "ros2:callback_end", {"--channel=first"});
+  enable("channels", "ros2:callback_end", {"--channel=second"});
+  succeed({"lttng", "add-context", "--userspace", "--channel=second", "--type=vpid"});
+  succeed({"lttng", "start", "channels"});
+  succeed({FIRE_ALL_EVENTS});
+  succeed({"lttng", "destroy", "channels"});
+  EXPECT_EQ(events_of("channels"), (Events{"callback_end { 0x1 }", "callback_end { 0x1 }"}));
+}
+
+// A trigger needs the values of the fields, too.
+TEST_F(Recording, SetsOffATrigger) {
+  create("started");
+  enable("started", "ros2:callback_end");
+  succeed({"lttng", "add-trigger", "--condition=event-rule-matches", "--type=user:tracepoint", "--name=ros2:rmw_take",
+           "--filter=source_timestamp == -1", "--action=start-session", "started"});
+  succeed({FIRE_ALL_EVENTS});
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  std::string list;
+  do {
+    list = run_command({"lttng", "list"}).out;
+  } while (list.find("started [active]") == std::string::npos && std::chrono::steady_clock::now() < deadline);
+  EXPECT_NE(list.find("started [active]"), std::string::npos) << list;
+}
+
+}  // namespace
