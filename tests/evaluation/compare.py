@@ -8,6 +8,7 @@ a figure, the ratios to the floors are compared, because a floor is as fast or s
 count.
 """
 
+import math
 from dataclasses import dataclass
 from statistics import NormalDist
 
@@ -82,11 +83,11 @@ def _deviation(figure):
 
 
 def _change(name, before, after, z):
-    factors, unit = (1.0, 1.0), before.unit
+    sides, unit = (before, after), before.unit
     if before.floor and after.floor:
-        factors, unit = (1 / before.floor, 1 / after.floor), 'times the floor'
-    deviation = sum((_deviation(figure) * factor) ** 2 for figure, factor in zip((before, after), factors)) ** 0.5
-    return Change(name, unit, before.value * factors[0], after.value * factors[1], z * deviation, after.better)
+        sides, unit = (before.ratio, after.ratio), 'times the floor'
+    noise = z * math.hypot(*(_deviation(side) for side in sides))
+    return Change(name, unit, sides[0].value, sides[1].value, noise, after.better)
 
 
 def _remarks(before, after):

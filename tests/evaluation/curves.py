@@ -49,7 +49,8 @@ def processes(figures):
         low = min(min(one['floor'], max(one['low'], one['floor'] / 10)) for _, one in known)
         chart = Chart(title, 'ms', 'processes', [f'{count:,}' for count in counts], low, max(one['high'] for _, one in known), True)
         chart.line(launched, 0, [_about(count, one) for count, one in known])
-        floors = [one and {key: one['floor'] for key in ('value', 'low', 'high')} for one in launched]
+        floors = [one and {'value': one['floor'], 'low': one.get('floor_low', one['floor']),
+                           'high': one.get('floor_high', one['floor'])} for one in launched]
         chart.line(floors, 1, [f"{count:,}: {number(one['floor'])} ms, {one['floor_name']}" for count, one in known])
         pictures.append(f'<figure>{chart.svg()}</figure>')
     return legend(['launch', 'a bare loop']) + f'<div class="pictures">{"".join(pictures)}</div>'

@@ -6,7 +6,10 @@ A figure is one number with its spread, in the form that a comparison of two res
 """
 
 import json
+import math
 from dataclasses import asdict, dataclass
+
+from .bootstrap import Estimate
 
 FORMAT = 'launch-evaluation'
 VERSION = 1
@@ -22,7 +25,7 @@ class Figure:
     A measured number.
 
     `low` and `high` bound it with a confidence of 95 %. `floor` is what the same run measured for the least that is
-    possible, in the same unit, and `floor_name` says what that is.
+    possible, in the same unit, and `floor_name` says what that is; `floor_low` and `floor_high` bound it likewise.
     """
 
     group: str
@@ -34,15 +37,31 @@ class Figure:
     samples: int
     better: str = 'lower'
     floor: float = None
+    floor_low: float = None
+    floor_high: float = None
     floor_name: str = None
     note: str = None
 
     def as_json(self):
         return {key: value for key, value in asdict(self).items() if value is not None}
 
+    @property
+    def ratio(self):
+        """The ratio to the floor, with its interval; None without a floor. Both are measured independently."""
+        if not self.floor:
+            return None
+        ratio = self.value / self.floor
+        widths = [(self.high - self.low) / 2 / self.value if self.value else 0.0]
+        if self.floor_low is not None:
+            widths.append((self.floor_high - self.floor_low) / 2 / self.floor)
+        half = abs(ratio) * math.hypot(*widths)
+        return Estimate(ratio, ratio - half, ratio + half)
 
-def figure_of(group, name, unit, estimate, samples, **more):
-    """A figure of an estimate."""
+
+def figure_of(group, name, unit, estimate, samples, floor=None, **more):
+    """A figure of an estimate, and of that of its floor."""
+    if floor is not None:
+        more.update(floor=floor.value, floor_low=floor.low, floor_high=floor.high)
     return Figure(group, name, unit, estimate.value, estimate.low, estimate.high, samples, **more)
 
 

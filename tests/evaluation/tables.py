@@ -3,6 +3,7 @@
 
 from . import paper
 from .drawing import number
+from .results import Figure
 
 NOT_MEASURED = '–'
 
@@ -72,10 +73,14 @@ def figures(group):
     head = ['', 'measured', 'unit', 'floor', 'ratio', 'samples']
     rows = []
     for one in group:
-        floor = one.get('floor') if one.get('floor_name') != one['name'] else None
+        floor, ratio = '', ''
+        if one.get('floor') is not None and one['floor_name'] != one['name']:
+            spread = {'value': one['floor'], 'low': one['floor_low'], 'high': one['floor_high']} if 'floor_low' in one else None
+            floor = f"{with_interval(spread) if spread else number(one['floor'])}: {one['floor_name']}"
+            if one['floor']:
+                ratio = with_interval(Figure(**one).ratio.as_json()) if spread else number(one['value'] / one['floor'])
         rows.append([one['name'] + (f" ({one['note']})" if one.get('note') else ''), with_interval(one), one['unit'].replace('us', 'µs'),
-                     f"{number(floor)}: {one['floor_name']}" if floor is not None else '',
-                     number(one['value'] / floor) if floor else '', str(one['samples'])])
+                     floor, ratio, str(one['samples'])])
     return head, rows
 
 

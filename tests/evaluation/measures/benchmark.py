@@ -5,7 +5,7 @@ import json
 import os
 import subprocess
 
-from ..bootstrap import median, of_samples
+from ..bootstrap import of_samples
 from ..results import figure_of
 
 
@@ -37,9 +37,9 @@ def samples_of(bench, command, environment=None):
 
 
 def figure(group, samples, note=None):
-    """The figure of one line of samples: their median, beside the median of the floor."""
+    """The figure of one line of samples: their median, beside that of the floor."""
     floor = {}
     if samples['floor']:
-        floor = {'floor': median(samples['floor']), 'floor_name': samples['floor_name']}
+        floor = {'floor': of_samples(samples['floor']), 'floor_name': samples['floor_name']}
     return figure_of(group, samples['name'], samples['unit'], of_samples(samples['values']), len(samples['values']),
                      better=samples['better'], note=note, **floor)

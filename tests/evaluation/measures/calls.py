@@ -38,5 +38,5 @@ def measure(bench, result):
         floor = bare.estimate(0).scaled(round_trips)
         for name, one in medians.items():
             result['figures'].append(figure_of(
-                GROUP, f'{name}: {what}, {rate} Hz, median', 'us', one.estimate(0), one.batches, floor=floor.value,
+                GROUP, f'{name}: {what}, {rate} Hz, median', 'us', one.estimate(0), one.batches, floor=floor,
                 floor_name='a round trip on bare Fast DDS' if round_trips == 1 else f'{round_trips} round trips on bare Fast DDS'))

@@ -8,7 +8,7 @@ All times begin before the (first) program is started. The floor is the same on 
 
 import struct
 
-from ..bootstrap import median, of_samples
+from ..bootstrap import of_samples
 from ..results import figure_of
 from ..worker import Worker, WorkerError
 from . import turns
@@ -55,7 +55,7 @@ def _discover(program, environment, count):
 
 def _add(result, what, unit, values_of):
     """A figure for each program; bare Fast DDS is the floor of the others, and no figure of its own."""
-    floor = median(values_of[BARE])
+    floor = of_samples(values_of[BARE])
     for name, values in values_of.items():
         if name != BARE:
             result['figures'].append(figure_of(GROUP, f'{name}: {what}', unit, of_samples(values), len(values), floor=floor,

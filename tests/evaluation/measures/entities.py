@@ -28,6 +28,6 @@ def _add(result, program, runs):
         first = lines[0]
         floor = {}
         if first['floor']:
-            floor = {'floor': median([median(line['floor']) for line in lines]), 'floor_name': first['floor_name']}
+            floor = {'floor': of_samples([median(line['floor']) for line in lines]), 'floor_name': first['floor_name']}
         result['figures'].append(figure_of(GROUP, program + first['name'], first['unit'],
                                            of_samples([median(line['values']) for line in lines]), len(lines), **floor))

@@ -35,7 +35,7 @@ def _add(result, medians, index, what, floor_name):
     for name, one in medians.items():
         if name != FLOOR:
             result['figures'].append(figure_of(GROUP, f'{name}: {what}', 'us', one.estimate(index), one.batches,
-                                               floor=medians[FLOOR].estimate(index).value, floor_name=floor_name))
+                                               floor=medians[FLOOR].estimate(index), floor_name=floor_name))
 
 
 def measure(bench, result):

@@ -9,7 +9,7 @@ them but the copy of a message.
 
 import struct
 
-from ..bootstrap import hierarchical, median, middle_mean
+from ..bootstrap import hierarchical, median, middle_mean, of_samples
 from ..presets import SIZES
 from ..results import figure_of
 from ..session import DEFAULT, PAPER, Session, SessionError, SessionPlan
@@ -95,5 +95,5 @@ def _measure(bench, result, sessions):
     for name, _ in sessions:
         result['figures'].append(figure_of(
             GROUP, name, 'us', hierarchical(groups[name], lambda strata: middle_mean(strata[0])), 2 * len(groups[name]),
-            floor=median(tracepoints[name]), floor_name="a message's tracepoints alone",
+            floor=of_samples(tracepoints[name]), floor_name="a message's tracepoints alone",
             note=f'{lost[name]} events lost' if lost[name] else None))

@@ -54,7 +54,7 @@ def _add_figures(bench, result, processes, medians):
         for index, size in enumerate(bench.preset.sizes):
             floor = {}
             if name != floor_name:
-                floor = {'floor': medians[floor_name].estimate(index).value, 'floor_name': floor_name}
+                floor = {'floor': medians[floor_name].estimate(index), 'floor_name': floor_name}
             result['figures'].append(figure_of(
                 GROUP, f'{name}, {where}, {size // 1024} KiB, {RATE} Hz, median', 'us', one.estimate(index), one.batches,
                 **floor))

@@ -9,7 +9,7 @@ import json
 import struct
 
 from .. import paper
-from ..bootstrap import median, of_samples
+from ..bootstrap import of_samples
 from ..results import figure_of
 from ..session import Session, SessionPlan
 from ..worker import Worker
@@ -41,7 +41,7 @@ def _times(bench, environment=None):
 
 def _add(bench, result, what, environment=None, cases=tuple(NAMES), note=None):
     runs = [_times(bench, environment) for _ in range(bench.preset.repetitions)]
-    floor = median([one['EmptyCall'] for one in runs])
+    floor = of_samples([one['EmptyCall'] for one in runs])
     for case in cases:
         result['figures'].append(figure_of(
             GROUP, f'{what}: {NAMES[case]}', 'ns', of_samples([one[case] for one in runs]), len(runs), floor=floor,
@@ -74,7 +74,7 @@ def _at_pace(bench, result):
     for rate in rates:
         result['figures'].append(figure_of(
             GROUP, f"cold: one of a message's nine, called {rate} times a second", 'ns', of_samples(cold[rate]),
-            len(cold[rate]), floor=median(warm), floor_name='the same, warm'))
+            len(cold[rate]), floor=of_samples(warm), floor_name='the same, warm'))
 
 
 def measure(bench, result):

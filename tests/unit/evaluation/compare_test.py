@@ -44,9 +44,14 @@ class Comparison(unittest.TestCase):
                          '1 figure compared, none changed beyond noise\n')
 
     def test_takes_the_speed_of_the_machine_out_by_the_floor(self):
-        slow_machine = figure('a', [20.0] * 5, floor=10.0, floor_name='bare')
-        self.assertEqual(self.text_of(figure('a', [10.0] * 5, floor=5.0, floor_name='bare'), slow_machine),
+        slow_machine = figure('a', [20.0] * 5, floor=of_samples([10.0] * 5), floor_name='bare')
+        self.assertEqual(self.text_of(figure('a', [10.0] * 5, floor=of_samples([5.0] * 5), floor_name='bare'), slow_machine),
                          '1 figure compared, none changed beyond noise\n')
+
+    def test_counts_the_noise_of_the_floor(self):
+        before, after = (figure('a', [10.0] * 5, floor=of_samples(samples), floor_name='bare')
+                         for samples in ([5.0, 7.0, 4.0, 6.0, 5.0], [5.0, 8.0, 6.0, 7.0, 6.0]))
+        self.assertEqual(self.text_of(before, after), '1 figure compared, none changed beyond noise\n')
 
     def test_tells_what_only_one_side_has_and_that_the_machines_differ(self):
         text = self.text_of(figure('a', [1.0] * 5), figure('b', [1.0] * 5), machine={**MACHINE, 'kernel': '7'})

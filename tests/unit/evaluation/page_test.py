@@ -158,6 +158,11 @@ class Tables(unittest.TestCase):
         self.assertEqual(rows, [['one process', '12 (11 to 13.5)', 'ms', '3: posix_spawn', '4', '5']])
         self.assertEqual(len(head), len(rows[0]))
 
+    def test_give_the_spread_of_a_floor_and_of_the_ratio(self):
+        one = Figure('start', 'a', 'ms', 20.0, 14.0, 26.0, 5, floor=10.0, floor_low=6.0, floor_high=14.0, floor_name='bare')
+        _, rows = tables.figures([one.as_json()])
+        self.assertEqual(rows, [['a', '20 (14 to 26)', 'ms', '10 (6 to 14): bare', '2 (1 to 3)', '5']])
+
     def test_put_no_figure_beside_itself(self):
         _, rows = tables.figures([Figure('reading', 'dummy', 'us', 2.0, 1.0, 3.0, 5, floor=2.0, floor_name='dummy').as_json()])
         self.assertEqual(rows, [['dummy', '2 (1 to 3)', 'µs', '', '', '5']])

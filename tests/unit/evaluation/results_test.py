@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 from evaluation import results
+from evaluation.bootstrap import Estimate
 from evaluation.results import Figure, ResultError
 
 
@@ -28,6 +29,11 @@ class Reading(unittest.TestCase):
         figures = results.figures_of(results.read(self.path))
         self.assertEqual(list(figures), ['start: one process'])
         self.assertEqual(figures['start: one process'].high, 2.5)
+
+    def test_gives_a_ratio_the_spread_of_both_sides(self):
+        figure = results.figure_of('start', 'a', 'ms', Estimate(20.0, 14.0, 26.0), 7, floor=Estimate(10.0, 6.0, 14.0))
+        self.assertEqual(figure.ratio.as_json(), {'value': 2.0, 'low': 1.0, 'high': 3.0})
+        self.assertIsNone(results.figure_of('start', 'a', 'ms', Estimate(20.0, 14.0, 26.0), 7).ratio)
 
     def test_refuses_what_is_no_json(self):
         self.assertEqual(self.message_of('{'), 'FILE: no JSON: Expecting property name enclosed in double quotes: '
