@@ -45,6 +45,12 @@ class Experiment(unittest.TestCase):
         page = (self.output / 'evaluation.html').read_text()
         self.assertIn('<h2>What tracing adds to a message, beside the paper</h2>', page)
 
+    @unittest.skipIf(os.geteuid() != 0 or 'tracefs' not in Path('/proc/filesystems').read_text(),
+                     'the kernel lets only root trace it, and must have tracefs')
+    def test_has_the_events_of_the_kernel(self):
+        names = [figure['name'] for figure in self.result()['figures']]
+        self.assertIn("all events, and the kernel's scheduler and interrupts", names)
+
     def test_is_like_itself(self):
         self.result()
         file = self.output / 'evaluation.json'

@@ -7,6 +7,8 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 
+from .kernel import KernelRecorder, KernelRecorderError
+
 
 class SessionError(Exception):
     """LTTng has refused something; the message is its own."""
@@ -44,10 +46,17 @@ def lttng(*arguments):
 
 
 class Session:
-    """A session of a plan, stopped at first. It writes to a directory that is removed with it."""
+    """
+    A session of a plan, stopped at first. It writes to a directory that is removed with it.
 
-    def __init__(self, plan, directory):
+    Events of the kernel go through LTTng's modules if they are there, else through the program `kernel_recorder`.
+    """
+
+    def __init__(self, plan, directory, kernel_recorder=None):
         self.plan = plan
+        self.through_tracefs = False
+        self._kernel_recorder_program = kernel_recorder
+        self._kernel_recorder = None
         self.directory = Path(directory) / plan.name
         self._name = f'evaluate-{plan.name}'
         self._running = False
@@ -57,7 +66,7 @@ class Session:
         lttng('create', self._name, *output)
         try:
             self._enable(plan)
-        except SessionError:
+        except (SessionError, KernelRecorderError):
             self.close()
             raise
 
@@ -70,16 +79,30 @@ class Session:
                   *(word for context in plan.contexts for word in ('-t', context)))
         lttng('enable-event', '-u', '-s', self._name, '-c', 'ros2', ','.join(plan.events))
         if plan.kernel_events:
+            self._enable_kernel(plan)
+
+    def _enable_kernel(self, plan):
+        try:
             lttng('enable-channel', '-k', 'kernel', '-s', self._name, '--num-subbuf=8', '--subbuf-size=1M')
             lttng('enable-event', '-k', '-s', self._name, '-c', 'kernel', ','.join(plan.kernel_events))
+        except SessionError:
+            if self._kernel_recorder_program is None:
+                raise
+            self._kernel_recorder = KernelRecorder(self._kernel_recorder_program, self._name, self.directory,
+                                                   plan.kernel_events)
+            self.through_tracefs = True
 
     def start(self):
+        if self._kernel_recorder:
+            self._kernel_recorder.start()
         lttng('start', self._name)
         self._running = True
 
     def stop(self):
         """Returns when the tracepoints of all processes are off; what they have recorded may still be on its way."""
         lttng('stop', '--no-wait', self._name)
+        if self._kernel_recorder:
+            self._kernel_recorder.stop()
         self._running = False
 
     def finish(self):
@@ -101,6 +124,9 @@ class Session:
 
     def close(self):
         """Destroys the session and removes its trace."""
+        if self._kernel_recorder:
+            self._kernel_recorder.close()
+            self._kernel_recorder = None
         subprocess.run(('lttng', 'destroy', '--no-wait', self._name), capture_output=True)
         shutil.rmtree(self.directory, ignore_errors=True)
 

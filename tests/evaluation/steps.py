@@ -37,6 +37,11 @@ class Bench:
             raise StepError(f'{path} is not built')
         return str(path)
 
+    @property
+    def kernel_recorder(self):
+        """Records events of the kernel where LTTng has no modules."""
+        return str(self.programs / 'prefix/lib/launch/launch-kernel-recorder')
+
 
 def run_experiment(bench, result):
     run = experiment.Experiment(bench.program('latency_stack'), bench.preset, bench.plan, bench.tuning, bench.place,
@@ -57,7 +62,8 @@ STEPS = {
     'experiment': Step(run_experiment, ('latency_stack', 'tracetools_provider')),
     'tracepoints': Step(tracepoints.measure, ('bench_tracepoint', 'latency_tracepoints', 'tracetools_provider',
                                               'tracetools_none', 'tracetools_usdt')),
-    'sessions': Step(sessions.measure, ('latency_stack', 'latency_tracepoints', 'tracetools_provider')),
+    'sessions': Step(sessions.measure, ('latency_stack', 'latency_tracepoints', 'launch-kernel-recorder',
+                                        'tracetools_provider')),
     'layers': Step(layers.measure, ('latency_stack', 'launch-report', 'tracetools_provider')),
     'stack': Step(stack.measure, ('latency_stack', 'latency_bare', 'tracetools_provider')),
     'entities': Step(entities.measure, ('bench_idle_entities', 'tracetools_provider')),

@@ -10,6 +10,7 @@ them but the copy of a message.
 import struct
 
 from ..bootstrap import hierarchical, median, middle_mean, of_samples
+from ..kernel import KernelRecorderError
 from ..presets import SIZES
 from ..results import figure_of
 from ..session import DEFAULT, PAPER, Session, SessionError, SessionPlan
@@ -40,8 +41,8 @@ def _open(bench, result):
         try:
             if plan.output != 'disk':
                 bench.place.start_relay()
-            sessions.append((name, Session(plan, bench.place.directory)))
-        except (SessionError, OSError) as error:
+            sessions.append((name, Session(plan, bench.place.directory, bench.kernel_recorder)))
+        except (SessionError, KernelRecorderError, OSError) as error:
             result['left_out'].append({'what': name, 'reason': str(error)})
     return sessions
 
@@ -63,6 +64,13 @@ def _cost_of_tracepoints(bench, session):
         _, at_pace = struct.unpack('=dd', worker.receive(16))
         session.stop()
         return at_pace
+
+
+def _note(session, lost):
+    notes = [f'{lost} events lost'] if lost else []
+    if session.through_tracefs:
+        notes.append("the kernel's events through tracefs")
+    return ', '.join(notes) or None
 
 
 def _measure(bench, result, sessions):
@@ -92,8 +100,8 @@ def _measure(bench, result, sessions):
                 lost[name] += session.lost_events()
         for name, session in sessions:
             tracepoints[name].append(_cost_of_tracepoints(bench, session))
-    for name, _ in sessions:
+    for name, session in sessions:
         result['figures'].append(figure_of(
             GROUP, name, 'us', hierarchical(groups[name], lambda strata: middle_mean(strata[0])), 2 * len(groups[name]),
             floor=of_samples(tracepoints[name]), floor_name="a message's tracepoints alone",
-            note=f'{lost[name]} events lost' if lost[name] else None))
+            note=_note(session, lost[name])))
