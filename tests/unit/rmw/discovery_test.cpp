@@ -15,8 +15,11 @@
 namespace {
 
 using rmw_fastrtps::choose_shared_memory_ports;
+using rmw_fastrtps::DiscoveryTraffic;
 using rmw_fastrtps::Gid;
 using rmw_fastrtps::UnansweredParticipants;
+using testing::ElementsAre;
+using testing::IsEmpty;
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 namespace transports = eprosima::fastdds::rtps;
@@ -38,23 +41,23 @@ TEST(UnansweredParticipants, WhoStaysSilentIsToldFiveTimesEverMorePatiently) {
   unanswered.discovered(gid(1, 0), kStart);
   EXPECT_TRUE(unanswered.changed().is_ready());
   ASSERT_EQ(unanswered.next(), kStart + kPatience);
-  EXPECT_FALSE(unanswered.take_due(kStart + kPatience - std::chrono::nanoseconds(1)));
-  EXPECT_TRUE(unanswered.take_due(kStart + kPatience));
-  EXPECT_FALSE(unanswered.take_due(kStart + kPatience));
+  EXPECT_THAT(unanswered.take_due(kStart + kPatience - std::chrono::nanoseconds(1)), IsEmpty());
+  EXPECT_THAT(unanswered.take_due(kStart + kPatience), ElementsAre(gid(1, 0)));
+  EXPECT_THAT(unanswered.take_due(kStart + kPatience), IsEmpty());
   for (const int time : {3, 7, 15, 31}) {
     ASSERT_EQ(unanswered.next(), kStart + time * kPatience);
-    EXPECT_TRUE(unanswered.take_due(kStart + time * kPatience));
+    EXPECT_THAT(unanswered.take_due(kStart + time * kPatience), ElementsAre(gid(1, 0)));
   }
   EXPECT_EQ(unanswered.next(), std::nullopt);
-  EXPECT_FALSE(unanswered.take_due(kStart + 100 * kPatience));
+  EXPECT_THAT(unanswered.take_due(kStart + 100 * kPatience), IsEmpty());
 }
 
-TEST(UnansweredParticipants, OneAnnouncementIsForAllWhoAreSilent) {
+TEST(UnansweredParticipants, WhoAreSilentAreToldTogether) {
   UnansweredParticipants unanswered;
   unanswered.discovered(gid(1, 0), kStart);
   unanswered.discovered(gid(2, 0), kStart + kPatience / 2);
-  EXPECT_TRUE(unanswered.take_due(kStart + 2 * kPatience));
-  EXPECT_FALSE(unanswered.take_due(kStart + 2 * kPatience));
+  EXPECT_THAT(unanswered.take_due(kStart + 2 * kPatience), ElementsAre(gid(1, 0), gid(2, 0)));
+  EXPECT_THAT(unanswered.take_due(kStart + 2 * kPatience), IsEmpty());
   EXPECT_EQ(unanswered.next(), kStart + 4 * kPatience);
 }
 
@@ -101,7 +104,7 @@ TEST_F(SharedMemoryPorts, AreNewForEveryParticipantAndOfThisHost) {
     const auto& wire = qos->wire_protocol();
     for (const auto* locators : {&wire.builtin.metatrafficUnicastLocatorList, &wire.default_unicast_locator_list}) {
       const rtps::Locator_t locator = shared_memory(*locators);
-      EXPECT_THAT(std::vector<int>(locator.address, locator.address + 3), testing::ElementsAre('U', 0x7f, 0x01));
+      EXPECT_THAT(std::vector<int>(locator.address, locator.address + 3), ElementsAre('U', 0x7f, 0x01));
       EXPECT_GT(locator.port, 0xffffU);
       ports.insert(locator.port);
     }
@@ -136,7 +139,7 @@ TEST_F(SharedMemoryPorts, LeaveTheLocatorsOfAProfile) {
 
 TEST(DefaultTransports, AreUdpAndSharedMemoryThatReportALargerSendBuffer) {
   fdds::DomainParticipantQos qos;
-  rmw_fastrtps::use_default_transports(0, qos);
+  rmw_fastrtps::use_default_transports(0, std::make_shared<DiscoveryTraffic>(), qos);
   EXPECT_FALSE(qos.transport().use_builtin_transports);
   std::vector<int> kinds;
   for (const auto& descriptor : qos.transport().user_transports) {
@@ -149,12 +152,12 @@ TEST(DefaultTransports, AreUdpAndSharedMemoryThatReportALargerSendBuffer) {
     EXPECT_EQ(configuration.max_initial_peers_range(), 4U);
     transport->shutdown();
   }
-  EXPECT_THAT(kinds, testing::ElementsAre(LOCATOR_KIND_UDPv4, LOCATOR_KIND_SHM));
+  EXPECT_THAT(kinds, ElementsAre(LOCATOR_KIND_UDPv4, LOCATOR_KIND_SHM));
 }
 
 TEST(DefaultTransports, ReachAsManyLocalPeersAsAskedFor) {
   fdds::DomainParticipantQos qos;
-  rmw_fastrtps::use_default_transports(32, qos);
+  rmw_fastrtps::use_default_transports(32, std::make_shared<DiscoveryTraffic>(), qos);
   EXPECT_EQ(qos.transport().user_transports.front()->max_initial_peers_range(), 32U);
 }
 
@@ -167,7 +170,7 @@ TEST(DefaultTransports, LeaveTheTransportsAndBuffersOfAProfile) {
   qos.transport().send_socket_buffer_size = 1 << 20;
   EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
   qos = {};
-  rmw_fastrtps::use_default_transports(0, qos);
+  rmw_fastrtps::use_default_transports(0, std::make_shared<DiscoveryTraffic>(), qos);
   EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
   qos = {};
   qos.transport().use_builtin_transports = false;

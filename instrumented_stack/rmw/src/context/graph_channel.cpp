@@ -3,13 +3,17 @@
 
 #include <pthread.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
-#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "endpoint/endpoint.hpp"
+#include "rcutils/logging.h"
 #include "rmw/error_handling.h"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 
@@ -26,12 +30,6 @@ rmw_qos_profile_t channel_profile() {
   return profile;
 }
 
-[[noreturn]] void throw_rmw_error() {
-  const std::string message = rmw_get_error_string().str;
-  rmw_reset_error();
-  throw std::runtime_error(message);
-}
-
 std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimePoint> time) {
   if (!time) {
     return std::nullopt;
@@ -43,19 +41,24 @@ std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimeP
 }  // namespace
 
 GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph)
-    : participant_(participant), graph_(graph) {
+    : participant_(participant),
+      graph_(graph),
+      introduction_(std::in_place, Clock::now(), [creator = gettid()] { return is_busy(creator); }) {
   const auto& type_support = *rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>();
   // Only the last state of a participant counts. But a burst of states of many participants must not push out any of
   // them.
   rmw_qos_profile_t profile = channel_profile();
   profile.history = RMW_QOS_POLICY_HISTORY_KEEP_LAST;
   profile.depth = 1;
-  publisher_ = create_publisher(participant, type_support, kTopic, profile, rmw_get_default_publisher_options());
+  // A history of one message is always full. Fast DDS 2.9 would then ask all readers whenever one of them, which has
+  // come late, gets the message.
+  publisher_ = create_publisher(participant, type_support, kTopic, profile, rmw_get_default_publisher_options(),
+                                Heartbeats::kPeriodic);
   profile.history = RMW_QOS_POLICY_HISTORY_KEEP_ALL;
   rmw_subscription_options_t options = rmw_get_default_subscription_options();
   options.ignore_local_publications = true;
   subscription_ = create_subscription(participant, type_support, kTopic, profile, options);
-  wait_set_ = rmw_create_wait_set(&context, 3);
+  wait_set_ = rmw_create_wait_set(&context, 4);
   stop_ = rmw_create_guard_condition(&context);
 
   // Signals are left to the threads of the application.
@@ -76,34 +79,94 @@ GraphChannel::~GraphChannel() {
   destroy_publisher(publisher_);
 }
 
-void GraphChannel::announce(const GraphCache::EntitiesInfo& info) {
-  if (rmw_publish(publisher_, &info, nullptr) != RMW_RET_OK) {
-    throw_rmw_error();
+void GraphChannel::announce(GraphCache::EntitiesInfo info) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (ended_) {
+      return;
+    }
+    unpublished_ = std::move(info);
+    if (introduction_) {
+      introduction_->put_off(Clock::now());
+      return;  // the thread will look at it
+    }
   }
+  changed_.trigger();
+}
+
+void GraphChannel::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
 }
 
 void GraphChannel::listen() {
   UnansweredParticipants& unanswered = participant_.unanswered();
-  GraphCache::EntitiesInfo info;
   while (true) {
     void* subscription = subscription_->data;
-    void* conditions[] = {stop_->data, static_cast<Waitable*>(&unanswered.changed())};
+    void* conditions[] = {stop_->data, static_cast<Waitable*>(&unanswered.changed()),
+                          static_cast<Waitable*>(&changed_)};
     rmw_subscriptions_t subscriptions{1, &subscription};
-    rmw_guard_conditions_t guard_conditions{2, conditions};
-    const std::optional<rmw_time_t> timeout = time_until(unanswered.next());
+    rmw_guard_conditions_t guard_conditions{std::size(conditions), conditions};
+    const std::optional<rmw_time_t> timeout = time_until(next_time());
     (void)rmw_wait(&subscriptions, &guard_conditions, nullptr, nullptr, nullptr, wait_set_,
                    timeout ? &*timeout : nullptr);
     if (conditions[0] != nullptr) {
       return;
     }
-    bool taken = subscription != nullptr;
-    while (taken && rmw_take(subscription_, &info, &taken, nullptr) == RMW_RET_OK) {
-      if (taken) {
-        graph_.update_nodes(info);
-      }
+    introduce_if_due();
+    publish();
+    if (subscription != nullptr) {
+      take();
     }
-    if (unanswered.take_due(std::chrono::steady_clock::now())) {
-      participant_.announce_again();
+    if (const std::vector<Gid> silent = unanswered.take_due(Clock::now()); !silent.empty()) {
+      participant_.announce_again(silent);
+    }
+  }
+}
+
+std::optional<GraphChannel::Clock::time_point> GraphChannel::next_time() const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (introduction_) {
+      return introduction_->next();
+    }
+  }
+  return participant_.unanswered().next();
+}
+
+void GraphChannel::introduce_if_due() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!introduction_ || !introduction_->is_due(Clock::now())) {
+      return;
+    }
+    introduction_.reset();
+  }
+  participant_.introduce();
+}
+
+void GraphChannel::publish() {
+  std::optional<GraphCache::EntitiesInfo> info;
+  {
+    const std::lock_guard lock(mutex_);
+    if (introduction_ || ended_) {
+      return;
+    }
+    info.swap(unpublished_);
+  }
+  if (info && rmw_publish(publisher_, &*info, nullptr) != RMW_RET_OK) {
+    rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_ERROR, "rmw_fastrtps", "other processes do not see all nodes: %s",
+                rmw_get_error_string().str);
+    rmw_reset_error();
+  }
+}
+
+void GraphChannel::take() {
+  GraphCache::EntitiesInfo info;
+  bool taken = true;
+  while (taken && rmw_take(subscription_, &info, &taken, nullptr) == RMW_RET_OK) {
+    if (taken) {
+      graph_.update_nodes(info);
     }
   }
 }

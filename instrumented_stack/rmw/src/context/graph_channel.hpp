@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The topic ros_discovery_info: announces the nodes of this participant to others, and receives the nodes of others.
 //
-// Its publisher and subscription have no rcl counterpart. A thread of its own takes the messages that arrive. Each
-// wake-up for a message ends with one take that finds nothing. The thread also announces the participant again to
-// participants that may have missed it.
+// Its publisher and subscription have no rcl counterpart. A thread of its own publishes, and takes the messages that
+// arrive. Each wake-up for a message ends with one take that finds nothing. The thread also introduces the participant,
+// and announces it again to participants that may have missed it.
 #pragma once
 
+#include <mutex>
+#include <optional>
 #include <thread>
 
+#include "context/introduction.hpp"
 #include "graph/graph_cache.hpp"
 #include "participant/participant.hpp"
 #include "rmw/rmw.h"
@@ -23,11 +26,20 @@ class GraphChannel {
   GraphChannel(const GraphChannel&) = delete;
   GraphChannel& operator=(const GraphChannel&) = delete;
 
-  // Late joiners get the last announcement. Throws std::runtime_error.
-  void announce(const GraphCache::EntitiesInfo& info);
+  // The thread publishes the last state that it has got. Late joiners get it, too.
+  void announce(GraphCache::EntitiesInfo info);
+  // Nothing more is published.
+  void end();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void listen();
+  // Empty if nothing is to be done at a certain time.
+  std::optional<Clock::time_point> next_time() const;
+  void introduce_if_due();
+  void publish();
+  void take();
 
   Participant& participant_;
   GraphCache& graph_;
@@ -35,6 +47,12 @@ class GraphChannel {
   rmw_subscription_t* subscription_ = nullptr;
   rmw_wait_set_t* wait_set_ = nullptr;
   rmw_guard_condition_t* stop_ = nullptr;
+  GuardCondition changed_;  // there is something to publish
+
+  mutable std::mutex mutex_;                  // of the rest
+  std::optional<Introduction> introduction_;  // while the participant is not introduced
+  std::optional<GraphCache::EntitiesInfo> unpublished_;
+  bool ended_ = false;
   std::thread thread_;
 };
 

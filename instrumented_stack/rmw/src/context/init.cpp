@@ -108,6 +108,11 @@ rmw_ret_t rmw_shutdown(rmw_context_t* context) {
   RMW_CHECK_HANDLE(context, RMW_RET_INVALID_ARGUMENT);
   std::lock_guard lock(context->impl->mutex);
   context->impl->shut_down = true;
+  if (context->impl->participant != nullptr) {
+    // What is destroyed from now on goes together with the participant.
+    context->impl->channel->end();
+    context->impl->participant->end_endpoints_silently();
+  }
   context->impl->graph_changes.end();
   return RMW_RET_OK;
 }

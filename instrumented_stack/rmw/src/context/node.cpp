@@ -96,7 +96,7 @@ void enter_graph(const rmw_node_t* node, std::initializer_list<EndpointIdentity>
     info = context.graph.add_node_endpoint(context.participant->gid(), node_of(node).namespace_, node_of(node).name,
                                            endpoint.names.kind, endpoint.gid);
   }
-  context.channel->announce(info);
+  context.channel->announce(std::move(info));
 }
 
 void leave_graph(const rmw_node_t* node, std::initializer_list<EndpointIdentity> endpoints) {
@@ -107,7 +107,7 @@ void leave_graph(const rmw_node_t* node, std::initializer_list<EndpointIdentity>
     info = context.graph.remove_node_endpoint(context.participant->gid(), node_of(node).namespace_, node_of(node).name,
                                               endpoint.names.kind, endpoint.gid);
   }
-  context.channel->announce(info);
+  context.channel->announce(std::move(info));
 }
 
 }  // namespace rmw_fastrtps
@@ -151,12 +151,12 @@ rmw_ret_t rmw_destroy_node(rmw_node_t* node) try {
   rmw_context_impl_t& impl = *node->context->impl;
   const std::unique_ptr<const Node> owned(&node_of(node));
   std::lock_guard lock(impl.mutex);
-  const auto info = impl.graph.remove_node(impl.participant->gid(), owned->namespace_, owned->name);
+  auto info = impl.graph.remove_node(impl.participant->gid(), owned->namespace_, owned->name);
   if (--impl.nodes == 0) {
     // The end of the participant tells the others that the node is gone.
     close_participant(impl);
   } else {
-    impl.channel->announce(info);
+    impl.channel->announce(std::move(info));
   }
   return RMW_RET_OK;
 } catch (const std::exception& error) {

@@ -20,10 +20,15 @@ struct EndpointIdentity {
   GraphCache::Endpoint names;
 };
 
+// When a reliable writer asks its readers what they have received: also with messages, as Fast DDS does, or only from
+// time to time.
+enum class Heartbeats { kWithMessages, kPeriodic };
+
 // Throw std::runtime_error. They fire rmw_publisher_init and rmw_subscription_init.
 rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message_type_support_t& type_support,
                                   const std::string& topic_name, const rmw_qos_profile_t& profile,
-                                  const rmw_publisher_options_t& options);
+                                  const rmw_publisher_options_t& options,
+                                  Heartbeats heartbeats = Heartbeats::kWithMessages);
 rmw_subscription_t* create_subscription(Participant& participant, const rosidl_message_type_support_t& type_support,
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options);

@@ -82,10 +82,11 @@ namespace rmw_fastrtps {
 
 rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message_type_support_t& type_support,
                                   const std::string& topic_name, const rmw_qos_profile_t& profile,
-                                  const rmw_publisher_options_t& options) {
+                                  const rmw_publisher_options_t& options, Heartbeats heartbeats) {
   const auto& callbacks = callbacks_of(&type_support);
   fdds::DataWriterQos qos = participant.writer_qos(topic_name, callbacks);
   apply_profile(profile, qos);
+  qos.reliable_writer_qos().disable_heartbeat_piggyback |= heartbeats == Heartbeats::kPeriodic;
 
   auto publisher = std::make_unique<Publisher>();
   const std::string dds_topic = profile.avoid_ros_namespace_conventions ? topic_name : mangled_topic(topic_name);

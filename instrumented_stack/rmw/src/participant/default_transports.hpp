@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <memory>
+
+#include "participant/discovery_traffic.hpp"
 
 namespace rmw_fastrtps {
 
@@ -19,8 +22,9 @@ constexpr std::uint32_t kBytesBetweenHeartbeats = 4 * 1024 * 1024;
 bool has_default_transports(const eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 // `local_peers`: the number of participants on one host that a unicast announcement reaches; 0 for the default of Fast
-// DDS. Buffers and segments have the sizes that Fast DDS gives them; the transports only report
-// kBytesBetweenHeartbeats to writers.
-void use_default_transports(std::uint32_t local_peers, eprosima::fastdds::dds::DomainParticipantQos& qos);
+// DDS. Buffers and segments have the sizes that Fast DDS gives them; the transports report kBytesBetweenHeartbeats to
+// writers, and let pass what `traffic` allows.
+void use_default_transports(std::uint32_t local_peers, const std::shared_ptr<DiscoveryTraffic>& traffic,
+                            eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace rmw_fastrtps

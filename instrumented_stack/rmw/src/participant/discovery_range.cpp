@@ -27,7 +27,7 @@ rtps::Locator_t peer_locator(const std::string& host) {
   return locator;
 }
 
-void restrict_to_localhost(fdds::DomainParticipantQos& qos) {
+void restrict_to_localhost(const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   // An explicit unicast locator keeps Fast DDS from listening to multicast.
   builtin.metatrafficMulticastLocatorList.clear();
@@ -35,21 +35,21 @@ void restrict_to_localhost(fdds::DomainParticipantQos& qos) {
   builtin.initialPeersList.push_back(peer_locator("127.0.0.1"));
   if (qos.transport().user_transports.empty()) {
     // A peer without a port stands for the first participants of the host. By default that would be only four.
-    use_default_transports(kLocalParticipants, qos);
+    use_default_transports(kLocalParticipants, traffic, qos);
   }
 }
 
 }  // namespace
 
 void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t domain_id,
-                         fdds::DomainParticipantQos& qos) {
+                         const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   switch (options.automatic_discovery_range) {
     case RMW_AUTOMATIC_DISCOVERY_RANGE_OFF:
       builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
       return;
     case RMW_AUTOMATIC_DISCOVERY_RANGE_LOCALHOST:
-      restrict_to_localhost(qos);
+      restrict_to_localhost(traffic, qos);
       break;
     case RMW_AUTOMATIC_DISCOVERY_RANGE_SYSTEM_DEFAULT:
       return;

@@ -21,6 +21,7 @@
 
 #include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
+#include "participant/discovery_traffic.hpp"
 #include "participant/shared_memory_ports.hpp"
 #include "participant/user_data.hpp"
 #include "qos/qos.hpp"
@@ -133,15 +134,20 @@ fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::Domai
 
 class Participant::DiscoveryListener final : public fdds::DomainParticipantListener {
  public:
-  DiscoveryListener(GraphCache& graph, UnansweredParticipants& unanswered) : graph_(graph), unanswered_(unanswered) {}
+  DiscoveryListener(GraphCache& graph, UnansweredParticipants& unanswered, DiscoveryTraffic& traffic)
+      : graph_(graph), unanswered_(unanswered), traffic_(traffic) {}
 
   void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
     const Gid gid = to_gid(info.info.m_guid);
     if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
+      const auto& locators = info.info.metatraffic_locators.unicast;
+      traffic_.discovered(info.info.m_guid.guidPrefix, {locators.begin(), locators.end()},
+                          std::chrono::nanoseconds(info.info.m_leaseDuration.to_ns()));
       graph_.add_participant(gid, value_in(info.info.m_userData.data_vec(), "enclave"));
       unanswered_.discovered(gid, std::chrono::steady_clock::now());
     } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
                info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
+      traffic_.gone(info.info.m_guid.guidPrefix);
       graph_.remove_participant(gid);
       unanswered_.settled(gid);
     }
@@ -173,10 +179,12 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
 
   GraphCache& graph_;
   UnansweredParticipants& unanswered_;
+  DiscoveryTraffic& traffic_;
 };
 
 Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
-    : listener_(std::make_unique<DiscoveryListener>(graph, unanswered_)) {
+    : traffic_(std::make_shared<DiscoveryTraffic>()),
+      listener_(std::make_unique<DiscoveryListener>(graph, unanswered_, *traffic_)) {
   const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
   qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
 
@@ -188,9 +196,11 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   // A profile may have chosen other transports.
   const bool may_choose_ports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
   const bool leaves_buffers_to_us = has_default_transports(qos);
-  configure_discovery(options.discovery_options, domain_id, qos);
+  const char* discovery_server = std::getenv("ROS_DISCOVERY_SERVER");
+  uses_discovery_server_ = discovery_server != nullptr && *discovery_server != '\0';
+  configure_discovery(options.discovery_options, domain_id, traffic_, qos);
   if (leaves_buffers_to_us && qos.transport().user_transports.empty()) {
-    use_default_transports(0, qos);
+    use_default_transports(0, traffic_, qos);
   }
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
   const std::string user_data = "enclave=" + enclave + ";";
@@ -203,6 +213,9 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
     qos.wire_protocol().builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   }
 
+  if (uses_discovery_server_ || !leaves_buffers_to_us) {
+    traffic_->introduce({});  // announced at once, as Fast DDS does
+  }
   std::lock_guard lock(siblings().mutex);
   if (!siblings().prefixes.empty()) {
     be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
@@ -231,7 +244,30 @@ Participant::~Participant() {
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
 }
 
-void Participant::announce_again() {
+void Participant::introduce() {
+  if (!traffic_->is_introduced()) {
+    traffic_->introduce(participant_->guid().guidPrefix);
+    announce();
+  }
+}
+
+void Participant::end_endpoints_silently() {
+  traffic_->end_endpoints_silently();
+}
+
+void Participant::announce_again(const std::vector<Gid>& participants) {
+  if (uses_discovery_server_) {
+    return;  // the server tells of us, and Fast DDS 2.9 would complain that the QoS names no server
+  }
+  std::vector<rtps::GuidPrefix_t> prefixes;
+  for (const Gid& gid : participants) {
+    prefixes.push_back(to_guid(gid).guidPrefix);
+  }
+  const DiscoveryTraffic::OnlyTo only(*traffic_, prefixes);
+  announce();
+}
+
+void Participant::announce() {
   // Fast DDS announces changes at once. The user data mean the same with and without the terminating null.
   fdds::DomainParticipantQos qos = participant_->get_qos();
   std::vector<rtps::octet> user_data = qos.user_data().data_vec();

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "graph/graph_cache.hpp"
 #include "participant/unanswered_participants.hpp"
@@ -23,6 +24,8 @@ class Topic;
 
 namespace rmw_fastrtps {
 
+class DiscoveryTraffic;
+
 // Constructor and functions throw std::runtime_error. Not thread safe; delete every endpoint before.
 //
 // Environment, as in rmw_fastrtps_cpp: FASTRTPS_DEFAULT_PROFILES_FILE names a file of XML profiles. Its default
@@ -39,8 +42,13 @@ class Participant {
 
   // The participants that may not know this one yet; says when announce_again() is due.
   UnansweredParticipants& unanswered() { return unanswered_; }
-  // Announces this participant to all others once more. Must not be called from a listener of Fast DDS.
-  void announce_again();
+  // From now on others hear of this participant, and it hears of them. It has been silent so that others learn of its
+  // first endpoints at once, which costs a fraction of telling them one by one.
+  void introduce();
+  // From now on others are not told of each endpoint that ends, only of the end of the participant.
+  void end_endpoints_silently();
+  // Announces this participant to these once more. Must not be called from a listener of Fast DDS.
+  void announce_again(const std::vector<Gid>& participants);
 
   const Gid& gid() const { return gid_; }
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
@@ -60,12 +68,15 @@ class Participant {
  private:
   class DiscoveryListener;
 
+  void announce();
+
   struct SharedTopic {
     eprosima::fastdds::dds::Topic* topic;
     std::size_t users;
   };
 
   UnansweredParticipants unanswered_;
+  std::shared_ptr<DiscoveryTraffic> traffic_;
   std::unique_ptr<DiscoveryListener> listener_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
@@ -74,6 +85,7 @@ class Participant {
   std::map<std::string, std::size_t> topics_of_type_;
   Gid gid_{};
   bool qos_from_xml_ = false;
+  bool uses_discovery_server_ = false;
 };
 
 }  // namespace rmw_fastrtps

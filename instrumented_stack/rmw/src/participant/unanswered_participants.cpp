@@ -25,12 +25,12 @@ std::optional<UnansweredParticipants::TimePoint> UnansweredParticipants::next() 
   return first == silent_.end() ? std::nullopt : std::optional(first->second.until);
 }
 
-bool UnansweredParticipants::take_due(TimePoint now) {
+std::vector<Gid> UnansweredParticipants::take_due(TimePoint now) {
   const std::lock_guard lock(mutex_);
-  bool due = false;
+  std::vector<Gid> due;
   for (auto& [gid, silence] : silent_) {
     if (silence.until <= now) {
-      due = true;
+      due.push_back(gid);
       silence.patience *= 2;
       silence.until = now + silence.patience;
       ++silence.announcements;

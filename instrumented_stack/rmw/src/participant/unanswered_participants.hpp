@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "types/gid.hpp"
 #include "wait/waitable.hpp"
@@ -34,8 +35,8 @@ class UnansweredParticipants {
 
   // The time of the next announcement, if nothing changes.
   std::optional<TimePoint> next() const;
-  // Whether to announce now. Returns true once for each time.
-  bool take_due(TimePoint now);
+  // To whom to announce now. Names each of them once for each time.
+  std::vector<Gid> take_due(TimePoint now);
 
   // Triggered when next() may have become earlier.
   GuardCondition& changed() { return changed_; }
