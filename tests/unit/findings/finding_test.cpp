@@ -61,8 +61,8 @@ TEST(Finding, NamesTheMachineIfThereAreSeveral) {
   const std::vector<Finding> findings = find_worth_a_look(results);
 
   ASSERT_EQ(findings.size(), 3u);
-  EXPECT_EQ(findings[0].figures, "4 of 4 requests from right: /asker got no response");
-  EXPECT_EQ(findings[1].subject, "/scan to left: /pong");
+  EXPECT_EQ(findings[0].subject, "/scan to left: /pong");
+  EXPECT_EQ(findings[1].figures, "4 of 4 requests from right: /asker got no response");
   EXPECT_EQ(findings[2].subject, "right: /ping, timer 100 ms");
 }
 
