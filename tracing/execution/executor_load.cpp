@@ -26,9 +26,9 @@ void add_wait(ExecutorRecord& record, std::int64_t begin_ns, std::int64_t end_ns
 
 }  // namespace
 
-std::int64_t& ExecutorLoad::waited_of(ProcessId process) {
-  if (process >= waited_ns_.size()) waited_ns_.resize(process + 1);
-  return waited_ns_[process];
+ExecutorLoad::ProcessWaits& ExecutorLoad::waits_of(ProcessId process) {
+  if (process >= waits_.size()) waits_.resize(process + 1);
+  return waits_[process];
 }
 
 void ExecutorLoad::on_callback(const CallbackInstance& instance) {
@@ -44,12 +44,21 @@ void ExecutorLoad::on_callback(const CallbackInstance& instance) {
     record.candidate_ns = took;
   }
   record.free_since_ns = instance.end_ns;
-  record.process_waited_ns = waited_of(instance.thread.process);
+  record.process_waited_ns = waits_of(instance.thread.process).waited_ns;
 }
 
 void ExecutorLoad::on_executor_wait(const ExecutorWait& wait) {
-  add_wait(records_[wait.thread], wait.begin_ns, wait.end_ns);
-  waited_of(wait.thread.process) += wait.end_ns - wait.begin_ns;
+  ExecutorRecord& record = records_[wait.thread];
+  add_wait(record, wait.begin_ns, wait.end_ns);
+  ProcessWaits& waits = waits_of(wait.thread.process);
+  waits.waited_ns += wait.end_ns - wait.begin_ns;
+  if (!(wait.thread == waits.last_thread) && wait.begin_ns < waits.last_end_ns) waits.has_several_executors = true;
+  waits.last_thread = wait.thread;
+  waits.last_end_ns = std::max(waits.last_end_ns, wait.end_ns);
+  // What it does next may have no event. If another executor of the process waits meanwhile, that tells nothing.
+  if (waits.has_several_executors) return;
+  record.free_since_ns = wait.end_ns;
+  record.process_waited_ns = waits.waited_ns;
 }
 
 // With several threads, the one that waits for work holds a lock, at which the others wait to look for work. So a
@@ -58,7 +67,7 @@ void ExecutorLoad::on_executor_look(const ExecutorLook& look) {
   ExecutorRecord& record = records_[look.thread];
   if (record.free_since_ns == 0) return;
   const std::int64_t idle =
-      std::min(waited_of(look.thread.process) - record.process_waited_ns, look.time_ns - record.free_since_ns);
+      std::min(waits_of(look.thread.process).waited_ns - record.process_waited_ns, look.time_ns - record.free_since_ns);
   record.free_since_ns = 0;
   if (idle > 0) add_wait(record, look.time_ns - idle, look.time_ns);
 }

@@ -24,7 +24,7 @@ struct ExecutorRecord {
   std::int64_t busy_since_ns = 0;
   ObjectId candidate = kNoObject;  // the longest callback since then
   std::int64_t candidate_ns = 0;
-  // After a callback, until the thread looks for work. Then another thread of the executor may wait for both.
+  // After a callback or a wait, until the thread looks for work. Then another thread of the executor may wait for both.
   std::int64_t free_since_ns = 0;      // 0: it is not so
   std::int64_t process_waited_ns = 0;  // at that time
 };
@@ -38,10 +38,17 @@ class ExecutorLoad : public ExecutionSink {
   const ThreadMap<ExecutorRecord>& records() const { return records_; }
 
  private:
-  std::int64_t& waited_of(ProcessId process);
+  // The waits of all threads of a process.
+  struct ProcessWaits {
+    std::int64_t waited_ns = 0;
+    ThreadId last_thread;
+    std::int64_t last_end_ns = 0;
+    bool has_several_executors = false;  // waits of two threads of one executor do not overlap
+  };
+  ProcessWaits& waits_of(ProcessId process);
 
   ThreadMap<ExecutorRecord> records_;
-  std::vector<std::int64_t> waited_ns_;  // of all threads of a process, by ProcessId
+  std::vector<ProcessWaits> waits_;  // by ProcessId
 };
 
 }  // namespace tracing

@@ -51,6 +51,33 @@ TEST(ExecutorLoad, AThreadIsNotBusyWhileAnotherThreadOfTheExecutorWaitsForWork) 
   EXPECT_EQ(results.executors[0].longest_busy_ns, 50);
 }
 
+// It found nothing, and the other thread was faster.
+TEST(ExecutorLoad, AThreadThatWasWokenForNothingIsNotBusyWhileAnotherOneWaits) {
+  Feed feed;
+  feed.at(1'000).in(0, 71)(ros2::RclcppExecutorWaitForWork{-1}).at(1'100)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'110).in(0, 72)(ros2::RclcppExecutorGetNextReady{})(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'900)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'910).in(0, 71)(ros2::RclcppExecutorGetNextReady{}).at(2'000)(ros2::CallbackStart{1, false});
+  feed.at(2'100)(ros2::CallbackEnd{1});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.executors.size(), 2u);
+  EXPECT_EQ(results.executors[0].waited_ns, 100 + 780);
+}
+
+TEST(ExecutorLoad, OfSeveralExecutorsAWaitTellsNothingOfAnotherThread) {
+  Feed feed;
+  feed.at(1'000).in(0, 71)(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'050).in(0, 72)(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'100).in(0, 71)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'200).in(0, 72)(ros2::RclcppExecutorGetNextReady{})(ros2::RclcppExecutorWaitForWork{-1});
+  feed.at(1'300).in(0, 71)(ros2::RclcppExecutorWaitForWork{-1}).at(1'400)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'800).in(0, 72)(ros2::RclcppExecutorGetNextReady{});  // 71 has worked for 500 ns, without an event
+  feed.at(1'900).in(0, 71)(ros2::RclcppExecutorGetNextReady{});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.executors.size(), 2u);
+  EXPECT_EQ(results.executors[0].waited_ns, 100 + 100);
+}
+
 TEST(ExecutorLoad, IsTheTimeInCallbacksOfAnExecutorThatRecordsNoWaits) {
   Feed feed;
   feed.at(1'000)(ros2::CallbackStart{1, false}).at(1'100)(ros2::CallbackStart{2, false});
