@@ -2,6 +2,8 @@
 #ifndef ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_
 #define ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_
 
+#include "rosidl_runtime_c/get_type_support.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
