@@ -133,11 +133,16 @@ void InterfaceLibrary::load(const std::string& package, const std::string& kind,
   if (std::find(loading_.begin(), loading_.end(), full) != loading_.end()) {
     throw LaunchError(fmt::format("'{}' contains itself", full), {file, 0, 0});
   }
-  loading_.push_back(full);
   const FindMessage find_message = [this](const std::string& used) { return message(used); };
-  std::vector<MessageType> parts = file->path().ends_with(kIdl)
-                                       ? parse_idl_file(file, package, struct_names(kind, name), find_message)
-                                       : parse_interface_file(file, package, find_message);
+  std::vector<MessageType> parts;
+  loading_.push_back(full);
+  try {
+    parts = file->path().ends_with(kIdl) ? parse_idl_file(file, package, struct_names(kind, name), find_message)
+                                         : parse_interface_file(file, package, find_message);
+  } catch (...) {
+    loading_.pop_back();
+    throw;
+  }
   loading_.pop_back();
   const auto keep = [&](const std::string& suffix, MessageType type) {
     type.name = full + suffix;

@@ -114,7 +114,7 @@ TEST_F(Interfaces, AreReadFromIdlFilesIfThereAreNoOthers) {
   EXPECT_EQ(to_string(type->fields[7].type), "float64[3]");
   EXPECT_EQ(to_string(type->fields[8].type), "lidar/Beam[]");
   EXPECT_THAT(to_yaml({launch::FieldKind::kMessage, type}, default_value(*type)),
-              HasSubstr("is_complete: true\nflags:\n- 1\n- 2\ntext: x\"y\n"));
+              HasSubstr("is_complete: true\nflags:\n- \"\\x01\"\n- \"\\x02\"\ntext: x\"y\n"));
   ASSERT_EQ(type->constants.size(), 3u);
   EXPECT_EQ(type->constants[0].value, (launch::MessageValue{std::uint64_t{16}}));
   EXPECT_EQ(type->constants[1].value, (launch::MessageValue{std::string("laser")}));
@@ -134,7 +134,8 @@ TEST_F(Interfaces, ErrorsInIdlFilesHaveTheirPlace) {
   EXPECT_EQ(error_of("struct Bad { lidar::msg::Bean b; }; }; };"),
             "Bad.idl:2:14: error: there is no interface 'lidar/msg/Bean'\n"
             "    2 | struct Bad { lidar::msg::Bean b; }; }; };\n"
-            "      |              ^~~~~\n");
+            "      |              ^~~~~\n"
+            "      = help: did you mean 'lidar/msg/Bad'?\n");
   EXPECT_EQ(error_of("struct Bad { long a }; }; };"),
             "Bad.idl:2:21: error: expected ';' and not '}'\n"
             "    2 | struct Bad { long a }; }; };\n"
