@@ -47,8 +47,7 @@ TEST_F(TestExpectations, MessagesAreCountedByTheirFields) {
 
 TEST_F(TestExpectations, MessagesThatDoNotComeFailWithTheReason) {
   const CommandResult result = run_file(std::string(kPublisher) + R"xml(
-    <message topic="/numbers" type="std_msgs/msg/Int64"/>
-    <message topic="/numbers" type="std_msgs/msg/String" within="1"/>
+    <message topic="/numbers" type="std_msgs/msg/String" within="3"/>
   </test>
   <test name="nobody">
     <message topic="/nowhere" type="std_msgs/msg/Int64" where="data > 3" within="0.5"/>
@@ -59,7 +58,7 @@ TEST_F(TestExpectations, MessagesThatDoNotComeFailWithTheReason) {
     <message topic="/numbers" type="std_msgs/msg/Int64" min="3" min_rate="100"/>
   </test>)xml");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.out, HasSubstr("a.launch.xml:10:6: error: there was not a message on '/nowhere' with data > 3 "
+  EXPECT_THAT(result.out, HasSubstr("a.launch.xml:9:6: error: there was not a message on '/nowhere' with data > 3 "
                                     "within 0.5 s\n"));
   EXPECT_THAT(result.out, HasSubstr("      = seen: nobody has published on the topic: it was never there\n"));
   EXPECT_THAT(result.out, HasSubstr("      = seen: the topic has messages of type std_msgs/msg/Int64, and not "
@@ -68,13 +67,9 @@ TEST_F(TestExpectations, MessagesThatDoNotComeFailWithTheReason) {
   EXPECT_THAT(result.out, HasSubstr("      = expected: at least 100 in a second\n"));
 }
 
-TEST_F(TestExpectations, AMistakeInAMessageIsToldBeforeAnythingStarts) {
+TEST_F(TestExpectations, AttributesGoTogetherOrNot) {
   const CommandResult result = run_file(R"xml(
   <test name="t">
-    <message topic="/n" type="std_msgs/msg/Int64" where="date > 3"/>
-    <message topic="/n" type="std_msgs/msg/Int46"/>
-    <message topic="/n" type="std_msgs/msg/Int64" min="3" max="2"/>
-    <message topic="/n" type="std_msgs/msg/Int64" min_rate="3" max_rate="2"/>
     <message topic="/n" type="std_msgs/msg/Int64" absent="true" min_rate="2"/>
     <graph node="/n" parameter="p"/>
     <graph topic="/n" parameter="p" value="3"/>
@@ -87,7 +82,63 @@ TEST_F(TestExpectations, AMistakeInAMessageIsToldBeforeAnythingStarts) {
   </test>)xml");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.out, "");
-  EXPECT_EQ(plain(result.err), "");
+  EXPECT_EQ(plain(result.err), R"x(a.launch.xml:4:59: error: absent means max="0": it goes without min, max and rates
+    4 |     <message topic="/n" type="std_msgs/msg/Int64" absent="true" min_rate="2"/>
+      |                                                           ^~~~
+a.launch.xml:5:33: error: the parameter has no value that is waited for
+    5 |     <graph node="/n" parameter="p"/>
+      |                                 ^
+      = help: give value="…"
+a.launch.xml:6:34: error: parameter goes with a node only
+    6 |     <graph topic="/n" parameter="p" value="3"/>
+      |                                  ^
+a.launch.xml:7:29: error: value goes with a parameter only
+    7 |     <graph node="/n" value="3"/>
+      |                             ^
+      = help: give parameter="…", its name
+a.launch.xml:8:33: error: either a state or a parameter is waited for
+    8 |     <graph node="/n" parameter="p" value="3" state="active"/>
+      |                                 ^
+      = help: write one for each
+a.launch.xml:9:46: error: within counts from the begin of the test: it goes without when="shutdown"
+    9 |     <output text="a" when="shutdown" within="3"/>
+      |                                              ^
+a.launch.xml:10:28: error: when can be running or shutdown, got 'later'
+   10 |     <output text="a" when="later"/>
+      |                            ^~~~~
+a.launch.xml:11:6: error: an order needs two events at least
+   11 |     <events_in_order><event name="ros2:rcl_init"/></events_in_order>
+      |      ^~~~~~~~~~~~~~~
+      = help: give each one: <event name="…"/>
+a.launch.xml:12:35: error: state can be active, unconfigured, inactive, finalized or any, got 'activ'
+   12 |     <allocations node="/n" state="activ"/>
+      |                                   ^~~~~
+      = help: did you mean 'active'?
+)x");
+}
+
+TEST_F(TestExpectations, AFieldThatAMessageLacksIsAnErrorAtItsPlace) {
+  const CommandResult result = run_file(R"xml(
+  <test name="t">
+    <message topic="/n" type="std_msgs/msg/Int64" where="date > 3"/>
+  </test>)xml");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(plain(result.err), HasSubstr("a.launch.xml:4:58: error: std_msgs/msg/Int64 has no field 'date'\n"));
+}
+
+TEST_F(TestExpectations, AMistakeInAMessageIsAnErrorAtItsPlace) {
+  const auto error = [this](const std::string& attributes) {
+    const CommandResult result =
+        run_file("<test name=\"t\">\n<message topic=\"/n\" type=\"std_msgs/msg/" + attributes + "/>\n</test>");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.out, "");
+    return plain(result.err);
+  };
+  EXPECT_THAT(error("Int46\""), HasSubstr("a.launch.xml:3:27: error: "));
+  EXPECT_THAT(error("Int64\" min=\"3\" max=\"2\""), HasSubstr("a.launch.xml:3:60: error: max is less than min, 3\n"));
+  EXPECT_THAT(error("Int64\" min_rate=\"3\" max_rate=\"2\""),
+              HasSubstr("a.launch.xml:3:70: error: max_rate is less than min_rate, 3\n"));
 }
 
 TEST_F(TestExpectations, ParametersHaveValues) {
@@ -109,8 +160,8 @@ TEST_F(TestExpectations, ParametersHaveValues) {
   EXPECT_THAT(
       plain(result.out),
       HasSubstr(
-          R"(a.launch.xml:12:6: error: it did not happen within 1.5 s: parameter 'count' of '/add_two_ints_server' is 4
-   12 |     <graph node="/add_two_ints_server" parameter="count" value="4" within="1.5"/>
+          R"(a.launch.xml:13:6: error: it did not happen within 1.5 s: parameter 'count' of '/add_two_ints_server' is 4
+   13 |     <graph node="/add_two_ints_server" parameter="count" value="4" within="1.5"/>
       |      ^~~~~
       = expected: parameter 'count' of '/add_two_ints_server' is 4
       = seen: it is 3
@@ -175,7 +226,7 @@ TEST_F(TestExpectations, EventsComeInTheirOrder) {
     <exit process="ping" within="60"/>
     <events_in_order>
       <event name="ros2:rclcpp_publish" process="ping"/>
-      <event name="ros2:rcl_publisher_init" process="ping"/>
+      <event name="ros2:rcl_init" process="ping"/>
     </events_in_order>
   </test>)xml");
   EXPECT_EQ(bad.exit_code, 1);
@@ -211,7 +262,7 @@ TEST_F(TestExpectations, CallbacksOfAnActiveNodeAskForMemoryOrDoNot) {
 
 TEST_F(TestExpectations, WhatAProcessSaysAtItsEndIsExpectedOfTheShutdown) {
   const std::string system = R"xml(
-  <executable name="server" shell="true" cmd="trap 'echo bye; exit 0' INT; echo ready; while true; do sleep 0.05; done"/>)xml";
+  <executable name="server" shell="true" cmd="finish() { echo bye; exit 0; }; trap finish INT; echo ready; while true; do sleep 0.05; done"/>)xml";
   const CommandResult result = run_file(system + R"xml(
   <test name="good">
     <output process="server" text="ready"/>
@@ -243,8 +294,10 @@ TEST_F(TestExpectations, AFailedTestLeavesPagesOfItsTracesAndBundlesOfItsCrashes
   <node pkg="demo_nodes" exec="pong"/>
   <node pkg="demo_nodes" exec="ping" name="pinger"><param name="count" value="3"/><param name="period_ms" value="20"/></node>
   <test name="t">
-    <executable name="dies" shell="true" cmd="echo last words; kill -SEGV $$"/>
-    <output process="dies" text="last words"/>
+    <executable name="dies" shell="true" cmd="echo last words; kill -SEGV $$">
+      <depends_on process="pinger" condition="exited"/>
+    </executable>
+    <exit process="dies"/>
     <event name="ros2:rcl_init" min="2"/>
   </test>
   <test name="expects the crash" >
