@@ -29,6 +29,7 @@ extern "C" {
 #define RCL_LOG_LEVEL_FLAG "--log-level"
 #define RCL_EXTERNAL_LOG_CONFIG_FLAG "--log-config-file"
 #define RCL_LOG_FILE_NAME_FLAG "--log-file-name"
+#define RCL_EXTERNAL_LOG_FILE_NAME_PREFIX RCL_LOG_FILE_NAME_FLAG
 #define RCL_LOG_STDOUT_FLAG_SUFFIX "stdout-logs"
 #define RCL_LOG_ROSOUT_FLAG_SUFFIX "rosout-logs"
 #define RCL_LOG_EXT_LIB_FLAG_SUFFIX "external-lib-logs"

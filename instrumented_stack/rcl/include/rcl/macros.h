@@ -5,3 +5,4 @@
 #include "rcutils/macros.h"
 
 #define RCL_WARN_UNUSED RCUTILS_WARN_UNUSED
+#define RCL_UNUSED(argument) RCUTILS_UNUSED(argument)

@@ -20,6 +20,7 @@ typedef rmw_ret_t rcl_ret_t;
 #define RCL_RET_SERVICE_NAME_INVALID 104
 #define RCL_RET_UNKNOWN_SUBSTITUTION 105
 #define RCL_RET_ALREADY_SHUTDOWN 106
+#define RCL_RET_NOT_FOUND 107
 
 #define RCL_RET_NODE_INVALID 200
 #define RCL_RET_NODE_INVALID_NAME 201
@@ -50,5 +51,8 @@ typedef rmw_ret_t rcl_ret_t;
 
 #define RCL_RET_EVENT_INVALID 2000
 #define RCL_RET_EVENT_TAKE_FAILED 2001
+
+#define RCL_RET_LIFECYCLE_STATE_REGISTERED 3000
+#define RCL_RET_LIFECYCLE_STATE_NOT_REGISTERED 3001
 
 typedef rmw_serialized_message_t rcl_serialized_message_t;

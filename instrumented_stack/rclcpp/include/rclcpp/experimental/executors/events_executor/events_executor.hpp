@@ -20,8 +20,10 @@
 namespace rclcpp::experimental::executors {
 
 // Callbacks run in the thread that calls spin(). With `execute_timers_separate_thread`, timers run in their own thread,
-// at the same time as other callbacks of their group. Waitables must override set_on_ready_callback(). It fires no
-// rclcpp_executor_* tracepoint of ros2, because they describe waiting. Those of ros2_ext record what it executes.
+// at the same time as other callbacks of their group. As in rclcpp, the executor does not look whether a callback of a
+// mutually exclusive group still runs in the executor that the group has left. Waitables must override
+// set_on_ready_callback(). It fires no rclcpp_executor_* tracepoint of ros2, because they describe waiting. Those of
+// ros2_ext record what it executes.
 class EventsExecutor : public rclcpp::Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(EventsExecutor)
