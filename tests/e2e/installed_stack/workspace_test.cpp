@@ -89,6 +89,22 @@ TEST_F(Workspace, IsBuiltTestedAndSourced) {
             "0\n");
 }
 
+// Packages that use the stack as tf2, tf2_ros, tf2_eigen, message_filters, diagnostic_updater, bond and a server of
+// Navigation 2 do. Their own tests run, too.
+TEST_F(Workspace, MayHoldLibrariesOnRclcppAndAServerThatUsesThemAll) {
+  fs::remove_all(workspace_ / "src");
+  fs::copy(LIBRARIES_SOURCES, workspace_ / "src", fs::copy_options::recursive);
+  const CommandResult built = build({"--test", "--cmake-args", "-DCMAKE_BUILD_TYPE=None"});
+  EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
+  EXPECT_THAT(built.out, HasSubstr("\n7 packages built in "));
+  for (const auto& [package, test] :
+       {std::pair{"track_frames_ros", "test_listener"}, std::pair{"track_bond", "test_bond"},
+        std::pair{"track_navigator", "test_navigator"}}) {
+    EXPECT_THAT(test_support::read_file(workspace_ / "build" / package / "test_results/ctest.xml"),
+                HasSubstr("testcase name=\"" + std::string(test) + "\""));
+  }
+}
+
 TEST_F(Workspace, TellsTheErrorsOfAPackageAndWhatIsNotBuiltBecauseOfThem) {
   test_support::write_file(workspace_ / "src/arm_messages/msg/Reach.idl", "module arm_messages {\n  modul msg {\n");
   const CommandResult built = build({"--no-tests"});
