@@ -7,11 +7,31 @@
 /// and is so short that it has one line of memory.
 
 #include "event_counters.hpp"
+#include "fetch_plan.hpp"
 #include "init_events.hpp"
 #include "payload.hpp"
 #include "provider.h"
 #include "provider_ext.h"
 #include "recording.hpp"
+
+namespace tracetools {
+
+/// The plan of an event that is the first one on a message's way; null for others.
+template <typename Event>
+inline constexpr FetchPlan* plan_of = nullptr;
+
+inline constinit FetchPlan publications(&lttng_ust_tracepoint_ros2___rcl_publish,
+                                        &lttng_ust_tracepoint_ros2___rmw_publish);
+template <>
+inline constexpr FetchPlan* plan_of<event::rclcpp_publish> = &publications;
+
+inline constinit FetchPlan takes(&lttng_ust_tracepoint_ros2___rclcpp_executor_execute,
+                                 &lttng_ust_tracepoint_ros2___rmw_take, &lttng_ust_tracepoint_ros2___rcl_take,
+                                 &lttng_ust_tracepoint_ros2___rclcpp_take, &lttng_ust_tracepoint_ros2___callback_start);
+template <>
+inline constexpr FetchPlan* plan_of<event::rclcpp_executor_get_next_ready> = &takes;
+
+}  // namespace tracetools
 
 // Parameters as in tracetools.h, without those that are not recorded.
 #define RECORDED_PARAMETER(type, name) RECORDED_PARAMETER_##type(name)
@@ -34,15 +54,20 @@
                                                                                                 __VA_ARGS__))) {    \
     RECORD(provider, name, TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_ARGUMENT, __VA_ARGS__)))                \
   }
-#define RECORD(provider, name, ...)                                                                                \
-  if constexpr (tracetools::is_plain<tracetools::event::name>) {                                                   \
-    using Payload = tracetools::PayloadOf<decltype(lttng_ust_tracepoint_cb_##provider##___##name)>::type;          \
-    const Payload payload{__VA_ARGS__};                                                                            \
-    tracetools::record(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name, payload.data(), \
-                       Payload::size(), &Payload::call);                                                           \
-  } else {                                                                                                         \
-    tracetools::count(tracetools::CountedEvent::name);                                                             \
-    lttng_ust_do_tracepoint(provider, name __VA_OPT__(, ) __VA_ARGS__);                                            \
+#define RECORD(provider, name, ...)                                                                                  \
+  if constexpr (tracetools::is_plain<tracetools::event::name>) {                                                     \
+    using Payload = tracetools::PayloadOf<decltype(lttng_ust_tracepoint_cb_##provider##___##name)>::type;            \
+    const Payload payload{__VA_ARGS__};                                                                              \
+    if constexpr (constexpr auto plan = tracetools::plan_of<tracetools::event::name>; plan != nullptr) {             \
+      tracetools::record_first(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name,           \
+                               payload.data(), Payload::size(), &Payload::call, *plan);                              \
+    } else {                                                                                                         \
+      tracetools::record(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name, payload.data(), \
+                         Payload::size(), &Payload::call);                                                           \
+    }                                                                                                                \
+  } else {                                                                                                           \
+    tracetools::count(tracetools::CountedEvent::name);                                                               \
+    lttng_ust_do_tracepoint(provider, name __VA_OPT__(, ) __VA_ARGS__);                                              \
   }
 
 TRACETOOLS_EVENT_TABLE(RECORD_FUNCTION, ros2)

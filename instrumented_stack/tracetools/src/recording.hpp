@@ -11,6 +11,7 @@
 #include <cstddef>
 
 #include "event_counters.hpp"
+#include "fetch_plan.hpp"
 #include "probes.hpp"
 
 namespace tracetools {
@@ -21,6 +22,13 @@ using ProbeCall = void (*)(const Probe& probe, const void* payload);
 /// Counts the event, and records it into each session and channel that wants it. `call` is used for probes that must be
 /// called: those that filter, those of triggers, and those that are not LTTng's.
 void record(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size, ProbeCall call);
+
+/// The same for the first event on the way of a message.
+void record_first(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size,
+                  ProbeCall call, FetchPlan& followers);
+
+/// Null if the probe does something else than to record into a channel.
+const lttng_ust_event_recorder* recorder_of(const Probe& probe) noexcept;
 
 /// Tells which functions are LTTng's probes of a provider. Call it when the provider has been loaded. Until then all
 /// probes are called.

@@ -2,8 +2,10 @@
 // Events of plain fields are recorded without LTTng's generated probes. Sessions get what these would have recorded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 namespace {
 
 using test_support::run_command;
+using test_support::RunningCommand;
 using test_support::Sandbox;
 
 void succeed(const std::vector<std::string>& argv) {
@@ -108,6 +111,44 @@ TEST_F(Recording, SetsOffATrigger) {
     list = run_command({"lttng", "list"}).out;
   } while (list.find("started [active]") == std::string::npos && std::chrono::steady_clock::now() < deadline);
   EXPECT_NE(list.find("started [active]"), std::string::npos) << list;
+}
+
+// The first event of a message asks for the memory that the later ones will need. That memory is gone when a session
+// is.
+TEST_F(Recording, GoesOnWhileSessionsComeAndGo) {
+  RunningCommand process(test_support::Command{.argv = {MESSAGES_COME_AND_GO}});
+  ASSERT_TRUE(process.wait_for_output("ready"));
+  constexpr int kSessions = 8;
+  for (int i = 0; i < kSessions; ++i) {
+    const std::string session = "session" + std::to_string(i);
+    create(session);
+    enable(session, "ros2:*");
+    succeed({"lttng", "add-context", "--userspace", "--session=" + session, "--type=vtid"});
+    succeed({"lttng", "start", session});
+    succeed({"lttng", "list", "--userspace"});
+    succeed({"lttng", "destroy", session});
+    // Each thread's events, in the order of a message's way. The first and the last message may be cut off.
+    const std::vector<std::string> way = {
+        "rclcpp_publish",          "rcl_publish", "rmw_publish", "rclcpp_executor_get_next_ready",
+        "rclcpp_executor_execute", "rmw_take",    "rcl_take",    "rclcpp_take",
+        "callback_start"};
+    const auto text = run_command({"babeltrace2", (sandbox.directory() / session).string()});
+    ASSERT_EQ(text.exit_code, 0) << text.err;
+    std::map<std::string, std::string> last_of_thread;
+    std::istringstream stream(text.out);
+    for (std::string line; std::getline(stream, line);) {
+      const std::string name = line.substr(line.find("ros2:") + 5, line.find(": {") - line.find("ros2:") - 5);
+      std::string& last = last_of_thread[line.substr(line.find("vtid = "), 16)];
+      const auto place = std::find(way.begin(), way.end(), last);
+      if (place != way.end()) {
+        EXPECT_EQ(name, place + 1 == way.end() ? way.front() : *(place + 1)) << line;
+      }
+      last = name;
+    }
+    EXPECT_EQ(last_of_thread.size(), 3u) << text.out;
+  }
+  process.close_input();
+  EXPECT_EQ(process.wait().exit_code, 0);
 }
 
 }  // namespace
