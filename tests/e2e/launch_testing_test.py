@@ -87,9 +87,9 @@ class LaunchTest(unittest.TestCase):
         self.assertEqual(int(ElementTree.parse(results).getroot().get('tests')), 6)
         self.run_other(launcher, 'test', 'fails.py', code=1)
         self.assertEqual(self.run_other(launcher, 'test', 'good.py', '--repeat', '2', code=2).splitlines()[0],
-                         "launch test: 'good.py' is a file of launch_testing: of the options only --junit goes with it")
+                         "launch test: error: 'good.py' is a file of launch_testing: of the options only --junit goes with it")
         self.assertEqual(self.run_other(launcher, 'test', 'good.py', 'system.launch.xml', code=2).splitlines()[0],
-                         "launch test: 'good.py' is a file of launch_testing: such files run without others")
+                         "launch test: error: 'good.py' is a file of launch_testing: such files run without others")
 
     def test_the_program_is_a_module(self):
         packages = str(Path(os.environ['LAUNCH_PROGRAM']).parent.parent / 'lib/launch/python')

@@ -49,7 +49,7 @@ TEST_F(TestExpectations, MessagesThatDoNotComeFailWithTheReason) {
   const CommandResult result = run_file(std::string(kPublisher) + R"xml(
     <message topic="/numbers" type="std_msgs/msg/String" within="3"/>
   </test>
-  <test name="nobody">
+  <test name="nobody"><executable cmd="sleep 100"/>
     <message topic="/nowhere" type="std_msgs/msg/Int64" where="data > 3" within="0.5"/>
   </test>
   <test name="slow">
