@@ -54,11 +54,11 @@ TEST_F(ClockFaultTest, JumpsSkewsAndStops) {
 TEST_F(ClockFaultTest, AnotherProcessIsNoClock) {
   const std::string file = write(R"xml(
   <executable name="p" cmd="cat"/>
-  <test name="t"><fault clock="p" do="stop"/><exit process="p" when="shutdown" code="SIGINT"/></test>)xml");
+  <test name="t" duration="0.2"><fault clock="p" do="stop"/><exit process="p" when="shutdown" code="SIGINT"/></test>)xml");
   const CommandResult result = run({file});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(plain(result.out),
-              HasSubstr("a.launch.xml:4:19: error: the stop of clock 'p' was not applied: 'p' is no clock\n"));
+              HasSubstr("a.launch.xml:4:34: error: the stop of clock 'p' was not applied: 'p' is no clock\n"));
 }
 
 TEST_F(ClockFaultTest, ACommandThatItDoesNotKnowIsTold) {
