@@ -58,7 +58,9 @@ TEST_F(MessageFaultTest, ADroppedMessageIsLostInTheTraceAndADelayedOneIsOld) {
   const std::string nodes = std::regex_replace(kNodes, std::regex("value=\"5\""), "value=\"40\"");
   const std::string file = write(nodes + R"xml(
   <test name="lost">
-    <fault topic="/ping" do="drop" occurrence="2" count="2"/>
+    <fault topic="/ping" do="drop" count="2">
+      <depends_on process="ping" condition="output" pattern="ping 3 answered"/>
+    </fault>
     <exit process="ping"/>
     <delivery topic="/ping" from="/ping" to="/pong" max_lost="0"/>
   </test>
