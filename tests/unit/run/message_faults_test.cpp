@@ -75,7 +75,10 @@ class MessageFaultsRun : public LaunchServiceTest {
       }
     });
   }
-  ~MessageFaultsRun() override { std::filesystem::remove_all(directory_); }
+  ~MessageFaultsRun() override {
+    EXPECT_TRUE(std::filesystem::is_empty(directory_)) << "its files end with the launch";
+    std::filesystem::remove_all(directory_);
+  }
 
   void run_with(const std::string& actions, const std::string& faults) {
     const auto file = std::make_shared<SourceFile>(
@@ -90,7 +93,6 @@ class MessageFaultsRun : public LaunchServiceTest {
                      [this](const FaultEvent& event) { note(event); });
     service.run(*parse_launch_description(file, registry_));
     EXPECT_THAT(errors_, IsEmpty());
-    EXPECT_TRUE(std::filesystem::is_empty(directory_));
   }
 
   static double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
