@@ -117,7 +117,7 @@ TEST(MessageFault, AttributesGoTogether) {
             "      |  ^~~~~\n"
             "      = help: by=\"0.2\": seconds");
   EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" by="1"/>)"),
-            "/t.launch.xml:4:33: error: by goes with do=\"delay\" only\n"
+            "/t.launch.xml:4:33: error: by goes with do=\"delay\" and do=\"jump\" only\n"
             "    4 | <fault topic=\"/a\" do=\"drop\" by=\"1\"/>\n"
             "      |                                 ^");
   EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" count="2" for="1"/>)"),
