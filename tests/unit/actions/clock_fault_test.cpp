@@ -4,41 +4,22 @@
 
 #include <set>
 
-#include "actions/builtin_actions.hpp"
+#include "fault_plan.hpp"
 #include "launcher/visit/clock_process.hpp"
-#include "launcher/visit/launch_plan.hpp"
 
 namespace launch {
 namespace {
 
+using test_support::PlannedFaults;
 using testing::ElementsAre;
 using testing::EndsWith;
 
-struct PlannedClock {
-  LaunchPlan plan;
-  std::string error;
-
-  const std::vector<FaultRequest>& faults() const { return plan.tests.at(0).faults; }
-};
-
-PlannedClock plan_clock(const std::string& faults, std::uint64_t seed = 1) {
-  static const Registry registry = builtin_actions();
-  LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
-  context.take_tests(0);
-  context.choose_faults({seed, std::nullopt});
-  const std::string text =
-      "<launch>\n<clock rate=\"10\"/>\n<test name=\"t\"><output text=\"a\"/>\n" + faults + "\n</test></launch>";
-  try {
-    return {
-        plan_launch(context, *parse_launch_description(std::make_shared<SourceFile>("/t.launch.xml", text), registry)),
-        ""};
-  } catch (const LaunchError& error) {
-    return {{}, error.what()};
-  }
+PlannedFaults plan_clock(const std::string& faults, std::uint64_t seed = 1) {
+  return test_support::plan_faults(faults, {seed, std::nullopt}, "<clock rate=\"10\"/>");
 }
 
 TEST(ClockFault, AClockIsAProcess) {
-  const PlannedClock planned = plan_clock("");
+  const PlannedFaults planned = plan_clock("");
   ASSERT_EQ(planned.plan.processes.size(), 1U);
   EXPECT_THAT(planned.plan.processes[0].argv,
               ElementsAre(EndsWith("/launch-ros-command"), "clock", "--rate=10", "--start=0", "--frequency=100"));
@@ -47,7 +28,7 @@ TEST(ClockFault, AClockIsAProcess) {
 }
 
 TEST(ClockFault, SaysWhatHappensToWhichClock) {
-  const PlannedClock planned = plan_clock(R"xml(
+  const PlannedFaults planned = plan_clock(R"xml(
     <fault clock="clock" do="stop"/>
     <fault clock="clock" do="stop" for="2"/>
     <fault clock="clock" do="skew" rate="0.5" for="1"/>
@@ -66,7 +47,7 @@ TEST(ClockFault, SaysWhatHappensToWhichClock) {
 TEST(ClockFault, TheSeedDrawsRateAndDistance) {
   std::set<double> distances;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const PlannedClock planned = plan_clock(R"(<fault clock="clock" do="jump" by="-5..5"/>)", seed);
+    const PlannedFaults planned = plan_clock(R"(<fault clock="clock" do="jump" by="-5..5"/>)", seed);
     const double by = std::get<ClockFault>(planned.faults().at(0).what).by;
     EXPECT_TRUE(planned.faults().at(0).is_random);
     EXPECT_GE(by, -5);

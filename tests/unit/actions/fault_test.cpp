@@ -2,53 +2,29 @@
 // <fault>: what it asks for, what the seed draws, and its errors.
 #include <gmock/gmock.h>
 
-#include "actions/builtin_actions.hpp"
-#include "launcher/visit/launch_plan.hpp"
+#include "fault_plan.hpp"
 
 namespace launch {
 namespace {
 
 using namespace std::chrono_literals;
+using test_support::plan_faults;
+using test_support::plan_test_file;
+using test_support::PlannedFaults;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-struct Planned {
-  std::vector<FaultRequest> faults;
-  std::string error;
-};
-
-Planned plan(const std::string& text, const LaunchContext::FaultChoice& choice = {}) {
-  static const Registry registry = builtin_actions();
-  LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
-  context.take_tests(0);
-  context.choose_faults(choice);
-  const char* const path = text.starts_with('<') ? "/t.launch.xml" : "/t.launch.yaml";
-  try {
-    LaunchPlan plan =
-        plan_launch(context, *parse_launch_description(std::make_shared<SourceFile>(path, text), registry));
-    return {std::move(plan.tests.at(0).faults), ""};
-  } catch (const LaunchError& error) {
-    return {{}, error.what()};
-  }
-}
-
-Planned plan_faults(const std::string& faults, const LaunchContext::FaultChoice& choice = {}) {
-  return plan(
-      "<launch>\n<executable cmd=\"p\"/>\n<test name=\"t\"><output text=\"a\"/>\n" + faults + "\n</test></launch>",
-      choice);
-}
-
-std::vector<std::string> texts(const Planned& planned) {
+std::vector<std::string> texts(const PlannedFaults& planned) {
   std::vector<std::string> all;
-  for (const FaultRequest& fault : planned.faults) {
+  for (const FaultRequest& fault : planned.faults()) {
     all.push_back(describe(fault));
   }
   return all;
 }
 
 TEST(Fault, SaysWhatIsDoneToWhichProcess) {
-  const Planned planned = plan_faults(R"xml(
+  const PlannedFaults planned = plan_faults(R"xml(
     <fault process="p" do="kill"/>
     <group><fault process="p" do="kill" signal="TERM" at="1.5"/></group>
     <fault process="p" do="stop" if="false"/>
@@ -60,12 +36,12 @@ TEST(Fault, SaysWhatIsDoneToWhichProcess) {
   EXPECT_THAT(texts(planned), ElementsAre("kill of 'p'", "kill of 'p' by SIGTERM", "stop of 'p' for 2 s",
                                           "slow of 'p' to 25% for 0.5 s", "limit of 'p' to 1048576 bytes and 20 files",
                                           "limit of 'p' to 0 files"));
-  EXPECT_EQ(planned.faults[1].at, 1500ms);
-  EXPECT_EQ(planned.faults[5].number, 6U);
+  EXPECT_EQ(planned.faults()[1].at, 1500ms);
+  EXPECT_EQ(planned.faults()[5].number, 6U);
 }
 
 TEST(Fault, MeansTheSameInYaml) {
-  const Planned planned = plan(R"(launch:
+  const PlannedFaults planned = plan_test_file(R"(launch:
 - executable: {cmd: p}
 - test:
     name: t
@@ -79,9 +55,9 @@ TEST(Fault, MeansTheSameInYaml) {
         - {process: p, condition: output, pattern: ready, occurrence: 3}
 )");
   ASSERT_EQ(planned.error, "");
-  ASSERT_THAT(planned.faults, SizeIs(1));
-  EXPECT_EQ(planned.faults[0].at, 2s);
-  EXPECT_EQ(describe(planned.faults[0].dependencies.at(0)), "'p' has written a line that matches 'ready', 3 times");
+  ASSERT_THAT(planned.faults(), SizeIs(1));
+  EXPECT_EQ(planned.faults()[0].at, 2s);
+  EXPECT_EQ(describe(planned.faults()[0].dependencies.at(0)), "'p' has written a line that matches 'ready', 3 times");
 }
 
 TEST(Fault, TheSeedDrawsWithinTheRange) {
@@ -91,7 +67,7 @@ TEST(Fault, TheSeedDrawsWithinTheRange) {
   std::map<std::uint64_t, int> occurrences;
   int left_out = 0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-    const FaultRequest drawn = plan_faults(fault, {seed, std::nullopt}).faults.at(0);
+    const FaultRequest drawn = plan_faults(fault, {seed, std::nullopt}).faults().at(0);
     EXPECT_TRUE(drawn.is_random);
     EXPECT_GE(drawn.at, 1s);
     EXPECT_LE(drawn.at, 5s);
@@ -113,18 +89,19 @@ TEST(Fault, TheSeedDrawsWithinTheRange) {
 TEST(Fault, DrawsTheSameForTheSameSeedWhateverTheOtherFaultsAre) {
   const std::string a = R"xml(<fault process="p" do="kill" at="1..5"/>)xml";
   const std::string b = R"xml(<fault process="p" do="stop" for="1" at="1..5"/>)xml";
-  const Planned both = plan_faults(a + b + a, {7, std::nullopt});
-  const Planned second = plan_faults(b, {7, std::nullopt});
-  EXPECT_EQ(both.faults.at(1).at, second.faults.at(0).at);
-  EXPECT_NE(both.faults.at(0).at, both.faults.at(1).at);
-  EXPECT_NE(both.faults.at(0).at, both.faults.at(2).at);  // equal faults are told apart by their order
-  EXPECT_NE(second.faults.at(0).at, plan_faults(b, {8, std::nullopt}).faults.at(0).at);
+  const PlannedFaults both = plan_faults(a + b + a, {7, std::nullopt});
+  const PlannedFaults second = plan_faults(b, {7, std::nullopt});
+  EXPECT_EQ(both.faults().at(1).at, second.faults().at(0).at);
+  EXPECT_NE(both.faults().at(0).at, both.faults().at(1).at);
+  EXPECT_NE(both.faults().at(0).at, both.faults().at(2).at);  // equal faults are told apart by their order
+  EXPECT_NE(second.faults().at(0).at, plan_faults(b, {8, std::nullopt}).faults().at(0).at);
 }
 
 TEST(Fault, ANameKeepsTheDrawsWhenAnAttributeChanges) {
   const auto at = [](const std::string& signal) {
     return plan_faults("<fault name=\"end\" process=\"p\" do=\"kill\" signal=\"" + signal + "\" at=\"1..5\"/>")
-        .faults.at(0)
+        .faults()
+        .at(0)
         .at;
   };
   EXPECT_EQ(at("SIGTERM"), at("SIGKILL"));
@@ -132,12 +109,12 @@ TEST(Fault, ANameKeepsTheDrawsWhenAnAttributeChanges) {
 
 TEST(Fault, OnlyTheChosenOnesAreApplied) {
   const std::string fault = R"xml(<fault process="p" do="kill" at="1..5"/>)xml";
-  const Planned all = plan_faults(fault + fault + fault, {7, std::nullopt});
-  const Planned second = plan_faults(fault + fault + fault, {7, std::set<std::size_t>{2}});
-  EXPECT_EQ(second.faults.at(0).left_out, "not chosen");
-  EXPECT_EQ(second.faults.at(1).left_out, "");
-  EXPECT_EQ(second.faults.at(2).left_out, "not chosen");
-  EXPECT_EQ(second.faults.at(1).at, all.faults.at(1).at);
+  const PlannedFaults all = plan_faults(fault + fault + fault, {7, std::nullopt});
+  const PlannedFaults second = plan_faults(fault + fault + fault, {7, std::set<std::size_t>{2}});
+  EXPECT_EQ(second.faults().at(0).left_out, "not chosen");
+  EXPECT_EQ(second.faults().at(1).left_out, "");
+  EXPECT_EQ(second.faults().at(2).left_out, "not chosen");
+  EXPECT_EQ(second.faults().at(1).at, all.faults().at(1).at);
 }
 
 std::string error_of(const std::string& fault) {
@@ -215,7 +192,7 @@ TEST(Fault, ValuesMakeSense) {
 }
 
 TEST(Fault, BelongsInATest) {
-  EXPECT_EQ(plan("<launch>\n<fault process=\"p\" do=\"kill\"/></launch>").error,
+  EXPECT_EQ(plan_test_file("<launch>\n<fault process=\"p\" do=\"kill\"/></launch>").error,
             "/t.launch.xml:2:2: error: a fault belongs in a <test>\n"
             "    2 | <fault process=\"p\" do=\"kill\"/></launch>\n"
             "      |  ^~~~~\n"

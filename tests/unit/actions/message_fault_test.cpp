@@ -5,42 +5,22 @@
 #include <map>
 #include <set>
 
-#include "actions/builtin_actions.hpp"
-#include "launcher/visit/launch_plan.hpp"
+#include "fault_plan.hpp"
 
 namespace launch {
 namespace {
 
 using namespace std::chrono_literals;
+using test_support::plan_faults;
+using test_support::PlannedFaults;
 using testing::ElementsAre;
-
-struct Planned {
-  std::vector<FaultRequest> faults;
-  std::string error;
-};
-
-Planned plan(const std::string& faults, std::uint64_t seed = 1) {
-  static const Registry registry = builtin_actions();
-  LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
-  context.take_tests(0);
-  context.choose_faults({seed, std::nullopt});
-  const std::string text =
-      "<launch>\n<executable cmd=\"p\"/>\n<test name=\"t\"><output text=\"a\"/>\n" + faults + "\n</test></launch>";
-  try {
-    LaunchPlan plan =
-        plan_launch(context, *parse_launch_description(std::make_shared<SourceFile>("/t.launch.xml", text), registry));
-    return {std::move(plan.tests.at(0).faults), ""};
-  } catch (const LaunchError& error) {
-    return {{}, error.what()};
-  }
-}
 
 const MessageFault& messages(const FaultRequest& fault) {
   return std::get<MessageFault>(fault.what);
 }
 
 TEST(MessageFault, SaysWhatHappensToWhichMessages) {
-  const Planned planned = plan(R"xml(
+  const PlannedFaults planned = plan_faults(R"xml(
     <fault topic="/scan" do="drop"/>
     <fault topic="/scan" do="drop" occurrence="3" count="3"/>
     <fault topic="/scan" do="duplicate" occurrence="5" process="p"/>
@@ -52,7 +32,7 @@ TEST(MessageFault, SaysWhatHappensToWhichMessages) {
     <group><push_ros_namespace namespace="left"/><fault topic="scan" do="drop" for="1"/></group>)xml");
   ASSERT_EQ(planned.error, "");
   std::vector<std::string> texts;
-  for (const FaultRequest& fault : planned.faults) {
+  for (const FaultRequest& fault : planned.faults()) {
     texts.push_back(describe(fault));
   }
   EXPECT_THAT(texts, ElementsAre("drop of message 1 on '/scan'", "drop of messages 3 to 5 on '/scan'",
@@ -73,7 +53,7 @@ TEST(MessageFault, TheSeedDrawsEachNumber) {
   std::set<std::uint64_t> count;
   std::set<std::uint64_t> bytes;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const FaultRequest drawn = plan(fault, seed).faults.at(0);
+    const FaultRequest drawn = plan_faults(fault, seed).faults().at(0);
     EXPECT_TRUE(drawn.is_random);
     first.insert(messages(drawn).first);
     every.insert(messages(drawn).every);
@@ -91,16 +71,17 @@ TEST(MessageFault, TheSeedDrawsEachNumber) {
 TEST(MessageFault, DrawsTheSameForTheSameSeedWhateverTheOtherFaultsAre) {
   const std::string a = R"xml(<fault topic="/a" do="drop" occurrence="1..1000000"/>)xml";
   const std::string b = R"xml(<fault topic="/b" do="drop" occurrence="1..1000000"/>)xml";
-  const Planned both = plan(a + b + a, 7);
-  const Planned second = plan(b, 7);
-  EXPECT_EQ(messages(both.faults.at(1)).first, messages(second.faults.at(0)).first);
-  EXPECT_NE(messages(both.faults.at(0)).first, messages(both.faults.at(1)).first);
-  EXPECT_NE(messages(both.faults.at(0)).first, messages(both.faults.at(2)).first);
-  EXPECT_FALSE(plan(R"xml(<fault topic="/a" do="drop" occurrence="3" count="all"/>)xml").faults.at(0).is_random);
+  const PlannedFaults both = plan_faults(a + b + a, 7);
+  const PlannedFaults second = plan_faults(b, 7);
+  EXPECT_EQ(messages(both.faults().at(1)).first, messages(second.faults().at(0)).first);
+  EXPECT_NE(messages(both.faults().at(0)).first, messages(both.faults().at(1)).first);
+  EXPECT_NE(messages(both.faults().at(0)).first, messages(both.faults().at(2)).first);
+  EXPECT_FALSE(
+      plan_faults(R"xml(<fault topic="/a" do="drop" occurrence="3" count="all"/>)xml").faults().at(0).is_random);
 }
 
 TEST(MessageFault, AttributesGoTogether) {
-  const auto error_of = [](const std::string& fault) { return plan(fault).error; };
+  const auto error_of = [](const std::string& fault) { return plan_faults(fault).error; };
   EXPECT_EQ(error_of(R"(<fault do="drop"/>)"),
             "/t.launch.xml:4:2: error: it is not said whose messages they are\n"
             "    4 | <fault do=\"drop\"/>\n"

@@ -4,37 +4,17 @@
 
 #include <set>
 
-#include "actions/builtin_actions.hpp"
-#include "launcher/visit/launch_plan.hpp"
+#include "fault_plan.hpp"
 
 namespace launch {
 namespace {
 
+using test_support::plan_faults;
+using test_support::PlannedFaults;
 using testing::ElementsAre;
 
-struct PlannedNetwork {
-  std::vector<FaultRequest> faults;
-  std::string error;
-};
-
-PlannedNetwork plan_network(const std::string& faults, std::uint64_t seed = 1) {
-  static const Registry registry = builtin_actions();
-  LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
-  context.take_tests(0);
-  context.choose_faults({seed, std::nullopt});
-  const std::string text =
-      "<launch>\n<executable cmd=\"p\"/>\n<test name=\"t\"><output text=\"a\"/>\n" + faults + "\n</test></launch>";
-  try {
-    LaunchPlan plan =
-        plan_launch(context, *parse_launch_description(std::make_shared<SourceFile>("/t.launch.xml", text), registry));
-    return {std::move(plan.tests.at(0).faults), ""};
-  } catch (const LaunchError& error) {
-    return {{}, error.what()};
-  }
-}
-
 TEST(NetworkFault, SaysWhatHappensBetweenWhom) {
-  const PlannedNetwork planned = plan_network(R"xml(
+  const PlannedFaults planned = plan_faults(R"xml(
     <let name="who" value="lidar"/>
     <fault do="partition" group="camera $(var who)"/>
     <fault do="partition" group="camera" from="planner map" for="2"/>
@@ -42,21 +22,21 @@ TEST(NetworkFault, SaysWhatHappensBetweenWhom) {
     <fault do="delay" group="camera" from="map" by="0.1"/>)xml");
   ASSERT_EQ(planned.error, "");
   std::vector<std::string> texts;
-  for (const FaultRequest& fault : planned.faults) {
+  for (const FaultRequest& fault : planned.faults()) {
     texts.push_back(describe(fault));
   }
   EXPECT_THAT(texts, ElementsAre("partition of 'camera', 'lidar' from the others",
                                  "partition of 'camera' from 'planner', 'map' for 2 s",
                                  "loss of 25% of the packets between 'camera' and the others",
                                  "delay by 0.1 s of the packets between 'camera' and 'map'"));
-  EXPECT_FALSE(planned.faults.at(2).is_random);  // what gets lost is drawn, that something gets lost is not
+  EXPECT_FALSE(planned.faults().at(2).is_random);  // what gets lost is drawn, that something gets lost is not
 }
 
 TEST(NetworkFault, TheSeedDrawsShareDelayAndWhatGetsLost) {
   std::set<double> shares;
   std::set<std::uint64_t> seeds;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const FaultRequest drawn = plan_network(R"(<fault do="lose" group="a" share="0.1..0.3"/>)", seed).faults.at(0);
+    const FaultRequest drawn = plan_faults(R"(<fault do="lose" group="a" share="0.1..0.3"/>)", seed).faults().at(0);
     const NetworkFault& fault = std::get<NetworkFault>(drawn.what);
     EXPECT_TRUE(drawn.is_random);
     EXPECT_GE(fault.share, 0.1);
@@ -69,7 +49,7 @@ TEST(NetworkFault, TheSeedDrawsShareDelayAndWhatGetsLost) {
 }
 
 TEST(NetworkFault, AttributesGoTogether) {
-  const auto error_of = [](const std::string& fault) { return plan_network(fault).error; };
+  const auto error_of = [](const std::string& fault) { return plan_faults(fault).error; };
   EXPECT_EQ(error_of(R"(<fault do="partition"/>)"),
             "/t.launch.xml:4:2: error: it is not said between which processes\n"
             "    4 | <fault do=\"partition\"/>\n"

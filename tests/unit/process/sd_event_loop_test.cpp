@@ -143,8 +143,8 @@ TEST_F(SdEventLoop, ASourceMayBeDestroyedInItsOwnCallback) {
 TEST_F(SdEventLoop, DeliversSignalsBeforeOtherWork) {
   const Pipe pipe;
   std::vector<std::string> order;
-  const auto signals =
-      loop->on_signal({SIGUSR1, SIGUSR2}, [&](int number) { order.push_back(std::to_string(number)); });
+  const auto signals = loop->on_signal(
+      {SIGUSR1, SIGUSR2}, [&](EventLoop::Signal signal) { order.push_back(std::to_string(signal.number)); });
   const auto readable = loop->on_readable(pipe.out.get(), [&] {
     order.push_back("readable " + pipe.read(10));
     loop->quit();
