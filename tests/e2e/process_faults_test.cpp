@@ -151,7 +151,7 @@ TEST_F(ProcessFaults, AProcessThatClosesItsOutputIsSupervisedOn) {
             "; exit 7\"/>");
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[silent-1]: process started with pid")) << run.err();
-  run_command({"sh", "-c", "echo > " + fifo}, kPatience);
+  run_command({.argv = {"sh", "-c", "echo > " + fifo}}, kPatience);
   const CommandResult result = run.wait(kPatience);
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.out, HasSubstr("[ERROR] [launch]:   silent-1: exit code 7 after "));
@@ -176,8 +176,8 @@ TEST_F(ProcessFaults, ALogDirectoryThatIsDeletedStopsNothing) {
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
   ASSERT_TRUE(run.wait_for_output("[a-1] here")) << run.out() << run.err();
   fs::remove_all(log(run));
-  run_command({"sh", "-c", "echo > " + fifo}, kPatience);
-  run_command({"sh", "-c", "echo > " + fifo}, kPatience);
+  run_command({.argv = {"sh", "-c", "echo > " + fifo}}, kPatience);
+  run_command({.argv = {"sh", "-c", "echo > " + fifo}}, kPatience);
   const CommandResult result = run.wait(kPatience);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(count(result.out, "[a-1] here\n"), 2U) << result.out;
