@@ -3,8 +3,6 @@
 
 #include <lttng/ust-events.h>
 
-#include "recording.hpp"
-
 namespace tracetools {
 namespace {
 
@@ -71,6 +69,13 @@ void FetchPlan::find_addresses() noexcept {
   keep(of_channel_.channel_private, channel->priv);
   keep(of_channel_.session, channel->parent->session);
   keep(of_channel_.functions, channel->ops);
+}
+
+[[gnu::hot]] void record_first(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size,
+                               ProbeCall call, FetchPlan& followers) {
+  followers.fetch();
+  record(tracepoint, event, payload, size, call);
+  followers.renew();
 }
 
 }  // namespace tracetools

@@ -12,7 +12,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "event_counters.hpp"
 #include "probes.hpp"
+#include "recording.hpp"
 
 namespace tracetools {
 
@@ -54,6 +56,11 @@ class alignas(64) FetchPlan {
   OfEvent of_events_[kMostFollowers];
   const Tracepoint* followers_[kMostFollowers];
 };
+
+/// Records the first event on the way of a message, as record() does, and has the memory of the others fetched
+/// meanwhile.
+void record_first(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size,
+                  ProbeCall call, FetchPlan& followers);
 
 }  // namespace tracetools
 

@@ -64,13 +64,6 @@ const lttng_ust_event_recorder* recorder_of(const Probe& probe) noexcept {
   return recorder(probe);
 }
 
-[[gnu::hot]] void record_first(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size,
-                               ProbeCall call, FetchPlan& followers) {
-  followers.fetch();
-  record(tracepoint, event, payload, size, call);
-  followers.renew();
-}
-
 void add_generated_probes(const lttng_ust_probe_desc& provider) noexcept {
   for (unsigned int i = 0; i < provider.nr_events; ++i) {
     const auto probe = reinterpret_cast<std::uintptr_t>(provider.event_desc[i]->tp_class->probe_callback);

@@ -11,7 +11,6 @@
 #include <cstddef>
 
 #include "event_counters.hpp"
-#include "fetch_plan.hpp"
 #include "probes.hpp"
 
 namespace tracetools {
@@ -22,10 +21,6 @@ using ProbeCall = void (*)(const Probe& probe, const void* payload);
 /// Counts the event, and records it into each session and channel that wants it. `call` is used for probes that must be
 /// called: those that filter, those of triggers, and those that are not LTTng's.
 void record(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size, ProbeCall call);
-
-/// The same for the first event on the way of a message.
-void record_first(const Tracepoint& tracepoint, CountedEvent event, const void* payload, std::size_t size,
-                  ProbeCall call, FetchPlan& followers);
 
 /// Null if the probe does something else than to record into a channel.
 const lttng_ust_event_recorder* recorder_of(const Probe& probe) noexcept;

@@ -4,6 +4,7 @@
 
 #include "arm_driver/msg/effort.h"
 #include "rcl/rcl.h"
+#include "rmw/rmw.h"
 #include "rosidl_runtime_c/string_functions.h"
 #include "std_msgs/msg/color_rgba.h"
 
