@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch: runs launch files; `launch trace` and `launch report` record and describe traces.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -43,9 +44,21 @@ int become(const char* program_name, const char* name, char** last) {
   return 1;
 }
 
+// A program that was started without standard descriptors (`launch … >&-`) would take their numbers for files and pipes
+// of its own.
+void open_standard_descriptors() {
+  for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
+    if (fd > STDERR_FILENO) {
+      ::close(fd);
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == "report") {
     return become("launch-report", "launch report", argv + 1);

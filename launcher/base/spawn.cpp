@@ -43,7 +43,9 @@ constexpr std::uint64_t kAllSignals = ~std::uint64_t{0};
 // What the child needs between its birth and its program.
 struct Birth {
   const ChildProgram& child;
-  std::vector<std::string> programs;  // to be tried one after the other
+  std::vector<ChildDescriptor> descriptors;
+  std::vector<UniqueFd> out_of_the_way;  // copies of sources that another descriptor replaces
+  std::vector<std::string> programs;     // to be tried one after the other
   char* const* argv;
   char* const* environment;
   std::vector<unsigned> kept;  // the numbers of its descriptors from 3 on, in order
@@ -59,7 +61,7 @@ struct Birth {
 #define RUNS_IN_CHILD __attribute__((no_sanitize("address", "thread", "undefined")))
 
 RUNS_IN_CHILD bool give_descriptors(const Birth& birth) {
-  for (const ChildDescriptor& given : birth.child.descriptors) {
+  for (const ChildDescriptor& given : birth.descriptors) {
     if (given.source == kDevNull) {
       const int mode = given.number == STDIN_FILENO ? O_RDONLY : O_WRONLY;
       const long opened = ::syscall(SYS_openat, AT_FDCWD, "/dev/null", mode, 0);
@@ -174,8 +176,31 @@ std::vector<std::string> programs_of(const ChildProgram& child) {
   return programs;
 }
 
+// A source whose number the child gets for something else would be replaced before it is given: standard descriptors of
+// a program that was started without any, for example.
+void move_sources_out_of_the_way(Birth& birth) {
+  unsigned highest = STDERR_FILENO;
+  for (const ChildDescriptor& given : birth.descriptors) {
+    highest = std::max(highest, static_cast<unsigned>(given.number));
+  }
+  for (ChildDescriptor& given : birth.descriptors) {
+    const bool is_replaced = std::any_of(birth.descriptors.begin(), birth.descriptors.end(), [&](const auto& other) {
+      return other.number == given.source && given.number != given.source;
+    });
+    if (is_replaced) {
+      birth.out_of_the_way.emplace_back(::fcntl(given.source, F_DUPFD_CLOEXEC, highest + 1));
+      if (!birth.out_of_the_way.back()) {
+        throw SpawnError(errno, birth.child.program);
+      }
+      given.source = birth.out_of_the_way.back().get();
+    }
+  }
+}
+
 Birth prepare_birth(const ChildProgram& child, char* const* argv, char* const* environment) {
   Birth birth{.child = child,
+              .descriptors = child.descriptors,
+              .out_of_the_way = {},
               .programs = programs_of(child),
               .argv = argv,
               .environment = environment,
@@ -183,7 +208,8 @@ Birth prepare_birth(const ChildProgram& child, char* const* argv, char* const* e
               .first_needless = STDERR_FILENO + 1,
               .mask = child.signals == ChildSignals::kAllBlocked ? kAllSignals : 0,
               .shares_descriptors = child.only_given_descriptors};
-  for (const ChildDescriptor& given : child.descriptors) {
+  move_sources_out_of_the_way(birth);
+  for (const ChildDescriptor& given : birth.descriptors) {
     if (given.number > STDERR_FILENO) {
       birth.kept.push_back(static_cast<unsigned>(given.number));
     }

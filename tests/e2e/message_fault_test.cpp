@@ -166,13 +166,13 @@ TEST_F(MessageFaultTest, CountsFromACondition) {
 TEST_F(MessageFaultTest, OfManySeedsOneFailsAndIsShrunk) {
   const std::string file = write(R"xml(
   <node pkg="demo_nodes" exec="pong"/>
-  <test name="answered" timeout="20">
+  <test name="answered" timeout="40">
     <fault topic="/ping" do="duplicate" occurrence="1..3"/>
     <fault name="all" topic="/ping" do="drop" count="all" probability="0.3"/>
     <fault topic="/ping" do="delay" by="0.01" occurrence="2"/>
     <receive name="answer" topic="/pong" type="std_msgs/msg/Int64"/>
     <publish topic="/ping" type="std_msgs/msg/Int64" values="{data: 7}" count="0" rate="20"/>
-    <exit process="answer" within="5"/>
+    <exit process="answer" within="12"/>
   </test>)xml");
   const auto results = run_for_json(file, {"--seeds", "6", "--shrink"});
   EXPECT_EQ(result_.exit_code, 1) << result_.out;

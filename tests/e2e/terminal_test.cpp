@@ -87,16 +87,16 @@ TEST_F(OnATerminal, TheStatusLineOfAKilledLauncherIsErased) {
 }
 
 TEST_F(OnATerminal, TheStatusLineFollowsTheSizeOfTheTerminal) {
-  Terminal terminal(
-      launch("<executable name=\"late\" cmd=\"true\">"
-             "<depends_on process=\"gate\" condition=\"output\" pattern=\"open\"/></executable>"
-             "<executable name=\"gate\" shell=\"true\" output=\"screen\" cmd=\"echo one; trap 'echo two' USR1;"
-             " while :; do read x; done\"/>"),
-      environment_);
+  Terminal terminal(launch("<executable name=\"late\" cmd=\"true\">"
+                           "<depends_on process=\"gate\" condition=\"output\" pattern=\"open\"/></executable>"
+                           "<executable name=\"gate\" shell=\"true\" output=\"screen\" cmd=\"say() { echo two; }; trap "
+                           "say USR1; echo one;"
+                           " while :; do read x; done\"/>"),
+                    environment_);
   ASSERT_TRUE(terminal.shows("starting 1 of 2, waiting: late")) << terminal.screen();
   terminal.resize(24, 20);
   run_command({LAUNCH_PROGRAM, "signal", "gate", "USR1"});
-  ASSERT_TRUE(terminal.shows("[gate-2] two")) << terminal.screen();
+  ASSERT_TRUE(terminal.shows("[gate-1] two")) << terminal.screen();
   ASSERT_TRUE(terminal.hides("starting 1 of 2, waiting")) << terminal.screen();
   EXPECT_THAT(terminal.screen(), HasSubstr("starting 1 of 2, wa\n")) << "it leaves a column free";
   terminal.type("\003");
@@ -128,7 +128,8 @@ TEST_F(OnATerminal, AProcessCanHaveTheTerminal) {
 TEST_F(OnATerminal, CtrlCReachesTheProcessThatHasTheTerminalOnce) {
   Terminal terminal(
       launch("<executable name=\"ask\" shell=\"true\" output=\"screen\" stdin=\"terminal\" respawn=\"true\""
-             " cmd=\"trap 'echo interrupted' INT; trap 'echo ended; exit 7' TERM; echo ready;"
+             " cmd=\"interrupted() { echo interrupted; }; ended() { echo ended; exit 7; }; trap interrupted INT; trap "
+             "ended TERM; echo ready;"
              " while :; do sleep 1000; done\" sigterm_timeout=\"0.5\"/>"),
       environment_);
   ASSERT_TRUE(terminal.shows("[ask-1] ready")) << terminal.screen();

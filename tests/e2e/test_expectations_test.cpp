@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What tests in launch files expect of the ROS graph and of traces, with nodes of the stack.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <string>
@@ -281,8 +282,12 @@ TEST_F(TestExpectations, WhatAProcessSaysAtItsEndIsExpectedOfTheShutdown) {
 }
 
 TEST_F(TestExpectations, AProcessThatIsLeftBehindFailsTheTest) {
+  // The daemon has left the group when it writes to the fifo, for which its parent waits.
+  const std::string fifo = sandbox_.directory() / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  write_file(sandbox_.directory() / "daemon.sh", "echo > " + fifo + "; exec sleep 1000\n");
   const CommandResult result = run_file(R"xml(
-  <executable name="parent" shell="true" cmd="setsid sleep 1000 &amp; echo started"/>
+  <executable name="parent" shell="true" cmd="setsid sh $(dirname)/daemon.sh &amp; read x &lt; $(dirname)/fifo; echo started"/>
   <test name="t"><output process="parent" text="started"/><exit process="parent"/></test>)xml");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("a.launch.xml:4:4: error: parent-1 left 1 process running: sleep ("));

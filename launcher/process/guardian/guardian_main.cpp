@@ -169,9 +169,10 @@ void GuardianProcess::be_spare() {
   ::_exit(EXIT_SUCCESS);
 }
 
-// What the terminal sends reaches the launcher without our help, because it is in our process group.
+// What the terminal sends reaches the launcher without our help, because it is in our process group. But the end of the
+// terminal reaches only the leader of the session, and that is this process in `xterm -e launch …`.
 void GuardianProcess::pass_on(const signalfd_siginfo& signal) const {
-  if (signal.ssi_code != SI_KERNEL) {
+  if (signal.ssi_code != SI_KERNEL || signal.ssi_signo == SIGHUP) {
     ::kill(launcher_, static_cast<int>(signal.ssi_signo));
   }
 }

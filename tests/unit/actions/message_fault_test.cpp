@@ -110,7 +110,7 @@ TEST(MessageFault, AttributesGoTogether) {
             "    4 | <fault topic=\"/a\" do=\"drop\" on=\"recieve\"/>\n"
             "      |                                 ^~~~~~~");
   EXPECT_EQ(error_of(R"(<fault topic="/a" do="drop" occurrence="0..3"/>)"),
-            "/t.launch.xml:4:41: error: occurrence takes a whole number from 1, got '0..3'\n"
+            "/t.launch.xml:4:41: error: occurrence takes a whole number from 1, got '0'\n"
             "    4 | <fault topic=\"/a\" do=\"drop\" occurrence=\"0..3\"/>\n"
             "      |                                         ^~~~\n"
             "      = help: or a range of them, such as 1..5");
