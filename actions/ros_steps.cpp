@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <publish>, <clock>, <receive>, <call>, <send_goal>, <change_parameter>, <transition>: steps that take part in the ROS
-// graph, each a process that runs the command of the same kind (`launch topic pub`, …). So they can start at a time, when
-// something is ready or after another step, and their end tells whether they have succeeded.
+// graph, each a process that runs the command of the same kind (`launch topic pub`, …). So they can start at a time,
+// when something is ready or after another step, and their end tells whether they have succeeded.
 #include <fmt/format.h>
 
 #include <functional>

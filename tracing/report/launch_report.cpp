@@ -22,8 +22,8 @@
 #include "tracing/live/live_report.hpp"
 #include "tracing/report/comparison_command.hpp"
 #include "tracing/report/output_files.hpp"
-#include "tracing/report/recorded_sessions.hpp"
 #include "tracing/report/recorded_processes.hpp"
+#include "tracing/report/recorded_sessions.hpp"
 #include "tracing/report/report.hpp"
 
 namespace {

@@ -57,7 +57,8 @@ TEST(PerfettoExport, HasEverythingOfACycle) {
           R"json({"ph":"f","bp":"e","cat":"message","name":"/scan","id":"0x0","pid":102,"tid":102,"ts":50300.0})json"));
   EXPECT_EQ(events_of(trace, "C")[0], json::parse(R"json({"ph":"C","name":"latency of /scan","pid":102,"tid":102,
       "ts":50300.0,"args":{"us":200.0}})json"));
-  EXPECT_EQ(events_of(trace, "b")[4], json::parse(R"json({"ph":"b","cat":"lifecycle","id":"0x2","name":"/display active",
+  EXPECT_EQ(events_of(trace, "b")[4],
+            json::parse(R"json({"ph":"b","cat":"lifecycle","id":"0x2","name":"/display active",
       "pid":103,"tid":103,"ts":39500.0})json"));
   EXPECT_EQ(events_of(trace, "i")[0],
             json::parse(R"json({"ph":"i","s":"p","cat":"start","name":"exec","pid":101,"tid":101,
