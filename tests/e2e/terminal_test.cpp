@@ -24,6 +24,12 @@ class OnATerminal : public testing::Test {
     write_file(path, "<launch>\n" + actions + "\n</launch>\n");
     return {LAUNCH_PROGRAM, path.string()};
   }
+  // What is typed before a shell shows its prompt may be lost. The prompts of this shell are "<1>", "<2>" and so on.
+  std::map<std::string, std::string> with_numbered_prompts() const {
+    auto environment = environment_;
+    environment["PS1"] = "<\\#> ";
+    return environment;
+  }
 
   Sandbox sandbox_;
   std::map<std::string, std::string> environment_ = {{"TERM", "xterm"}, {"NO_COLOR", "1"}};
@@ -154,7 +160,8 @@ TEST_F(OnATerminal, InTheBackgroundOfAShellItWaitsForTheForeground) {
   const std::vector<std::string> words = launch(
       "<executable name=\"ask\" shell=\"true\" output=\"screen\" stdin=\"terminal\""
       " cmd=\"read word; echo got $word\"/>");
-  Terminal terminal({"/bin/bash", "--norc", "--noprofile", "-i"}, environment_);
+  Terminal terminal({"/bin/bash", "--norc", "--noprofile", "-i"}, with_numbered_prompts());
+  ASSERT_TRUE(terminal.shows("<1>")) << terminal.screen();
   terminal.type(words[0] + " " + words[1] + " &\n");
   ASSERT_TRUE(terminal.shows("[WARNING] [ask-1]: process waits for terminal input; it goes on when the launch is in"))
       << terminal.screen();
@@ -169,11 +176,13 @@ TEST_F(OnATerminal, CtrlZStopsAndFgContinuesAProcessThatHasTheTerminal) {
   const std::vector<std::string> words = launch(
       "<executable name=\"ask\" shell=\"true\" output=\"screen\" stdin=\"terminal\""
       " cmd=\"echo ready; read word; echo got $word\"/>");
-  Terminal terminal({"/bin/bash", "--norc", "--noprofile", "-i"}, environment_);
+  Terminal terminal({"/bin/bash", "--norc", "--noprofile", "-i"}, with_numbered_prompts());
+  ASSERT_TRUE(terminal.shows("<1>")) << terminal.screen();
   terminal.type(words[0] + " " + words[1] + "\n");
   ASSERT_TRUE(terminal.shows("[ask-1] ready")) << terminal.screen();
   terminal.type("\032");
   ASSERT_TRUE(terminal.shows("Stopped")) << terminal.screen();
+  ASSERT_TRUE(terminal.shows("<2>")) << terminal.screen();
   terminal.type("fg\n");
   ASSERT_TRUE(terminal.shows("[INFO] [launch]: continuing the system")) << terminal.screen();
   terminal.type("hello\n");
