@@ -129,6 +129,16 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
   for (const RecordedEvent& event : with_name(trace, "ros2_ext:rclcpp_executor_execute_client")) {
     EXPECT_EQ(event.number("client_handle"), client);
   }
+  for (const char* kind : {"publisher", "subscription"}) {
+    const std::vector<RecordedEvent> made = with_name(trace, "ros2:rmw_" + std::string(kind) + "_init");
+    const std::vector<RecordedEvent> qos = with_name(trace, "ros2_ext:rmw_" + std::string(kind) + "_qos");
+    const std::string handle = "rmw_" + std::string(kind) + "_handle";
+    ASSERT_EQ(qos.size(), made.size()) << kind;
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      EXPECT_EQ(qos[i].number(handle), made[i].number(handle));
+      EXPECT_EQ(qos[i].number("reliable"), 1U);
+    }
+  }
   // No object existed before the session, so there is no state dump.
   EXPECT_THAT(with_name(trace, "ros2_ext:state_dump_begin"), SizeIs(0));
   expect_reported(sandbox.trace_directory() / "ext");

@@ -59,6 +59,8 @@ std::vector<SubscriptionResult> Ros2Analysis::subscription_results() const {
     result.overwritten = record.overwritten;
     result.overwritten_in_buffer = overwritten_in_buffer[id];
     result.lost = record.lost;
+    result.lost_by_publisher = record.lost_by_publisher;
+    result.lost_in_transport = record.lost_in_transport;
     result.before_first = record.before_first;
     result.after_last = record.after_last;
     result.latency = record.latency.summary();

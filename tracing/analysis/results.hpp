@@ -114,6 +114,8 @@ struct SubscriptionResult {
   std::uint64_t overwritten = 0;
   std::uint64_t overwritten_in_buffer = 0;  // within the process
   std::uint64_t lost = 0;
+  std::uint64_t lost_by_publisher = 0;  // part of lost: pushed out of the publisher's queue
+  std::uint64_t lost_in_transport = 0;  // part of lost
   std::uint64_t before_first = 0;
   std::uint64_t after_last = 0;
   DurationSummary latency;
@@ -124,6 +126,7 @@ struct SubscriptionResult {
   DurationSummary take;
   bool doubtful = false;
 
+  std::uint64_t lost_unplaced() const { return lost - lost_by_publisher - lost_in_transport; }
   std::uint64_t dropped() const { return not_executed + overwritten + overwritten_in_buffer + lost; }
 };
 

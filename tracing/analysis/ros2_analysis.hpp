@@ -45,6 +45,9 @@ class Ros2Analysis {
   void on_end(const Origin& origin, const ros2::ObjectEnd& end);
   // In a state dump: the state of a lifecycle node that is older than the session.
   void on_lifecycle_state(const Origin& origin, ros2::Handle state_machine, std::string_view state);
+  void on_endpoint_qos(const Origin& origin, const ros2::EndpointQosEvent& event, const ros2::EndpointQos& qos) {
+    model_.on(origin, event, qos);
+  }
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event);
   void on_allocation(const Origin& origin, std::uint64_t bytes);
   // Returns whether it is an event of the kernel's scheduler.

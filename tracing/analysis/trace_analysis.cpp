@@ -17,6 +17,8 @@ void TraceAnalysis::on_event(const Event& event) {
     ros2_.on_execution(origin, *execution);
   } else if (const std::optional<ros2::LifecycleState> state = lifecycle_states_.decode(event)) {
     ros2_.on_lifecycle_state(origin, state->state_machine, ros2::LifecycleState::label(event));
+  } else if (const std::optional<ros2::EndpointQosEvent> endpoint = endpoint_qos_.decode(event)) {
+    ros2_.on_endpoint_qos(origin, *endpoint, ros2::EndpointQosEvent::qos(event));
   } else if (const std::optional<std::uint64_t> bytes = allocations_.decode(event)) {
     ros2_.on_allocation(origin, *bytes);
   } else {

@@ -15,6 +15,7 @@
 #include "tracing/analysis/ros2_analysis.hpp"
 #include "tracing/analysis/start_tracker.hpp"
 #include "tracing/execution/allocation_decoder.hpp"
+#include "tracing/reader/endpoint_qos.hpp"
 #include "tracing/reader/lifecycle_state.hpp"
 #include "tracing/reader/ros2_decoder.hpp"
 #include "tracing/reader/trace_reader.hpp"
@@ -52,6 +53,7 @@ class TraceAnalysis : public TraceSink {
   ros2::ObjectEndDecoder ends_;
   ros2::ExecutionEventDecoder executions_;
   ros2::LifecycleStateDecoder lifecycle_states_;
+  ros2::EndpointQosDecoder endpoint_qos_;
   AllocationDecoder allocations_;
   bool lacks_thread_context_ = false;
 };

@@ -143,7 +143,9 @@ std::optional<Finding> dropped_messages(const TraceResults& results) {
     };
     place(subscription.overwritten, "pushed out of its queue");
     place(subscription.overwritten_in_buffer, "pushed out of its buffer");
-    place(subscription.lost, "lost on the way");
+    place(subscription.lost_by_publisher, "pushed out of the publisher's queue");
+    place(subscription.lost_in_transport, "lost in the transport");
+    place(subscription.lost_unplaced(), "lost on the way");
     place(subscription.not_executed, "not executed");
     best = Finding{Finding::Kind::kDroppedMessages,
                    55 + 40 * std::min(1.0, static_cast<double>(dropped) * 4 / static_cast<double>(sent)),

@@ -2,6 +2,8 @@
 #include "tracing/messages/delivery_statistics.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "tracing/messages/hop_times.hpp"
 
@@ -16,6 +18,13 @@ template <class Record>
 Record& at(std::vector<Record>& records, ObjectId id) {
   if (id >= records.size()) records.resize(id + 1);
   return records[id];
+}
+
+// How many messages the history of the reader holds.
+std::uint64_t queue_depth(const EndpointObject& subscription) {
+  const std::uint64_t depth = subscription.qos ? subscription.qos->history_depth : subscription.queue_depth;
+  if (subscription.qos && depth == 0) return std::numeric_limits<std::uint64_t>::max();
+  return std::max<std::uint64_t>(depth, 1);
 }
 
 }  // namespace
@@ -62,16 +71,27 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
     return;
   }
   if (place <= last->second) return;
-  const std::uint64_t depth = std::max<std::uint64_t>(model_.subscriptions()[message.subscription].queue_depth, 1);
+  const std::uint64_t depth = queue_depth(model_.subscriptions()[message.subscription]);
   const std::uint64_t topic_count = at(topic_counts_, message.publication.topic);
+  std::uint64_t lost = 0;
   for (std::uint64_t missing = last->second + 1; missing < place; ++missing) {
     const std::uint64_t back = place - missing;
     // It was older than the history of the reader is long when the reader was asked.
     const bool overwritten =
         back > index || topic_count - (sent - static_cast<std::ptrdiff_t>(back))->topic_count >= depth;
-    ++(overwritten ? record.overwritten : record.lost);
+    if (overwritten) ++record.overwritten;
+    if (!overwritten) ++lost;
   }
+  count_lost(record, message, lost);
   last->second = place;
+}
+
+void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& message, std::uint64_t count) const {
+  record.lost += count;
+  const std::optional<ros2::EndpointQos>& publisher = model_.publishers()[message.publication.publisher].qos;
+  const std::optional<ros2::EndpointQos>& subscription = model_.subscriptions()[message.subscription].qos;
+  if (!publisher || !subscription || subscription->is_filtered) return;
+  (publisher->reliable && subscription->reliable ? record.lost_by_publisher : record.lost_in_transport) += count;
 }
 
 void DeliveryStatistics::on_message(const MessageFlow& message) {

@@ -25,10 +25,14 @@ struct DeliveryRecord {
   std::uint64_t not_executed = 0;   // taken, but given to no callback
 
   // Messages of publishers from which the subscription also got others.
-  std::uint64_t overwritten = 0;   // pushed out of the full history of the reader by newer messages
-  std::uint64_t lost = 0;          // on the way: in the history of the writer, in the network, or by a filter
-  std::uint64_t before_first = 0;  // published before the first message that came: not connected yet
-  std::uint64_t after_last = 0;    // published after the last message that came: on the way, or not connected any more
+  std::uint64_t overwritten = 0;  // pushed out of the full history of the reader by newer messages
+  std::uint64_t lost = 0;         // on the way: in the history of the writer, in the network, or by a filter
+  // Parts of lost, if the trace has the quality of service of both sides and the subscription has no filter. Reliable
+  // messages are repeated until they arrive, unless the writer has replaced them in its history.
+  std::uint64_t lost_by_publisher = 0;  // both sides are reliable
+  std::uint64_t lost_in_transport = 0;  // one of them is not: in the network, or in the shared memory
+  std::uint64_t before_first = 0;       // published before the first message that came: not connected yet
+  std::uint64_t after_last = 0;  // published after the last message that came: on the way, or not connected any more
 
   DurationStatistics latency;  // from the first publish function in the trace to the begin of the callback
   DurationStatistics rclcpp;   // rclcpp_publish to rcl_publish
@@ -71,6 +75,7 @@ class DeliveryStatistics : public ExecutionSink {
   };
 
   void find_gaps(const MessageFlow& message);
+  void count_lost(DeliveryRecord& record, const MessageFlow& message, std::uint64_t count) const;
 
   const ObjectModel& model_;
   std::vector<DeliveryRecord> subscriptions_;

@@ -49,7 +49,12 @@ RmwLookup ObjectModel::find_rmw(const RmwIndex& index, ProcessId process, ros2::
 
 void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid) {
   RmwEndpoint& entry = index[{process, handle}];
-  if (entry.gid != gid || gid.size == 0) entry = {gid, kNoObject};
+  if (entry.gid != gid || gid.size == 0) entry = {gid};
+}
+
+std::optional<ros2::EndpointQos> ObjectModel::qos_of(const RmwIndex& index, const Key& key) {
+  const auto found = index.find(key);
+  return found == index.end() ? std::nullopt : found->second.qos;
 }
 
 bool ObjectModel::is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
@@ -77,7 +82,8 @@ void ObjectModel::on(const Origin& origin, const ros2::RmwPublisherInit& event) 
 
 void ObjectModel::on(const Origin& origin, const ros2::RclPublisherInit& event) {
   const EndpointObject endpoint{find(node_index_, origin.process, event.node_handle), topic(event.topic_name),
-                                event.queue_depth};
+                                event.queue_depth,
+                                qos_of(rmw_publisher_index_, {origin.process, event.rmw_publisher_handle})};
   if (is_endpoint(publisher_index_, publishers_, origin.process, event.publisher_handle,
                   rmw_publisher(origin.process, event.rmw_publisher_handle), endpoint)) {
     return;
@@ -94,7 +100,8 @@ void ObjectModel::on(const Origin& origin, const ros2::RmwSubscriptionInit& even
 
 void ObjectModel::on(const Origin& origin, const ros2::RclSubscriptionInit& event) {
   const EndpointObject endpoint{find(node_index_, origin.process, event.node_handle), topic(event.topic_name),
-                                event.queue_depth};
+                                event.queue_depth,
+                                qos_of(rmw_subscription_index_, {origin.process, event.rmw_subscription_handle})};
   if (is_endpoint(subscription_index_, subscriptions_, origin.process, event.subscription_handle,
                   rmw_subscription(origin.process, event.rmw_subscription_handle), endpoint)) {
     return;
@@ -246,6 +253,16 @@ void ObjectModel::on(const Origin& origin, const ros2::ObjectEnd& end) {
     case Kind::kRclLifecycleStateMachine:
       break;
   }
+}
+
+void ObjectModel::on(const Origin& origin, const ros2::EndpointQosEvent& event, const ros2::EndpointQos& qos) {
+  const bool is_publisher = event.kind == ros2::EndpointQosEvent::Kind::kPublisher;
+  RmwIndex& index = is_publisher ? rmw_publisher_index_ : rmw_subscription_index_;
+  const auto found = index.find({origin.process, event.handle});
+  if (found == index.end()) return;
+  found->second.qos = qos;
+  const ObjectId endpoint = found->second.endpoint;
+  if (endpoint != kNoObject) (is_publisher ? publishers_ : subscriptions_)[endpoint].qos = qos;
 }
 
 ObjectId ObjectModel::node(ProcessId process, ros2::Handle handle) const {

@@ -12,11 +12,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "tracing/objects/process_table.hpp"
+#include "tracing/reader/endpoint_qos.hpp"
 #include "tracing/reader/object_end.hpp"
 #include "tracing/reader/ros2_events.hpp"
 
@@ -46,7 +48,8 @@ struct TopicObject {
 struct EndpointObject {  // publisher or subscription
   ObjectId node = kNoObject;
   ObjectId topic = kNoObject;
-  std::uint64_t queue_depth = 0;  // as the program asked for it
+  std::uint64_t queue_depth = 0;                        // as the program asked for it
+  std::optional<ros2::EndpointQos> qos = std::nullopt;  // if the trace has it
   bool operator==(const EndpointObject&) const = default;
 };
 
@@ -124,6 +127,7 @@ class ObjectModel {
   void on(const Origin&, const ros2::RclcppCallbackRegister&);
 
   void on(const Origin&, const ros2::ObjectEnd&);
+  void on(const Origin&, const ros2::EndpointQosEvent&, const ros2::EndpointQos&);
 
   // The newest object with the handle, or kNoObject.
   ObjectId node(ProcessId process, ros2::Handle handle) const;
@@ -171,6 +175,7 @@ class ObjectModel {
   struct RmwEndpoint {
     ros2::Gid gid;
     ObjectId endpoint = kNoObject;  // kNoObject until an rcl object has the handle
+    std::optional<ros2::EndpointQos> qos = std::nullopt;
   };
   using RmwIndex = std::unordered_map<Key, RmwEndpoint, HashKey>;
 
@@ -178,6 +183,7 @@ class ObjectModel {
   RmwLookup find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) const;
   ProcessId earlier(ProcessId process) const { return process < earlier_.size() ? earlier_[process] : kNoProcess; }
   static void add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid);
+  static std::optional<ros2::EndpointQos> qos_of(const RmwIndex& index, const Key& key);
   // Whether the handle, and the rmw handle that `rmw` was looked up with, already belong to this very endpoint.
   bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
                    ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) const;

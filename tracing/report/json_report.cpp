@@ -108,6 +108,8 @@ Json subscription(const SubscriptionResult& result, const TraceOverview& overvie
           {"overwritten", result.overwritten},
           {"overwritten_in_buffer", result.overwritten_in_buffer},
           {"lost", result.lost},
+          {"lost_by_publisher", result.lost_by_publisher},
+          {"lost_in_transport", result.lost_in_transport},
           {"before_first", result.before_first},
           {"after_last", result.after_last},
           {"latency", durations(result.latency)},

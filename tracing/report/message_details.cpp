@@ -66,7 +66,9 @@ std::string delivery_section(const TraceResults& results) {
     };
     lost("pushed out of the full queue of the subscription", subscription.overwritten);
     lost("pushed out of the full buffer within the process", subscription.overwritten_in_buffer);
-    lost("lost on the way, or filtered", subscription.lost);
+    lost("pushed out of the full queue of the publisher", subscription.lost_by_publisher);
+    lost("lost in the network or in shared memory: not reliable", subscription.lost_in_transport);
+    lost("lost on the way, or filtered", subscription.lost_unplaced());
     lost("taken, but given to no callback", subscription.not_executed);
     lost("published before the first one that came", subscription.before_first);
     lost("published after the last one that came", subscription.after_last);

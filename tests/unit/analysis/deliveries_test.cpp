@@ -96,6 +96,61 @@ TEST_F(Deliveries, TellWhereMessagesGotLost) {
   EXPECT_EQ(subscription.dropped(), 4u);
 }
 
+// Message 2 gets lost although the queue of the subscription has room.
+class LostMessage : public Deliveries {
+ protected:
+  using Kind = ros2::EndpointQosEvent::Kind;
+  void has_qos(const ros2::EndpointQos& publisher, const ros2::EndpointQos& subscription) {
+    feed.in(71, 71).has_qos(Kind::kPublisher, 1, publisher);
+    feed.in(72, 72).has_qos(Kind::kSubscription, 2, subscription);
+  }
+  SubscriptionResult after_loss() {
+    for (const std::int64_t number : {1, 2, 3}) publish(100 * number, number);
+    receive(150, 1);
+    receive(350, 3);
+    return result();
+  }
+};
+
+TEST_F(LostMessage, OfReliableEndpointsWasPushedOutByThePublisher) {
+  has_qos({true, 10, false}, {true, 2, false});
+  const SubscriptionResult subscription = after_loss();
+  EXPECT_EQ(subscription.lost, 1u);
+  EXPECT_EQ(subscription.lost_by_publisher, 1u);
+  EXPECT_EQ(subscription.lost_in_transport, 0u);
+}
+
+TEST_F(LostMessage, OfABestEffortSideGotLostInTheTransport) {
+  has_qos({true, 10, false}, {false, 2, false});
+  const SubscriptionResult subscription = after_loss();
+  EXPECT_EQ(subscription.lost, 1u);
+  EXPECT_EQ(subscription.lost_by_publisher, 0u);
+  EXPECT_EQ(subscription.lost_in_transport, 1u);
+  EXPECT_EQ(subscription.dropped(), 1u);
+}
+
+TEST_F(LostMessage, MayBeFiltered) {
+  has_qos({true, 10, false}, {true, 2, true});
+  const SubscriptionResult subscription = after_loss();
+  EXPECT_EQ(subscription.lost, 1u);
+  EXPECT_EQ(subscription.lost_unplaced(), 1u);
+}
+
+TEST_F(LostMessage, IsNotPlacedIfOneSideIsUnknown) {
+  feed.in(72, 72).has_qos(Kind::kSubscription, 2, {true, 2, false});
+  EXPECT_EQ(after_loss().lost_unplaced(), 1u);
+}
+
+TEST_F(Deliveries, AreNotPushedOutOfAQueueThatKeepsAll) {
+  feed.in(72, 72).has_qos(ros2::EndpointQosEvent::Kind::kSubscription, 2, {true, 0, false});
+  for (const std::int64_t number : {1, 2, 3, 4, 5}) publish(100 + number, number);
+  receive(150, 1);
+  receive(160, 5);
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.overwritten, 0u);
+  EXPECT_EQ(subscription.lost, 3u);
+}
+
 TEST_F(Deliveries, GiveTheRateOfATopic) {
   for (int i = 0; i < 11; ++i) publish(1'000'000'000 + i * 100'000'000, i + 1);
   const Ros2Results results = feed.results();

@@ -40,6 +40,11 @@ class Feed {
     analysis_->on_end(origin_, {kind, handle});
     return *this;
   }
+  Feed& has_qos(ros2::EndpointQosEvent::Kind kind, ros2::Handle handle, const ros2::EndpointQos& qos) {
+    origin_.time_ns += 10;
+    analysis_->on_endpoint_qos(origin_, {kind, handle}, qos);
+    return *this;
+  }
   Feed& executes(ros2::ExecutionEvent::Kind kind, ros2::Handle handle) {
     origin_.time_ns += 10;
     analysis_->on_execution(origin_, {kind, handle});

@@ -106,6 +106,8 @@ int main(int argc, char** argv) {
   TRACETOOLS_TRACEPOINT(message_link_partial_sync, subs, 1, pubs, 0);
 
   TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, at(0x1), gid);
+  TRACETOOLS_EXT_TRACEPOINT(rmw_publisher_qos, at(0x1), true, 10, false);
+  TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_qos, at(0x1), false, 0, true, true);
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_start, at(0x1), 3);
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_end, at(0x1), 3);
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_service, at(0x1));

@@ -48,6 +48,8 @@ const Lines kInitEvents = {
     R"(ros2:message_link_periodic_async: { _subs_length = 2, subs = [ [0] = 0x51, [1] = 0x52 ], _pubs_length = 1, pubs = [ [0] = 0x61 ] })",
     R"(ros2:message_link_partial_sync: { _subs_length = 1, subs = [ [0] = 0x51 ], _pubs_length = 0, pubs = [ ] })",
     R"(ros2_ext:rmw_service_init: { rmw_service_handle = 0x1, gid = GID })",
+    R"(ros2_ext:rmw_publisher_qos: { rmw_publisher_handle = 0x1, reliable = 1, history_depth = 10, transient_local = 0 })",
+    R"(ros2_ext:rmw_subscription_qos: { rmw_subscription_handle = 0x1, reliable = 0, history_depth = 0, transient_local = 1, is_filtered = 1 })",
 };
 constexpr const char* kGid =
     "[ [0] = 1, [1] = 2, [2] = 3, [3] = 4, [4] = 5, [5] = 6, [6] = 7, [7] = 8, [8] = 9, [9] = 10, [10] = 11, [11] = "

@@ -42,6 +42,7 @@ void replace_reader(Subscription& subscription, eprosima::fastdds::dds::ContentF
     rmw_fastrtps::delete_filtered_topic(*old_filtered_topic);
   }
   subscription.handle.is_cft_enabled = filtered_topic != nullptr;
+  rmw_fastrtps::trace_qos(subscription);
 }
 
 void add_or_remove_filter(Subscription& subscription, const ContentFilter& filter) {

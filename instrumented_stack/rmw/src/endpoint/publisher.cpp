@@ -17,6 +17,7 @@
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
 #include "qos/qos.hpp"
+#include "qos/traced_qos.hpp"
 #include "rmw/error_handling.h"
 #include "tracetools/tracetools.h"
 #include "types/dds_gid.hpp"
@@ -107,6 +108,9 @@ rmw_publisher_t* create_publisher(Participant& participant, const rosidl_message
   publisher->handle = {kIdentifier, publisher.get(), publisher->topic_name.c_str(), options, is_plain(callbacks)};
   TRACETOOLS_TRACEPOINT(rmw_publisher_init, static_cast<const void*>(&publisher->handle),
                         publisher->identity.gid.data());
+  const TracedQos traced(publisher->identity.names.qos);
+  TRACETOOLS_EXT_TRACEPOINT(rmw_publisher_qos, static_cast<const void*>(&publisher->handle), traced.reliable,
+                            traced.history_depth, traced.transient_local);
   return &publisher.release()->handle;
 }
 

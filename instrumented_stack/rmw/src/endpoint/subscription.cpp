@@ -15,6 +15,7 @@
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
 #include "qos/qos.hpp"
+#include "qos/traced_qos.hpp"
 #include "rmw/error_handling.h"
 #include "tracetools/tracetools.h"
 #include "types/dds_gid.hpp"
@@ -131,6 +132,12 @@ void create_reader(Subscription& subscription) {
        profile_of(subscription.reader->get_qos()), subscription.incompatible_type(), subscription.type->type_hash_}};
 }
 
+void trace_qos(const Subscription& subscription) {
+  const TracedQos traced(subscription.identity.names.qos);
+  TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_qos, static_cast<const void*>(&subscription.handle), traced.reliable,
+                            traced.history_depth, traced.transient_local, subscription.filtered_topic != nullptr);
+}
+
 rmw_subscription_t* create_subscription(Participant& participant, const rosidl_message_type_support_t& type_support,
                                         const std::string& topic_name, const rmw_qos_profile_t& profile,
                                         const rmw_subscription_options_t& options) {
@@ -160,6 +167,7 @@ rmw_subscription_t* create_subscription(Participant& participant, const rosidl_m
       is_plain(callbacks), subscription->filtered_topic != nullptr};
   TRACETOOLS_TRACEPOINT(rmw_subscription_init, static_cast<const void*>(&subscription->handle),
                         subscription->identity.gid.data());
+  trace_qos(*subscription);
   return &subscription.release()->handle;
 }
 

@@ -75,4 +75,7 @@ inline Subscription& subscription_of(const rmw_subscription_t& handle) {
 // Creates the reader on the topic, or on the filtered topic, and its identity for the graph. Throws std::runtime_error.
 void create_reader(Subscription& subscription);
 
+// Fires ros2_ext:rmw_subscription_qos. To be called when the subscription has its reader, and again for another reader.
+void trace_qos(const Subscription& subscription);
+
 }  // namespace rmw_fastrtps

@@ -151,6 +151,15 @@
   /* A service of the middleware. The gid is that of its request reader. */ \
   EVENT(given, rmw_service_init, RmwServiceInit, init, (pointer, rmw_service_handle), (gid, gid)) \
   \
+  /* The quality of service that a publisher or a subscription really has, after rmw_*_init. history_depth is 0 if the */ \
+  /* endpoint keeps all messages. A subscription has is_filtered set if it has a content filter. The event of a */ \
+  /* subscription comes again when its filter is set or removed. */ \
+  EVENT(given, rmw_publisher_qos, RmwPublisherQos, init, \
+    (pointer, rmw_publisher_handle), (boolean, reliable), (uint64, history_depth), (boolean, transient_local)) \
+  EVENT(given, rmw_subscription_qos, RmwSubscriptionQos, init, \
+    (pointer, rmw_subscription_handle), (boolean, reliable), (uint64, history_depth), (boolean, transient_local), \
+    (boolean, is_filtered)) \
+  \
   /* Before and after a client handles a response: it runs a callback, or makes a future ready. */ \
   EVENT(given, rclcpp_client_callback_start, RclcppClientCallbackStart, services, \
     (pointer, client_handle), (int64, sequence_number)) \
