@@ -177,6 +177,8 @@ void print(const Measured& measured, int count, int runs) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A shell has its background commands ignore SIGINT, which ends the processes here.
+  signal(SIGINT, SIG_DFL);
   const int runs = argc > 1 ? std::max(1, std::atoi(argv[1])) : kDefaultRuns;
   std::vector<int> counts;
   for (int i = 2; i < argc; ++i) {
