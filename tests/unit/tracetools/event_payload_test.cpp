@@ -82,8 +82,8 @@ rcl_lifecycle_state_machine_fini: state_machine ptr 0x1
 rclcpp_ipb_fini: ipb ptr 0x1
 rclcpp_ring_buffer_fini: buffer ptr 0x1
 rmw_service_init: rmw_service_handle ptr 0x1, gid gid [ 1 2 3 4 5 6 7 8 9 10 11 12 0 0 30 255 ]
-rmw_publisher_qos: rmw_publisher_handle ptr 0x1, reliable i32 1, history_depth u64 10, transient_local i32 0
-rmw_subscription_qos: rmw_subscription_handle ptr 0x1, reliable i32 0, history_depth u64 0, transient_local i32 1, is_filtered i32 1
+rmw_publisher_qos: rmw_publisher_handle ptr 0x1, reliable bool 1, history_depth u64 10, transient_local bool 0
+rmw_subscription_qos: rmw_subscription_handle ptr 0x1, reliable bool 0, history_depth u64 0, transient_local bool 1, is_filtered bool 1
 rclcpp_client_callback_start: client_handle ptr 0x1, sequence_number i64 3
 rclcpp_client_callback_end: client_handle ptr 0x1, sequence_number i64 3
 rclcpp_executor_execute_service: service_handle ptr 0x1
