@@ -149,7 +149,7 @@ inline Report busy_report() {
   subscription.not_executed = 2;
   subscription.overwritten = 30;
   subscription.lost = 8;
-  subscription.lost_by_publisher = 5;
+  subscription.lost_by_publisher = 8;
   subscription.latency = took(2'000, 200'000, 3 * kMs, 5 * kMs);
   subscription.executor = took(2'000, 100'000, 2 * kMs, 4 * kMs);
   ros2.subscriptions = {subscription};

@@ -78,7 +78,7 @@ TEST(JsonReport, HoldsWaysChainsExecutorsAndStates) {
       "p50_ns":10000000,"p999_ns":0,"max_ns":120000000},"interval":{"count":0}})json");
   EXPECT_HOLDS(json["subscriptions"][0], R"json({"vpid":72,"process":1,"node":"/often","topic":"/scan",
       "queue_depth":0,"received":2002,"intra_process":0,"delivered":2000,"not_executed":2,"overwritten":30,
-      "overwritten_in_buffer":0,"lost":8,"lost_by_publisher":5,"lost_in_transport":0,"before_first":0,"after_last":0,"latency":{"p99_ns":3000000},
+      "overwritten_in_buffer":0,"lost":8,"lost_by_publisher":8,"lost_in_transport":0,"before_first":0,"after_last":0,"latency":{"p99_ns":3000000},
       "rclcpp":{"count":0},"rcl":{"count":0},"transport":{"count":0},"executor":{"p99_ns":2000000},
       "take":{"count":0},"doubtful":false})json");
   EXPECT_HOLDS(json["executors"][0], R"json({"vpid":71,"process":0,"vtid":71,"span_ns":2000000000,"callbacks":20,
