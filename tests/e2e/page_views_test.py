@@ -66,6 +66,8 @@ class Views(page_case.PageTest):
         self.browser.click('.chain .head button')
         self.browser.wait_for('page.shown === "time" && selection.instance !== null')
         self.assertIn('/display · /points', self.text('.details'))
+        shown = self.browser.evaluate('timeChartOptions.view.end - timeChartOptions.view.begin')
+        self.assertTrue(4.45e6 < shown < 5e6, shown)  # the whole run of 4.45 ms
 
 
 class Tables(page_case.PageTest):

@@ -67,11 +67,13 @@ function callbackPlots(data, row) {
   return section;
 }
 
-// Opens the time chart at an instance, with twenty times its duration around it.
-function showInTime(data, instance) {
+// Opens the time chart at an instance. With the time at which something began that ends with it, all of that is shown,
+// otherwise twenty times its duration around it.
+function showInTime(data, instance, since = null) {
   const {start, end} = data.instances;
-  const span = Math.max(1e5, (end[instance] - start[instance]) * 20);
-  const from = Math.max(0, Math.min(start[instance] - span / 3, data.duration - span));
+  const whole = end[instance] - (since ?? start[instance]);
+  const span = Math.max(1e5, whole * (since === null ? 20 : 1.1));
+  const from = Math.max(0, Math.min((since ?? start[instance]) - (since === null ? span / 3 : whole * 0.05), data.duration - span));
   timeChartOptions.view = {begin: from, end: Math.min(from + span, Math.max(1, data.duration)), top: 0};
   select({instance});
   showView('time');

@@ -73,7 +73,7 @@ function chainBar(data, chain, longest) {
       element('span', {}, `${plural(chain.steps.length, 'callback')}, ${plural(chain.response.count, 'run')}${chain.doubtful ? ' (events were lost)' : ''}`),
       element('span', {}, times('response', chain.response)),
       chain.budget === null ? null : element('span', {class: chain.over_budget > 0 ? 'bad' : 'good'}, `${formatCount(chain.over_budget)} over the budget of ${formatDuration(chain.budget)}`),
-      element('button', {disabled: slowest < 0, onclick: () => showInTime(data, slowest)}, 'longest run')),
+      element('button', {disabled: slowest < 0, onclick: () => showInTime(data, slowest, chain.longest_end - chain.response.max)}, 'longest run')),
     element('div', {class: 'hops', role: 'img', 'aria-label': label, style: `width: ${Math.max(2, 100 * timeOf(hops) / longest)}%`},
       ...hops.map(hop => element('div', {title: `${hop.name}\n${formatDuration(hop.mean)}`,
         style: `flex: ${Math.max(hop.mean, 1)} 1 0; background: ${hopColor(hop.kind)}`},
