@@ -14,6 +14,7 @@
 
 #include <cerrno>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -141,6 +142,7 @@ class PosixProcessRunner final : public ProcessRunner {
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
+  std::vector<bool> groups_live(const std::vector<const Process*>& leaders) override;
   std::vector<StoppedChild> take_stopped() override;
   bool in_foreground() const override { return ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
   ProcessExit outcome(const Process& process) override { return wait(process, WNOWAIT); }
@@ -284,6 +286,20 @@ bool PosixProcessRunner::signal_fellows(const Process& process, int signal) {
     }
   }
   return sent || !refused;
+}
+
+std::vector<bool> PosixProcessRunner::groups_live(const std::vector<const Process*>& leaders) {
+  std::set<pid_t> groups;
+  for (const FoundProcess& process : all_processes()) {
+    if (!process.is_dead()) {
+      groups.insert(process.group);
+    }
+  }
+  std::vector<bool> live;
+  for (const Process* const leader : leaders) {
+    live.push_back(leader->has_terminal ? fellows_in_our_group(*leader).size() > 1 : groups.contains(leader->pid));
+  }
+  return live;
 }
 
 std::vector<StoppedChild> PosixProcessRunner::take_stopped() {

@@ -38,6 +38,10 @@ class ProcessRunner {
   // before; nullopt when the system refuses.
   virtual std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) = 0;
 
+  // For each of these processes, which have exited and are not reaped: whether another process of its group has not
+  // ended. Takes one look at all processes of the machine.
+  virtual std::vector<bool> groups_live(const std::vector<const Process*>& leaders) = 0;
+
   // The children that have been stopped since the last call.
   virtual std::vector<StoppedChild> take_stopped() = 0;
 

@@ -6,7 +6,8 @@
 //
 // A process is supervised together with its group, so descendants count too unless they leave the group:
 // - Signals go to the group. When a process that was signalled exits before its descendants have closed its output,
-//   they have the rest of the timeouts, as if it still ran; ProcessDone waits for them, ProcessExited does not.
+//   they have the rest of the timeouts, as if it still ran; ProcessDone waits for them, ProcessExited does not. It does
+//   not wait for those that have left the group: their output is shown, and the guardian ends them after the launcher.
 // - When a process exits on its own, ProcessDone follows at once. Descendants that hold its output open go on, and
 //   their output is shown; they get SIGINT at shutdown and SIGKILL when the supervisor is destroyed. A respawn kills
 //   them first.

@@ -32,7 +32,8 @@ enum class SupervisionEvent {
   kKill,
   kStop,
   kRestart,
-  kTerminalSignal
+  kTerminalSignal,
+  kGroupEnded
 };
 
 // What was asked for during a run. At the end of the run it counts before the respawn policy.
@@ -76,7 +77,7 @@ struct Supervised {
 struct Supervision {
   using Event = SupervisionEvent;
   using Request = SupervisionRequest;
-  static constexpr std::size_t kEvents = 11;
+  static constexpr std::size_t kEvents = 12;
   static constexpr std::size_t kStates = 7;
   using Handler = void (Supervision::*)(Supervised&);
   struct Pending {
@@ -107,6 +108,7 @@ struct Supervision {
   void end_unasked(Supervised& process);
   void end_signalled(Supervised& process);
   void remains_ended(Supervised& process);
+  void leave_remains(Supervised& process);
   void release_remains(Supervised& process);
   void interrupt_remains(Supervised& process);
   void kill_remains(Supervised& process);
@@ -126,6 +128,8 @@ struct Supervision {
   void send(Supervised& process, int signal, int escalated_from, Duration waited);
   void start_timer(Supervised& process, Duration delay);
   void reap_after_kill(Supervised& process);
+  void watch_groups();
+  void look_at_groups();
   // To be called after a change of the two observers of lines.
   void observe_lines();
   void tell_of_stopped();
@@ -147,6 +151,7 @@ struct Supervision {
   GeneratedFiles files;
   Guardian* guardian = nullptr;
   EventLoop::SourcePtr state_changes;  // of children
+  EventLoop::SourcePtr next_look_at_groups;
   EventLoop::SourcePtr look_at_stopped;
   EventLoop::SourcePtr look_at_foreground;
 };

@@ -213,6 +213,43 @@ TEST_F(Supervision, DescendantsDontSurvive) {
   wait_until_all_have_gone();
 }
 
+// The launcher can't reach a daemon through its group, and must not wait for it until all timeouts are over.
+TEST_F(Supervision, ADaemonThatHoldsTheOutputIsEndedAsSoonAsTheRestHasEnded) {
+  const std::string file = write(R"xml(
+    <executable name="parent" shell="true" output="screen" sigterm_timeout="1000" sigkill_timeout="1000"
+                cmd="setsid -f sh -c 'trap &quot;echo cleaned up; exit&quot; INT; echo ready; while :; do sleep 0.05; done'; exec sleep 1000"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[parent-1] ready")) << run.out() << run.err();
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex("\\[WARNING\\] \\[launch\\]: parent-1 left [12] process(es)? running: .*; "
+                                     "ending (it|them)\n\\[parent-1\\] cleaned up\n"));
+  wait_until_all_have_gone();
+}
+
+TEST_F(Supervision, ADaemonThatIgnoresSignalsHasItsTimeoutsAndTheScreenSaysSo) {
+  const std::string file = write(R"xml(
+    <executable name="parent" shell="true" output="screen" sigterm_timeout="0.2" sigkill_timeout="0.3"
+                cmd="setsid -f python3 -c 'import signal, time; [signal.signal(n, signal.SIG_IGN) for n in (2, 15)];
+                     print(&quot;ready&quot;, flush=True); time.sleep(1000)'; exec sleep 1000"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[parent-1] ready")) << run.out() << run.err();
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex(
+                  "\\[WARNING\\] \\[launch\\]: parent-1 left 1 process running: python3 \\([0-9]+\\); ending it\n"
+                  "\\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGINT, sending SIGTERM: python3 "
+                  "\\([0-9]+\\)\n"
+                  "\\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGTERM, sending SIGKILL: python3 "
+                  "\\([0-9]+\\)\n"));
+  wait_until_all_have_gone();
+}
+
 TEST_F(Supervision, NothingSurvivesWhenTheLauncherIsKilled) {
   const std::string file = write(R"xml(
     <executable name="parent" shell="true" output="screen" cmd="echo ready; (read x) &amp; read x"/>)xml");

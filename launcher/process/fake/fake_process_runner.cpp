@@ -38,6 +38,7 @@ struct FakeProcessRunner::Running {
   ProcessExit exit;
   std::vector<EventLoop::SourcePtr> timers;
   EventLoop::SourcePtr descendants;
+  bool left = false;  // the descendants have left the group
 
   void close_output() {
     out.reset();
@@ -133,7 +134,9 @@ bool FakeProcessRunner::signal_group(const Process& process, int signal) {
     return true;
   }
   if (running.dead) {
-    running.close_output();
+    if (!running.left) {
+      running.close_output();
+    }
     return true;
   }
   const int code = signal == SIGKILL ? -SIGKILL : running.script.exit_code_on_signal.value_or(-signal);
@@ -160,6 +163,10 @@ void FakeProcessRunner::exit(Running& process, int code) {
       process.out.reset();
       process.err.reset();
     });
+    if (process.script.descendants_leave_after) {
+      process.timers.push_back(
+          loop_.after(*process.script.descendants_leave_after, [&process] { process.left = true; }));
+    }
   } else {
     process.close_output();
   }
@@ -175,6 +182,18 @@ std::optional<std::uint64_t> FakeProcessRunner::limit(const Process& process, in
   }
   limits_.push_back({process.pid, resource, soft, loop_.now()});
   return before;
+}
+
+std::vector<bool> FakeProcessRunner::groups_live(const std::vector<const Process*>& leaders) {
+  std::vector<bool> live;
+  for (const Process* const leader : leaders) {
+    const Running& running = find(*leader);
+    if (!running.dead) {
+      throw std::logic_error("the group of a fake process was looked at before its exit");
+    }
+    live.push_back((running.out || running.err) && !running.left);
+  }
+  return live;
 }
 
 ProcessExit FakeProcessRunner::outcome(const Process& process) {

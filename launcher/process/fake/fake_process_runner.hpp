@@ -30,6 +30,8 @@ struct FakeScript {
   std::vector<Output> output{};
   // Descendants hold its output open after its exit, for this long or until SIGKILL. They ignore `ignores` as well.
   std::optional<Duration> descendants_for{};
+  // They leave the group so long after the exit, and get no signals from then on.
+  std::optional<Duration> descendants_leave_after{};
   std::optional<int> spawn_error{};  // errno of a start that fails
   bool refuses_signals = false;      // it belongs to another user
   bool lacks_terminal = false;       // the launcher has none, although the spec asks for it
@@ -69,6 +71,7 @@ class FakeProcessRunner final : public ProcessRunner {
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
+  std::vector<bool> groups_live(const std::vector<const Process*>& leaders) override;
   std::vector<StoppedChild> take_stopped() override { return std::exchange(stopped_, {}); }
   bool in_foreground() const override { return foreground_; }
   ProcessExit outcome(const Process& process) override;

@@ -46,6 +46,11 @@ std::string count_of(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " process" : " processes");
 }
 
+// Of those that this file sends.
+const char* name_of(int signal) {
+  return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGKILL";
+}
+
 // A process that has been forked and not replaced by its program yet.
 bool holds(pid_t pid, int descriptor) {
   struct stat ours {};
@@ -171,6 +176,7 @@ GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& 
   const Clock::time_point now = Clock::now();
   Clock::time_point next = now + kBetweenLooks;
   bool kills_all = !leaves_some_;
+  std::map<std::pair<int, int>, std::vector<const FoundProcess*>> escalated;  // the signal before and the new one
   for (const FoundProcess& process : found) {
     Ending& ending = ending_of(process);
     const Clock::time_point terminate = begin_ + milliseconds(ending.mark.sigterm_timeout);
@@ -183,7 +189,8 @@ GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& 
       next = std::min(next, due == SIGTERM ? kill : terminate);
     }
     if (ending.sent != due) {
-      const bool is_new = std::exchange(ending.sent, due) == 0;
+      const int before = std::exchange(ending.sent, due);
+      const bool is_new = before == 0;
       ending.sent_at = now;
       const Clock::time_point asked = due == SIGINT ? begin_
                                       : steps_ >= 1 ? std::min(last_step_, terminate)
@@ -191,10 +198,17 @@ GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& 
       if (due == SIGKILL || first_ || !is_new || process.started < tick_of(asked)) {
         ending.refused = !send(process, due);
       }
+      if (!is_new && !ending.refused) {
+        escalated[{before, due}].push_back(&process);
+      }
     }
   }
   if (kills_all) {
     members_.cgroup.kill();
+  }
+  for (const auto& [signals, processes] : escalated) {
+    log_.say("WARNING", count_of(processes.size()) + (processes.size() == 1 ? " has" : " have") + " not ended after " +
+                            name_of(signals.first) + ", sending " + name_of(signals.second) + ": " + list(processes));
   }
   first_ = false;
   return next;

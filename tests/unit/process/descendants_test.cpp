@@ -50,6 +50,44 @@ TEST_F(Descendants, HaveTheRestOfTheTimeWhenAnInterruptedProcessExitsBeforeThem)
   EXPECT_EQ(runner.unreaped(), 0U);
 }
 
+TEST_F(Descendants, ThatHaveLeftTheGroupAreNotWaitedFor) {
+  runner.script("a", {{.ignores = {SIGTERM},
+                       .output = {{.at = 3s, .text = "of a daemon\n"}},
+                       .descendants_for = 100s,
+                       .descendants_leave_after = 0s}});
+  supervisor->start(spec("a"));
+  supervisor->shutdown();
+  loop.advance(5s);
+  EXPECT_EQ(lines, (Lines{"0.0 a-1 started", "0.0 a-1 SIGINT", "0.0 a-1 exited -2, expected", "0.1 a-1 done"}));
+  EXPECT_EQ(screen.text(), "[a-1] of a daemon\n") << "its output is shown as long as the launcher runs";
+  EXPECT_EQ(supervisor->active(), 0U);
+  supervisor.reset();
+  EXPECT_EQ(runner.unreaped(), 0U);
+}
+
+TEST_F(Descendants, AreWaitedForUntilTheyLeaveTheGroup) {
+  runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 100s, .descendants_leave_after = 6s}});
+  runner.script("b", {{.ignores = {SIGTERM}, .descendants_for = 7s}});
+  supervisor->start(spec("a"));
+  supervisor->start(spec("b"));
+  supervisor->shutdown();
+  loop.advance(4s);
+  take_lines();
+  loop.advance(60s);
+  EXPECT_EQ(lines, (Lines{"5.0 a-1 SIGTERM after SIGINT and 5 s", "5.0 b-2 SIGTERM after SIGINT and 5 s",
+                          "6.1 a-1 done", "7.0 b-2 done"}));
+}
+
+TEST_F(Descendants, ThatHaveLeftTheGroupDoNotDelayARestart) {
+  runner.script("a", {{.descendants_for = 100s, .descendants_leave_after = 0s}, {}});
+  const ProcessId id = supervisor->start(spec("a"));
+  supervisor->restart(id);
+  loop.advance(1s);
+  EXPECT_EQ(lines,
+            (Lines{"0.0 a-1 started", "0.0 a-1 SIGINT", "0.0 a-1 exited -2, expected, again", "0.1 a-1 started"}));
+  EXPECT_EQ(runner.unreaped(), 1U) << "only the new run";
+}
+
 TEST_F(Descendants, GetTimeToEndAndThenSigkill) {
   runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 100s}});
   supervisor->start(spec("a"));

@@ -221,7 +221,10 @@ TEST_F(GuardianTest, TellsOfWhatALauncherLeavesAtItsOrdinaryEnd) {
   start({"--timeouts", "100", "100", "--log", log, "--exit", "0", kDaemon + "exec sleep 1000"}, 1);
   EXPECT_EQ(end(), 0);
   EXPECT_THAT(read_file(log), MatchesRegex("[0-9.]+ \\[WARNING\\] \\[launch\\]: shell-1 left 2 processes running: "
-                                           "(sh|sleep) \\([0-9]+\\), (sh|sleep) \\([0-9]+\\); ending them\n"));
+                                           "(sh|sleep) \\([0-9]+\\), (sh|sleep) \\([0-9]+\\); ending them\n"
+                                           "[0-9.]+ \\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGINT, "
+                                           "sending SIGTERM: sleep \\([0-9]+\\)\n"))
+      << "a shell lets what it starts in the background ignore SIGINT";
   expect_nothing_left();
 }
 

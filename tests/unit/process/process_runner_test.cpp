@@ -84,6 +84,22 @@ TEST_F(Runner, ReportsADeathBySignalAsANegativeCode) {
   EXPECT_EQ(wait(runner->spawn(script("kill -SEGV $$"))).code, -SIGSEGV);
 }
 
+TEST_F(Runner, TellsWhetherAGroupLivesWhoseLeaderHasExited) {
+  const Process with_child = runner->spawn(script("sleep 1000 & echo $!"));
+  const pid_t child = std::stoi(read_line(with_child.out.get()));
+  // Its first line comes when it has left.
+  const Process with_daemon = runner->spawn(script("setsid -f sh -c 'echo $$; exec sleep 1000'"));
+  const pid_t daemon = std::stoi(read_line(with_daemon.out.get()));
+  ASSERT_TRUE(wait_for(with_child.pidfd.get()) && wait_for(with_daemon.pidfd.get()));
+  EXPECT_EQ(runner->groups_live({&with_daemon, &with_child}), (std::vector<bool>{false, true}));
+  ::kill(daemon, SIGKILL);
+  ::kill(child, SIGKILL);
+  EXPECT_EQ(read_to_end(with_child.out.get()), "") << "the end of the child closes the pipe";
+  EXPECT_EQ(runner->groups_live({&with_child}), (std::vector<bool>{false}));
+  EXPECT_EQ(wait(with_child).code, 0);
+  EXPECT_EQ(wait(with_daemon).code, 0);
+}
+
 TEST_F(Runner, ReportsResourceUsage) {
   EXPECT_GT(wait(runner->spawn(script("exit 0"))).usage.ru_maxrss, 0);
 }
