@@ -29,7 +29,10 @@ namespace launch {
 namespace {
 
 constexpr const char* kSharedMemory = "/dev/shm";
-constexpr std::string_view kWaitFile = "lttng-ust-wait-";  // of LTTng's session daemon, in /dev/shm
+// In /dev/shm: memory with which LTTng's session daemon wakes the traced programs that have started before it. The
+// daemon of root uses the first name, those of users add their numbers. 8 is a version of their interface.
+constexpr std::string_view kWaitFile = "lttng-ust-wait-";
+constexpr const char* kWaitFileOfRoot = "lttng-ust-wait-8";
 
 // Descriptors of a launcher that has just started have smaller numbers than this, and those of launch-exec, too.
 constexpr int kFirstFile = 16;
@@ -143,7 +146,7 @@ class Maker {
     }
     check("mount /dev/shm", ::mount("tmpfs", kSharedMemory, "tmpfs", MS_NOSUID | MS_NODEV, "mode=1777"));
     for (const auto& [path, file] : kept) {
-      // Processes that LTTng does not wake are traced all the same if the session daemon runs before them.
+      // Processes that LTTng does not wake are traced all the same if a session daemon runs before them.
       const UniqueFd point(::open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0600));
       const std::string source = fmt::format("/proc/self/fd/{}", file.get());
       static_cast<void>(!::mount(source.c_str(), path.c_str(), nullptr, MS_BIND, nullptr));
@@ -165,6 +168,22 @@ class Maker {
   int reports_;
   std::optional<unsigned> host_;
 };
+
+// As a traced program makes the file that is missing when it starts: the session daemon will open it. Inside, a file
+// that is made later would be another one than that of the daemon.
+void make_wait_file(const std::string& name, mode_t mode) {
+  const std::string path = fmt::format("{}/{}", kSharedMemory, name);
+  const UniqueFd file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
+  if (file) {
+    static_cast<void>(::fchmod(file.get(), mode));  // whatever the umask says
+    static_cast<void>(!::ftruncate(file.get(), ::sysconf(_SC_PAGESIZE)));
+  }
+}
+
+void make_wait_files() {
+  make_wait_file(kWaitFileOfRoot, 0644);
+  make_wait_file(fmt::format("{}-{}", kWaitFileOfRoot, ::getuid()), 0640);
+}
 
 // Throws std::system_error.
 std::vector<UniqueFd> open_namespaces(pid_t process, bool user) {
@@ -222,6 +241,7 @@ std::vector<UniqueFd> make_namespaces(bool user, std::optional<unsigned> host, U
 }
 
 std::vector<UniqueFd> make_namespaces(std::optional<unsigned> host, UniqueFd& device) {
+  make_wait_files();
   try {
     return make_namespaces(false, host, device);
   } catch (const std::system_error&) {

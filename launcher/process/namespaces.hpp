@@ -15,7 +15,7 @@
 namespace launch {
 
 // lo is the only network, unless they are those of a host; multicast works on it. /dev/shm is empty, but for the files
-// by which LTTng's session daemon wakes the processes that wait for it. All other files are those of the machine. The
+// by which LTTng's session daemon wakes the processes that wait for it; they are made if there are none yet. All other files are those of the machine. The
 // namespaces exist as long as this object or a process inside.
 class Namespaces {
  public:

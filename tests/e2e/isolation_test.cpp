@@ -237,6 +237,25 @@ TEST_P(Namespaces, AreTraced) {
   EXPECT_THAT(events.out, ContainsRegex("ros2:callback_start")) << events.out << events.err;
 }
 
+// No session daemon has run since the machine was started, so the files do not exist by which it wakes programs.
+TEST_P(Namespaces, LetASessionDaemonThatStartsLaterWakeTheirProcesses) {
+  const std::string file = write("early.launch.xml", R"xml(<node pkg="demo_nodes" exec="listener"/>
+    <node pkg="demo_nodes" exec="talker" output="screen"/>)xml");
+  ASSERT_FALSE(fs::exists("/dev/shm/lttng-ust-wait-8") && ::geteuid() == 0);
+  RunningCommand run(launch({"--isolate", file}, prefix()));
+  ASSERT_TRUE(run.wait_for_output("Hello World", kPatience)) << run.out() << run.err();
+  ASSERT_EQ(run_command({"lttng", "create", "later"}).exit_code, 0);
+  std::string registered;
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  do {
+    registered = run_command({"lttng", "list", "--userspace"}).out;
+  } while ((registered.find("/talker") == std::string::npos || registered.find("/listener") == std::string::npos) &&
+           std::chrono::steady_clock::now() < deadline);
+  EXPECT_THAT(registered, AllOf(HasSubstr("/talker"), HasSubstr("/listener")));
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0) << run.out() << run.err();
+}
+
 TEST_P(Namespaces, HoldTheComponentsThatAreLoadedThere) {
   const std::string file = write("components.launch.xml", R"xml(
     <node_container pkg="rclcpp_components" exec="component_container" name="container" namespace="">
