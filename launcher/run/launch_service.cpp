@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "launcher/base/monotonic_clock.hpp"
-#include "launcher/base/name_list.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/visit/farewell_check.hpp"
 
@@ -46,7 +45,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                   },
                   [this](const TrackedProcess& process) {
                     ros_tasks_.on_skipped(process.names);
-                    faults_.on_skipped(process);
+                    test_.on_skipped(process);
                   },
                   [this](const std::string& process, const Dependency& dependency) {
                     record({.kind = LaunchRecord::Kind::kReady,
@@ -55,8 +54,8 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                             .where = dependency.where,
                             .time = monotonic_time()});
                   }}),
-      faults_(loop, supervisor, processes_,
-              [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }),
+      test_(loop, supervisor, processes_,
+            [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }),
       steering_(supervisor, processes_,
                 {[this] { return phase_ != Phase::kRunning; }, [this] { post_check(); },
                  [this](const std::string& reason) {
@@ -76,7 +75,9 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
           context, loop, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); }),
       farewell_(loop,
                 {[this](const Invocation& invocation) { visit_farewell(invocation); }, [this] { stop_processes(); },
-                 [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}) {
+                 [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}),
+      hurry_(loop, supervisor, scopes_, crashes_, farewell_,
+             [this](LogLevel level, const std::string& text) { context_.message(level, "launch", text); }) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
   scopes_.observe_snapshots(
       [this](const std::vector<std::string>& reasons, const std::string& directory,
@@ -135,48 +136,11 @@ void LaunchService::on_interrupt(const std::string& name) {
 
 void LaunchService::on_interrupt_again(int number, const std::string& name) {
   outcome_.on_hurry(number);
-  const auto say = [&](const std::string& text) {
-    context_.message(LogLevel::kWarning, "launch", fmt::format("user interrupted with {} again, {}", name, text));
-  };
   timers_.clear();
   coroutines_.abandon();
   ros_tasks_.shutdown();
-  if (phase_ == Phase::kFarewell) {
-    say("ending the actions of on_shutdown");
-    farewell_.end();
-  } else if (const std::vector<std::string> left = supervisor_.alive(); left.empty()) {
-    say("ending at once");
-    scopes_.hurry();
-    crashes_.hurry();
-    watch_hurry();
-  } else if (!std::exchange(terminated_, true)) {
-    const Duration until_kill = supervisor_.terminate_all();
-    say(fmt::format("sent SIGTERM to {}; SIGKILL follows in {:g} s, or with a third signal", list_some(left),
-                    std::chrono::duration<double>(until_kill).count()));
-  } else {
-    say("killing " + list_some(left));
-    supervisor_.kill_all();
-    scopes_.hurry();
-    crashes_.hurry();
-    watch_hurry();
-  }
+  hurry_.on_signal(name, phase_ == Phase::kFarewell);
   check_finished();
-}
-
-void LaunchService::watch_hurry() {
-  if (!give_up_ || give_up_timer_) {
-    return;
-  }
-  give_up_timer_ = loop_.after(kPatienceInAHurry, [this] {
-    give_up_timer_.reset();
-    if (const std::string scope = scopes_.busy_with(); !scope.empty() && supervisor_.alive().empty()) {
-      context_.message(LogLevel::kError, "launch",
-                       fmt::format("{} does not answer: giving up, launch-guardian cleans up", scope));
-      give_up_();
-    } else {
-      watch_hurry();
-    }
-  });
 }
 
 void LaunchService::suspend() {
@@ -198,7 +162,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   outcome_.on_process_event(event);
   crashes_.on_process_event(event);
   processes_.on_event(event);
-  faults_.on_event(event);
+  test_.on_event(event);
   steering_.on_event(event);
   handlers_.on_event(event);
   on_end_of_required(event);
@@ -291,13 +255,7 @@ void LaunchService::start(Round round) {
                                    to_string(request.where)));
     }
   }
-  for (TestRequest& test : requests.tests) {
-    std::vector<FaultRequest> faults = test.faults;
-    if (begin_test_) {
-      begin_test_(std::move(test));
-    }
-    faults_.start(std::move(faults), context_.scope().log_directory);
-  }
+  test_.begin(std::move(requests.tests), context_.scope().log_directory);
   for (EventHandler& handler : requests.handlers) {
     handlers_.add(std::move(handler), context_.ros_client());
   }
@@ -324,29 +282,22 @@ void LaunchService::start(Round round) {
 }
 
 void LaunchService::observe_output() {
-  if (!handlers_.watch_output() && !processes_.watch_output() && !faults_.watch_output() && !crashes_.watch_output() &&
-      !test_line_) {
+  if (!handlers_.watch_output() && !processes_.watch_output() && !crashes_.watch_output() && !test_.watch_output()) {
     return;
   }
   supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
                                     OutputStream stream, std::string_view line) {
     processes_.on_line(id, stream, line);
-    faults_.on_line(id, stream, line);
     handlers_.on_line(spec, label, stream, line);
     crashes_.on_line(spec, id, line);
-    if (test_line_) {
-      test_line_(spec, label, stream, line);
-    }
+    test_.on_line(spec, id, label, stream, line);
   });
 }
 
 void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
   scopes_.prepare(spec);
-  if (prepare_for_test_) {
-    prepare_for_test_(spec);
-  }
+  test_.prepare(spec, id);
   ros_tasks_.name_process(id, spec.other_names);
-  faults_.prepare(spec, id);
   record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
 }
 
@@ -361,13 +312,10 @@ void LaunchService::fail(const LaunchError& error) {
 void LaunchService::shutdown(const std::string& reason) {
   if (phase_ == Phase::kRunning) {
     phase_ = Phase::kFarewell;
-    if (test_ending_) {
-      test_ending_();
-    }
+    test_.on_shutdown();
     steering_.tell_end(reason);
     rounds_.close();
     timers_.shutdown();
-    faults_.shutdown();
     processes_.shutdown();
     std::vector<Invocation> farewell = handlers_.shutdown(reason);
     coroutines_.cancel();
@@ -441,7 +389,7 @@ void LaunchService::end_scopes() {
   }
   phase_ = Phase::kEndingScopes;
   ros_tasks_.shutdown();
-  faults_.shutdown();
+  test_.on_end();
   recording_.end();
   scopes_.end(
       [this](const LaunchError& error) {

@@ -11,7 +11,6 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "launcher/base/diagnostic.hpp"
@@ -22,13 +21,14 @@
 #include "launcher/ros/ros_tasks.hpp"
 #include "launcher/run/active_scopes.hpp"
 #include "launcher/run/farewell.hpp"
-#include "launcher/run/faults.hpp"
 #include "launcher/run/handlers.hpp"
+#include "launcher/run/hurry.hpp"
 #include "launcher/run/outcome.hpp"
 #include "launcher/run/processes.hpp"
 #include "launcher/run/recording.hpp"
 #include "launcher/run/rounds.hpp"
 #include "launcher/run/steering.hpp"
+#include "launcher/run/system_test.hpp"
 #include "launcher/run/timers.hpp"
 #include "launcher/run/user_signals.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -60,23 +60,9 @@ class LaunchService {
   // must outlive the service.
   void use_ros_client(RosClient& client) { context_.use_ros_client(client); }
 
-  // For tests of systems. `begin` gets each test that the launch file requests, before the processes of its round
-  // start. `line` gets each line of each process, before the exit of the process is reported. `ending` is called when
-  // the shutdown begins, whatever its reason. None of them may call the service, but for end(), which begins the
-  // shutdown in a later turn of the loop. `fault` gets what happens to the faults of the test.
-  using LineSink = std::function<void(const ProcessSpec& spec, const std::string& label, OutputStream stream,
-                                      std::string_view line)>;
-  void use_test(std::function<void(TestRequest)> begin, LineSink line, std::function<void()> ending,
-                std::function<void(const FaultEvent&)> fault) {
-    begin_test_ = std::move(begin);
-    test_line_ = std::move(line);
-    test_ending_ = std::move(ending);
-    faults_.observe(std::move(fault));
-  }
-  // `prepare` may change each process before its first start.
-  void use_test_processes(std::function<void(ProcessSpec&)> prepare) { prepare_for_test_ = std::move(prepare); }
-  // Of a test with faults of the network. It must outlive the service.
-  void use_network(TestNetwork& network) { faults_.use_network(network); }
+  // For a test of the system that is launched.
+  SystemTest& test() { return test_; }
+  // Begins the shutdown in a later turn of the loop.
   void end(const std::string& reason);
 
   // Failures of processes and components don't change the exit code, as with ros2 launch.
@@ -85,10 +71,9 @@ class LaunchService {
   // Called before the system stops by Ctrl-Z and after it goes on.
   void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
 
-  // Called when the end does not come, although a second signal has asked for it at once: a session daemon that does
-  // not answer can block a trace for ever. It must end this process.
-  static constexpr Duration kPatienceInAHurry = std::chrono::seconds(5);
-  void give_up_by(std::function<void()> end) { give_up_ = std::move(end); }
+  // Called when the end does not come, although a second signal has asked for it at once (hurry.hpp). It must end this
+  // process.
+  void give_up_by(std::function<void()> end) { hurry_.give_up_by(std::move(end)); }
 
   // Visits the description, runs the loop until nothing is left, and tells what has failed. Returns the exit code
   // (outcome.hpp). SIGINT, SIGTERM, SIGHUP (unless it is ignored) and SIGQUIT shut down. A second signal sends SIGTERM
@@ -142,26 +127,17 @@ class LaunchService {
   // Checks later, because the code that reports an end may still be at work.
   void post_check();
   void end_scopes();
-  // Gives up later if something that is to begin or end does not.
-  void watch_hurry();
 
   LaunchContext& context_;
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
-  std::function<void(TestRequest)> begin_test_;
-  LineSink test_line_;
-  std::function<void()> test_ending_;
-  std::function<void(ProcessSpec&)> prepare_for_test_;
   std::function<void(bool stops)> on_suspension_;
-  std::function<void()> give_up_;
-  EventLoop::SourcePtr give_up_timer_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;
-  bool terminated_ = false;  // a second signal has sent SIGTERM
   bool check_posted_ = false;
 
   UserSignals signals_;
@@ -171,13 +147,14 @@ class LaunchService {
   Rounds rounds_;
   Recording recording_;
   Processes processes_;
-  Faults faults_;
+  SystemTest test_;
   Steering steering_;
   Handlers handlers_;
   Timers timers_;
   Coroutines coroutines_;
   RosTasks ros_tasks_;
   Farewell farewell_;
+  Hurry hurry_;
 };
 
 }  // namespace launch

@@ -115,19 +115,17 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   launch.use_guardian(guardian);
   launch.record_to(tracepoints);
   if (network) {
-    launch.use_network(*network);
+    launch.test().use_network(*network);
   }
-  launch.use_test(
-      [&](TestRequest test) {
-        if (test.name == run.test.name) {
-          judge.begin(std::move(test));
-        }
-      },
-      [&](const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
-        judge.on_line(spec, label, stream, line);
-      },
-      [&] { judge.on_shutdown(); }, [&](const FaultEvent& event) { judge.on_fault(event); });
-  launch.use_test_processes([&](ProcessSpec& spec) { expect_no_crash_bundle(judge.expectations(), spec); });
+  launch.test().use({[&](TestRequest test) {
+                       if (test.name == run.test.name) {
+                         judge.begin(std::move(test));
+                       }
+                     },
+                     [&](const ProcessSpec& spec, const std::string& label, OutputStream stream,
+                         std::string_view line) { judge.on_line(spec, label, stream, line); },
+                     [&] { judge.on_shutdown(); }, [&](const FaultEvent& event) { judge.on_fault(event); }});
+  launch.test().prepare_by([&](ProcessSpec& spec) { expect_no_crash_bundle(judge.expectations(), spec); });
   guardian.wait_until_ready();
   launch.run(run.test.traced ? *recorded(*run.test.description, run.registry, run.directory, run.test.events)
                              : *run.test.description);

@@ -2,8 +2,9 @@
 // Usage: bench_launch_start [RUNS [PROCESSES...]]
 //
 // Measures the time from the start of `launch FILE` until all of its processes run, the memory that the launcher then
-// holds, and the time from SIGINT until everything has ended. The floor is a bare loop that starts and ends the same
-// programs. Default: 21 runs of two processes.
+// holds, how long `launch ps` takes, and the time from SIGINT until everything has ended. The floor is a bare loop that
+// starts and ends the same programs; that of `launch ps` is ps(1) of the same processes. Default: 21 runs of two
+// processes.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -119,9 +120,17 @@ void write_launch_file(const std::string& path, int count) {
 // One value for each run: milliseconds, and mebibytes of memory.
 struct Measured {
   Values launched, stopped;
+  Values listed, bare_list;
   Values bare_start, bare_stop;
   Values resident, private_memory, guardian_memory;
 };
+
+// In milliseconds.
+double time_of(const std::vector<std::string>& command) {
+  const std::int64_t begin = now();
+  waitpid(start(command), nullptr, 0);
+  return milliseconds_since(begin);
+}
 
 void measure_launch(Measured& measured, const std::string& file, int count, int pipe) {
   const std::int64_t begin = now();
@@ -131,6 +140,9 @@ void measure_launch(Measured& measured, const std::string& file, int count, int 
   measured.guardian_memory.push_back(mebibytes_of(guardian, "VmRSS:"));
   measured.resident.push_back(mebibytes_of(launcher, "VmRSS:"));
   measured.private_memory.push_back(mebibytes_of(launcher, "RssAnon:"));
+  measured.listed.push_back(time_of({LAUNCH_PROGRAM, "ps"}));
+  measured.bare_list.push_back(
+      time_of({"/bin/ps", "-o", "pid,pcpu,rss,etime,args", "--ppid", std::to_string(launcher)}));
   const std::int64_t stop = now();
   end(guardian);
   measured.stopped.push_back(milliseconds_since(stop));
@@ -164,6 +176,10 @@ void print(const Measured& measured, int count, int runs) {
   fmt::print("  launch               {:8.2f} ms\n", stopped);
   fmt::print("  bare kill, waitpid   {:8.2f} ms   ratio {:.1f}\n", median(measured.bare_stop),
              stopped / median(measured.bare_stop));
+  fmt::print("a list of what runs\n");
+  fmt::print("  launch ps            {:8.2f} ms\n", median(measured.listed));
+  fmt::print("  ps(1)                {:8.2f} ms   ratio {:.1f}\n", median(measured.bare_list),
+             median(measured.listed) / median(measured.bare_list));
   fmt::print("  launcher resident    {:8.1f} MiB, of it private {:.1f} MiB\n", median(measured.resident),
              median(measured.private_memory));
   fmt::print("  guardian resident    {:8.1f} MiB\n", median(measured.guardian_memory));
@@ -171,6 +187,7 @@ void print(const Measured& measured, int count, int runs) {
   const std::string processes = fmt::format("{} process{}", count, count == 1 ? "" : "es");
   benchmarks::report({processes + " started", "ms", measured.launched, "a posix_spawn loop", measured.bare_start});
   benchmarks::report({processes + " stopped", "ms", measured.stopped, "kill and waitpid", measured.bare_stop});
+  benchmarks::report({processes + " listed by launch ps", "ms", measured.listed, "ps", measured.bare_list});
   benchmarks::report({processes + ", memory of the launcher", "MiB", measured.resident});
 }
 
@@ -194,6 +211,7 @@ int main(int argc, char** argv) {
   const int pipe = open(pipe_path.c_str(), O_RDWR | O_CLOEXEC);
   setenv("STAMP_PIPE", pipe_path.c_str(), 1);
   setenv("ROS_LOG_DIR", (directory / "log").c_str(), 1);
+  setenv("XDG_RUNTIME_DIR", directory.c_str(), 1);  // `launch ps` finds no other launch there
   for (const int count : counts) {
     const std::string file = directory / fmt::format("{}.launch.xml", count);
     write_launch_file(file, count);

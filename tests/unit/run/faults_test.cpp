@@ -25,8 +25,8 @@ class FaultsTest : public LaunchServiceTest {
     context.take_tests(0);
     LaunchService service(context, loop_, supervisor_,
                           [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
-    service.use_test([](const TestRequest&) {}, [](auto&&...) {}, [] {},
-                     [this](const FaultEvent& event) { note(event); });
+    service.test().use(
+        {[](const TestRequest&) {}, [](auto&&...) {}, [] {}, [this](const FaultEvent& event) { note(event); }});
     return service.run(*parse_launch_description(file, registry_));
   }
 

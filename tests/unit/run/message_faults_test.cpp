@@ -89,8 +89,8 @@ class MessageFaultsRun : public LaunchServiceTest {
     context.scope().log_directory = log_directory_;
     LaunchService service(context, loop_, supervisor_,
                           [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
-    service.use_test([](const TestRequest&) {}, [](auto&&...) {}, [] {},
-                     [this](const FaultEvent& event) { note(event); });
+    service.test().use(
+        {[](const TestRequest&) {}, [](auto&&...) {}, [] {}, [this](const FaultEvent& event) { note(event); }});
     service.run(*parse_launch_description(file, registry_));
     EXPECT_THAT(errors_, IsEmpty());
   }
