@@ -213,41 +213,46 @@ TEST_F(Supervision, DescendantsDontSurvive) {
   wait_until_all_have_gone();
 }
 
+// Daemons: they have a session of their own, their parent has died, and they hold the output of the process.
+class Daemons : public Supervision {
+ protected:
+  // A launch of a process that starts a daemon, ended by Ctrl-C when the daemon says that it is ready.
+  CommandResult end_launch_of(const std::string& daemon, const std::string& timeout) {
+    write_file(sandbox_.directory() / "daemon.py",
+               "import signal, sys, time\n" + daemon + "\nprint('ready', flush=True)\nwhile True: time.sleep(1000)\n");
+    const std::string file = write("<executable name=\"parent\" shell=\"true\" output=\"screen\" sigterm_timeout=\"" +
+                                   timeout + "\" sigkill_timeout=\"" + timeout + "\" cmd=\"setsid -f python3 " +
+                                   (sandbox_.directory() / "daemon.py").string() + "; exec sleep 1000\"/>");
+    RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+    EXPECT_TRUE(run.wait_for_output("[parent-1] ready")) << run.out() << run.err();
+    run.send_signal(SIGINT);
+    const CommandResult result = run.wait();
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_EQ(result.exit_code, 0);
+    wait_until_all_have_gone();
+    return result;
+  }
+
+  const std::string left_ =
+      "\\[WARNING\\] \\[launch\\]: parent-1 left 1 process running: python3 \\([0-9]+\\); ending it\n";
+};
+
 // The launcher can't reach a daemon through its group, and must not wait for it until all timeouts are over.
-TEST_F(Supervision, ADaemonThatHoldsTheOutputIsEndedAsSoonAsTheRestHasEnded) {
-  const std::string file = write(R"xml(
-    <executable name="parent" shell="true" output="screen" sigterm_timeout="1000" sigkill_timeout="1000"
-                cmd="setsid -f sh -c 'trap &quot;echo cleaned up; exit&quot; INT; echo ready; while :; do sleep 0.05; done'; exec sleep 1000"/>)xml");
-  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
-  ASSERT_TRUE(run.wait_for_output("[parent-1] ready")) << run.out() << run.err();
-  run.send_signal(SIGINT);
-  const CommandResult result = run.wait();
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_FALSE(result.timed_out);
-  EXPECT_THAT(result.out,
-              testing::ContainsRegex("\\[WARNING\\] \\[launch\\]: parent-1 left [12] process(es)? running: .*; "
-                                     "ending (it|them)\n\\[parent-1\\] cleaned up\n"));
-  wait_until_all_have_gone();
+TEST_F(Daemons, AreEndedAsSoonAsTheProcessesHaveEnded) {
+  const CommandResult result =
+      end_launch_of("signal.signal(signal.SIGINT, lambda *_: (print('cleaned up', flush=True), sys.exit()))", "1000");
+  EXPECT_THAT(result.out, testing::ContainsRegex(left_ + "\\[parent-1\\] cleaned up\n"));
 }
 
-TEST_F(Supervision, ADaemonThatIgnoresSignalsHasItsTimeoutsAndTheScreenSaysSo) {
-  const std::string file = write(R"xml(
-    <executable name="parent" shell="true" output="screen" sigterm_timeout="0.2" sigkill_timeout="0.3"
-                cmd="setsid -f python3 -c 'import signal, time; [signal.signal(n, signal.SIG_IGN) for n in (2, 15)];
-                     print(&quot;ready&quot;, flush=True); time.sleep(1000)'; exec sleep 1000"/>)xml");
-  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
-  ASSERT_TRUE(run.wait_for_output("[parent-1] ready")) << run.out() << run.err();
-  run.send_signal(SIGINT);
-  const CommandResult result = run.wait();
-  EXPECT_EQ(result.exit_code, 0);
+TEST_F(Daemons, ThatIgnoreSignalsHaveTheirTimeoutsAndTheScreenSaysSo) {
+  const CommandResult result =
+      end_launch_of("for number in signal.SIGINT, signal.SIGTERM: signal.signal(number, signal.SIG_IGN)", "0.2");
   EXPECT_THAT(result.out,
               testing::ContainsRegex(
-                  "\\[WARNING\\] \\[launch\\]: parent-1 left 1 process running: python3 \\([0-9]+\\); ending it\n"
-                  "\\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGINT, sending SIGTERM: python3 "
-                  "\\([0-9]+\\)\n"
-                  "\\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGTERM, sending SIGKILL: python3 "
-                  "\\([0-9]+\\)\n"));
-  wait_until_all_have_gone();
+                  left_ + "\\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGINT, sending SIGTERM: python3 "
+                          "\\([0-9]+\\)\n"
+                          "\\[WARNING\\] \\[launch\\]: 1 process has not ended after SIGTERM, sending SIGKILL: python3 "
+                          "\\([0-9]+\\)\n"));
 }
 
 TEST_F(Supervision, NothingSurvivesWhenTheLauncherIsKilled) {
