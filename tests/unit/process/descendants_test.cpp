@@ -66,7 +66,7 @@ TEST_F(Descendants, ThatHaveLeftTheGroupAreNotWaitedFor) {
 }
 
 TEST_F(Descendants, AreWaitedForUntilTheyLeaveTheGroup) {
-  runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 100s, .descendants_leave_after = 6s}});
+  runner.script("a", {{.ignores = {SIGTERM}, .descendants_for = 100s, .descendants_leave_after = 6050ms}});
   runner.script("b", {{.ignores = {SIGTERM}, .descendants_for = 7s}});
   supervisor->start(spec("a"));
   supervisor->start(spec("b"));
