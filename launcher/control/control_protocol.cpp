@@ -8,12 +8,14 @@
 
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/control/json_text.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 
 namespace launch {
@@ -72,12 +74,15 @@ void put_end(Json& json, const ProcessExit& exit) {
   json["ran_for"] = seconds(exit.ran_for);
 }
 
-Json place(const SourceRange& range) {
+void append_place(std::string& text, const SourceRange& range) {
   if (!range) {
-    return nullptr;
+    text += "null";
+    return;
   }
   const SourceFile::Position position = range.file->position(range.begin);
-  return {{"file", range.file->path()}, {"line", position.line}, {"column", position.column}};
+  text += "{\"file\":";
+  append_json_string(text, range.file->path());
+  fmt::format_to(std::back_inserter(text), ",\"line\":{},\"column\":{}}}", position.line, position.column);
 }
 
 const char* state_name(ProcessState state) {
@@ -98,24 +103,34 @@ const char* state_name(ProcessState state) {
   return "";
 }
 
-Json describe(const SteeredProcess& process, const ProcessSupervisor& supervisor) {
-  Json json{{"name", process.name}, {"names", process.names}};
+void append_process(std::string& text, const SteeredProcess& process, const ProcessSupervisor& supervisor) {
+  const auto to = std::back_inserter(text);
+  text += "{\"name\":";
+  append_json_string(text, process.name);
+  text += ",\"names\":[";
+  for (const std::string& name : process.names) {
+    text += &name == &process.names.front() ? "" : ",";
+    append_json_string(text, name);
+  }
+  text += ']';
   if (process.id == 0) {
-    json["state"] = process.waits ? "waiting" : "skipped";
+    fmt::format_to(to, ",\"state\":\"{}\"", process.waits ? "waiting" : "skipped");
   } else {
     const ProcessView view = supervisor.view(process.id);
-    json["state"] = state_name(view.state);
+    fmt::format_to(to, ",\"state\":\"{}\"", state_name(view.state));
     if (view.pid >= 0) {
-      json["pid"] = view.pid;
-      json["running_for"] = seconds(view.running_for);
+      fmt::format_to(to, ",\"pid\":{},\"running_for\":{}", view.pid, seconds(view.running_for));
     }
-    json["restarts"] = view.runs > 0 ? view.runs - 1 : 0;
+    fmt::format_to(to, ",\"restarts\":{}", view.runs > 0 ? view.runs - 1 : 0);
     if (view.last_exit) {
-      put_end(json["last_end"] = Json::object(), *view.last_exit);
+      Json end = Json::object();
+      put_end(end, *view.last_exit);
+      text += ",\"last_end\":" + dump(end);
     }
   }
-  json["place"] = place(process.origin);
-  return json;
+  text += ",\"place\":";
+  append_place(text, process.origin);
+  text += '}';
 }
 
 Json describe(const LaunchFacts& facts, bool ending) {
@@ -248,14 +263,14 @@ std::string info_line(const LaunchFacts& facts, bool ending) {
 
 std::string ps_line(const LaunchFacts& facts, bool ending, const std::vector<SteeredProcess>& processes,
                     const ProcessSupervisor& supervisor) {
-  Json list = Json::array();
+  std::string line = info_line(facts, ending);
+  line.pop_back();
+  line += ",\"processes\":[";
   for (const SteeredProcess& process : processes) {
-    list.push_back(describe(process, supervisor));
+    line += &process == &processes.front() ? "" : ",";
+    append_process(line, process, supervisor);
   }
-  return dump({{"version", kControlVersion},
-               {"ok", true},
-               {"launch", describe(facts, ending)},
-               {"processes", std::move(list)}});
+  return line + "]}";
 }
 
 std::string outcome_line(const SteeringOutcome& outcome) {

@@ -8,11 +8,22 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <thread>
 
 #include "launcher/base/unique_fd.hpp"
 
 namespace launch {
+
+namespace {
+
+// A thread takes as long to start as a dozen processes to be looked at.
+constexpr std::size_t kWorthAThread = 200;
+constexpr std::size_t kMostThreads = 4;
+
+}  // namespace
 
 // The clock of the process and statm take half as long as /proc/PID/stat, for which the kernel collects much more.
 std::optional<ProcessUsage> read_process_usage(pid_t pid) {
@@ -21,7 +32,7 @@ std::optional<ProcessUsage> read_process_usage(pid_t pid) {
 
   clockid_t clock{};
   timespec used{};
-  if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) {
+  if (pid <= 0 || ::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) {
     return std::nullopt;
   }
   std::array<char, 32> path{};
@@ -38,6 +49,25 @@ std::optional<ProcessUsage> read_process_usage(pid_t pid) {
   usage.cpu = static_cast<double>(used.tv_sec) + static_cast<double>(used.tv_nsec) * kNanosecond;
   usage.memory = resident == nullptr ? 0 : ::strtoull(resident, nullptr, 10) * kPage;
   return usage;
+}
+
+std::vector<std::optional<ProcessUsage>> read_process_usage(const std::vector<pid_t>& pids) {
+  std::vector<std::optional<ProcessUsage>> all(pids.size());
+  const std::size_t processors = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+  const std::size_t threads = std::clamp<std::size_t>(pids.size() / kWorthAThread, 1, processors);
+  const std::size_t share = (pids.size() + threads - 1) / threads;
+  const auto read = [&](std::size_t thread) {
+    for (std::size_t i = thread * share; i < std::min((thread + 1) * share, pids.size()); ++i) {
+      all[i] = read_process_usage(pids[i]);
+    }
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t thread = 1; thread < threads; ++thread) {
+    others.emplace_back(read, thread);
+  }
+  read(0);
+  others.clear();  // waits for them
+  return all;
 }
 
 }  // namespace launch

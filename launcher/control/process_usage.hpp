@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace launch {
 
@@ -16,5 +17,7 @@ struct ProcessUsage {
 
 // Nothing when the process has gone.
 std::optional<ProcessUsage> read_process_usage(pid_t pid);
+// Of several processes, in their order. Many are divided among threads, because the kernel takes microseconds for each.
+std::vector<std::optional<ProcessUsage>> read_process_usage(const std::vector<pid_t>& pids);
 
 }  // namespace launch

@@ -5,18 +5,24 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <system_error>
-
-#include "launcher/control/process_usage.hpp"
 
 namespace launch {
 
-void add_usage(nlohmann::ordered_json& process) {
-  if (const auto pid = process.find("pid"); pid != process.end()) {
-    if (const std::optional<ProcessUsage> usage = read_process_usage(pid->get<pid_t>())) {
-      process["cpu"] = usage->cpu;
-      process["memory"] = usage->memory;
+std::vector<std::optional<ProcessUsage>> usage_of(const nlohmann::ordered_json& processes) {
+  std::vector<pid_t> pids;
+  for (const nlohmann::ordered_json& process : processes) {
+    pids.push_back(process.value("pid", -1));
+  }
+  return read_process_usage(pids);
+}
+
+void add_usage(nlohmann::ordered_json& processes) {
+  const std::vector<std::optional<ProcessUsage>> usage = usage_of(processes);
+  for (std::size_t i = 0; i < usage.size(); ++i) {
+    if (usage[i]) {
+      processes[i]["cpu"] = usage[i]->cpu;
+      processes[i]["memory"] = usage[i]->memory;
     }
   }
 }

@@ -5,13 +5,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "launcher/control/process_usage.hpp"
 
 namespace launch {
 
-// Adds `cpu` (seconds) and `memory` (bytes) to a process that runs.
-void add_usage(nlohmann::ordered_json& process);
+// What each process uses, nothing for those that do not run.
+std::vector<std::optional<ProcessUsage>> usage_of(const nlohmann::ordered_json& processes);
+// Adds `cpu` (seconds) and `memory` (bytes) to those of the processes that run.
+void add_usage(nlohmann::ordered_json& processes);
 // "running", "ended: exit code 1", "ended: SIGSEGV".
 std::string state_text(const nlohmann::ordered_json& process);
 // "exit code 1", "SIGSEGV".

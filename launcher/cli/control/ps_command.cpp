@@ -27,10 +27,8 @@ std::string cpu_text(const std::optional<ProcessUsage>& usage, const Json& proce
   return usage && running_for > 0 ? fmt::format("{:.1f} %", 100 * usage->cpu / running_for) : "-";
 }
 
-// Looks for what the process uses by itself: to put it into the JSON first takes as long as to find it.
-ProcessRow row_of(const Json& process) {
+ProcessRow row_of(const Json& process, const std::optional<ProcessUsage>& usage) {
   const auto pid = process.find("pid");
-  const std::optional<ProcessUsage> usage = pid == process.end() ? std::nullopt : read_process_usage(pid->get<pid_t>());
   return {process["name"].get<std::string>(),
           state_text(process),
           pid == process.end() ? "-" : pid->dump(),
@@ -42,9 +40,10 @@ ProcessRow row_of(const Json& process) {
 }
 
 std::string table(const Json& processes) {
+  const std::vector<std::optional<ProcessUsage>> usage = usage_of(processes);
   std::vector<ProcessRow> rows{{"NAME", "STATE", "PID", "RESTARTS", "CPU", "MEMORY", "TIME", "PLACE"}};
-  for (const Json& process : processes) {
-    rows.push_back(row_of(process));
+  for (std::size_t i = 0; i < processes.size(); ++i) {
+    rows.push_back(row_of(processes[i], usage[i]));
   }
   std::array<std::size_t, std::tuple_size_v<ProcessRow>> widths{};
   for (const ProcessRow& row : rows) {
@@ -110,7 +109,7 @@ int ps_command(const std::string& name, const std::vector<std::string>& words, c
     try {
       Json answer = launch.ask({{"do", "ps"}, {"processes", names}});
       if (as_json) {
-        std::for_each(answer["processes"].begin(), answer["processes"].end(), add_usage);
+        add_usage(answer["processes"]);
       }
       answer.erase("ok");
       answer.erase("version");

@@ -114,9 +114,7 @@ void Top::run() {
 
 void Top::update() {
   TopJson answer = launch_.ask("ps");
-  for (TopJson& process : answer["processes"]) {
-    add_usage(process);
-  }
+  add_usage(answer["processes"]);
   model_.update(answer["processes"], steady_clock::now());
   count_ = answer["processes"].size();
   about_ = std::move(answer);

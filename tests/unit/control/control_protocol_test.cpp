@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "launcher/process/fake/fake_event_loop.hpp"
+#include "launcher/process/fake/fake_process_runner.hpp"
 
 namespace launch {
 namespace {
@@ -66,6 +70,37 @@ TEST(ControlProtocol, AnAnswerIsOneLineWhateverNamesHold) {
   EXPECT_EQ(json["process"], "a\nb");
   EXPECT_EQ(json["stream"], "stderr");
   EXPECT_EQ(json["line"], "\xef\xbf\xbd \"quoted\"\n");
+}
+
+TEST(ControlProtocol, ListsProcesses) {
+  FakeEventLoop loop;
+  FakeProcessRunner runner(loop);
+  OutputRouter output({.screen_fd = -1});
+  ProcessSupervisor supervisor(loop, runner, output);
+  runner.script("talker", {{.dies_after = std::chrono::seconds(1), .exit_code_on_signal = 3}});
+  ProcessSpec spec;
+  spec.name = "talker";
+  spec.argv = {"/bin/talker"};
+  const auto file = std::make_shared<SourceFile>("/a \"b\".xml", "<launch>\n  <node/>");
+  const std::vector<SteeredProcess> processes = {
+      {.id = supervisor.start(spec), .name = "talker-1", .names = {"talker", "/ta\xfflker"}, .origin = {file, 11, 18}},
+      {.name = "later", .names = {}, .waits = true}};
+  loop.advance(std::chrono::milliseconds(1500));
+  const auto list = [&] { return nlohmann::json::parse(ps_line({.pid = 5}, false, processes, supervisor)); };
+  nlohmann::json json = list();
+  EXPECT_EQ(json["launch"]["pid"], 5);
+  EXPECT_EQ(json["launch"]["state"], "running");
+  EXPECT_EQ(json["processes"], nlohmann::json::parse(R"([
+      {"name": "talker-1", "names": ["talker", "/ta\ufffdlker"], "state": "running", "pid": 1000001, "running_for": 1.5,
+       "restarts": 0, "place": {"file": "/a \"b\".xml", "line": 2, "column": 3}},
+      {"name": "later", "names": [], "state": "waiting", "place": null}])"));
+  supervisor.shutdown();
+  loop.advance(std::chrono::seconds(1));
+  json = list();
+  EXPECT_EQ(json["processes"][0]["state"], "ended");
+  EXPECT_EQ(json["processes"][0]["last_end"], nlohmann::json::parse(R"({"exit_code": 3, "ran_for": 2.5})"));
+  EXPECT_FALSE(json["processes"][0].contains("pid"));
+  EXPECT_EQ(nlohmann::json::parse(ps_line({}, true, {}, supervisor))["processes"], nlohmann::json::array());
 }
 
 TEST(ControlProtocol, TellsHowAProcessHasEnded) {

@@ -5,6 +5,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <cstddef>
+
 namespace launch {
 namespace {
 
@@ -22,6 +24,19 @@ TEST(ProcessUsage, CountsTheProcessorTimeAndTheMemoryOfAProcess) {
 
 TEST(ProcessUsage, IsUnknownOfAProcessThatHasGone) {
   EXPECT_FALSE(read_process_usage(-1));
+}
+
+TEST(ProcessUsage, OfManyProcessesHasTheirOrder) {
+  std::vector<pid_t> pids(2003, -1);
+  for (const std::size_t i : {0, 1000, 1001, 2002}) {
+    pids[i] = ::getpid();
+  }
+  const std::vector<std::optional<ProcessUsage>> usage = read_process_usage(pids);
+  ASSERT_EQ(usage.size(), pids.size());
+  for (std::size_t i = 0; i < pids.size(); ++i) {
+    EXPECT_EQ(usage[i].has_value(), pids[i] > 0) << i;
+  }
+  EXPECT_TRUE(read_process_usage(std::vector<pid_t>()).empty());
 }
 
 }  // namespace
