@@ -74,7 +74,8 @@ const std::string& GeneratedFiles::directory() {
     }
     error = errno;
   }
-  throw std::system_error(error, std::system_category(), "cannot create a directory for generated files");
+  throw std::system_error(error, std::system_category(),
+                          "cannot create a directory for parameter files in /tmp (TMPDIR may name another place)");
 }
 
 bool GeneratedFiles::make(const std::string& path) {

@@ -49,11 +49,20 @@ std::string renew_latest(const fs::path& base, const std::string& name) {
   return error ? fmt::format("cannot update the link '{}': {}", latest.string(), error.message()) : std::string();
 }
 
+[[noreturn]] void fail(const fs::path& directory, const std::error_code& error) {
+  throw std::system_error(error, fmt::format("cannot create the log directory '{}' (ROS_LOG_DIR may name another one)",
+                                             directory.string()));
+}
+
 }  // namespace
 
 LogDirectory LogDirectory::create(const std::map<std::string, std::string>& environment) {
   const fs::path base = fs::absolute(ros_log_directory(environment));
-  fs::create_directories(base);
+  std::error_code error;
+  fs::create_directories(base, error);
+  if (error) {
+    fail(base, error);
+  }
   while (true) {
     const std::string name = run_name();
     const fs::path directory = base / name;
@@ -61,7 +70,7 @@ LogDirectory LogDirectory::create(const std::map<std::string, std::string>& envi
       return {directory.string(), renew_latest(base, name)};
     }
     if (errno != EEXIST) {  // else another run began in the same microsecond
-      throw std::system_error(errno, std::system_category(), fmt::format("cannot create '{}'", directory.string()));
+      fail(directory, {errno, std::system_category()});
     }
   }
 }

@@ -57,7 +57,13 @@ TEST(LogDirectory, FollowsRosHomeAndHome) {
 TEST(LogDirectory, FailsClearlyWhenItCannotBeMade) {
   const TemporaryDirectory base;
   const std::string file = base.write("file", "");
-  EXPECT_THROW(LogDirectory::create({{"ROS_LOG_DIR", file + "/log"}}), std::system_error);
+  try {
+    LogDirectory::create({{"ROS_LOG_DIR", file + "/log"}});
+    FAIL() << "it was made";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.what(),
+              "cannot create the log directory '" + file + "/log' (ROS_LOG_DIR may name another one): Not a directory");
+  }
 }
 
 }  // namespace
