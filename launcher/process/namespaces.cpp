@@ -176,7 +176,10 @@ void make_wait_file(const std::string& name, mode_t mode) {
   const UniqueFd file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
   if (file) {
     static_cast<void>(::fchmod(file.get(), mode));  // whatever the umask says
-    static_cast<void>(!::ftruncate(file.get(), ::sysconf(_SC_PAGESIZE)));
+    // A page that gets no memory later, because /dev/shm is full then, ends the program that reads it by SIGBUS.
+    if (::posix_fallocate(file.get(), 0, ::sysconf(_SC_PAGESIZE)) != 0) {
+      ::unlink(path.c_str());
+    }
   }
 }
 

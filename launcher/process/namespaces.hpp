@@ -15,8 +15,8 @@
 namespace launch {
 
 // lo is the only network, unless they are those of a host; multicast works on it. /dev/shm is empty, but for the files
-// by which LTTng's session daemon wakes the processes that wait for it; they are made if there are none yet. All other files are those of the machine. The
-// namespaces exist as long as this object or a process inside.
+// by which LTTng's session daemon wakes the processes that wait for it; they are made if there are none yet. All other
+// files are those of the machine. The namespaces exist as long as this object or a process inside.
 class Namespaces {
  public:
   // Makes them, in a user namespace of their own if that is necessary. Must be called while there is one thread.

@@ -256,6 +256,26 @@ TEST_P(Namespaces, LetASessionDaemonThatStartsLaterWakeTheirProcesses) {
   EXPECT_EQ(run.wait(kPatience).exit_code, 0) << run.out() << run.err();
 }
 
+TEST_P(Namespaces, NeedNoRoomInTheSharedMemoryOfTheMachine) {
+  const std::string file = write("full.launch.xml", R"xml(<node pkg="demo_nodes" exec="pong"/>
+    <node pkg="demo_nodes" exec="ping" on_exit="shutdown"><param name="count" value="2"/></node>)xml");
+  std::vector<std::string> full = {"unshare",
+                                   "--mount",
+                                   "sh",
+                                   "-c",
+                                   "mount -t tmpfs -o size=4k tmpfs /dev/shm && "
+                                   "head -c 4096 /dev/zero > /dev/shm/full && exec \"$@\"",
+                                   "sh"};
+  if (run_command({"unshare", "--mount", "mount", "-t", "tmpfs", "tmpfs", "/dev/shm"}).exit_code != 0) {
+    GTEST_SKIP() << "skipped, because /dev/shm can't be replaced";
+  }
+  const std::vector<std::string> user = prefix();
+  full.insert(full.end(), user.begin(), user.end());
+  const CommandResult result = run_command(launch({"--isolate", file}, full), kPatience);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, Not(HasSubstr("has died")));
+}
+
 TEST_P(Namespaces, HoldTheComponentsThatAreLoadedThere) {
   const std::string file = write("components.launch.xml", R"xml(
     <node_container pkg="rclcpp_components" exec="component_container" name="container" namespace="">
