@@ -255,6 +255,23 @@ TEST_F(Daemons, ThatIgnoreSignalsHaveTheirTimeoutsAndTheScreenSaysSo) {
                           "\\([0-9]+\\)\n"));
 }
 
+// lttng-ust and Fast DDS map memory there that has no pages yet, and a process that gets none dies by SIGBUS.
+TEST_F(Supervision, NodesRunWhenTheSharedMemoryIsFull) {
+  if (run_command({"unshare", "--mount", "mount", "-t", "tmpfs", "tmpfs", "/dev/shm"}).exit_code != 0) {
+    GTEST_SKIP() << "skipped, because /dev/shm can't be replaced";
+  }
+  const std::string file = write(R"xml(<node pkg="demo_nodes" exec="pong"/>
+    <node pkg="demo_nodes" exec="ping" output="screen" on_exit="shutdown"><param name="count" value="2"/></node>)xml");
+  const CommandResult result =
+      run_command({"unshare", "--mount", "sh", "-c",
+                   "mount -t tmpfs -o size=4k tmpfs /dev/shm && head -c 4096 /dev/zero > /dev/shm/full && exec \"$@\"",
+                   "sh", LAUNCH_PROGRAM, file});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("[ping-2] tracetools: tracing is disabled, because /dev/shm is full\n"));
+  EXPECT_THAT(result.out, HasSubstr("[rmw_fastrtps]: /dev/shm is full: messages to processes of this host take the way "
+                                    "over UDP\n"));
+}
+
 TEST_F(Supervision, NothingSurvivesWhenTheLauncherIsKilled) {
   const std::string file = write(R"xml(
     <executable name="parent" shell="true" output="screen" cmd="echo ready; (read x) &amp; read x"/>)xml");

@@ -17,6 +17,7 @@
 #include "recording.hpp"
 #include "registration_watch.hpp"
 #include "state_dump_request.hpp"
+#include "wake_memory.hpp"
 
 namespace tracetools {
 namespace {
@@ -66,6 +67,10 @@ bool offer_state_dumps() {
     if (is_verbose()) {
       std::fputs("tracetools: tracing is disabled by TRACETOOLS_RUNTIME_DISABLE\n", stderr);
     }
+    return;
+  }
+  if (!wake_memory_can_be_had()) {
+    std::fputs("tracetools: tracing is disabled, because /dev/shm is full\n", stderr);
     return;
   }
   begin_counting();

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <set>
 #include <vector>
@@ -153,6 +154,11 @@ TEST(DefaultTransports, AreUdpAndSharedMemoryThatReportALargerSendBuffer) {
     transport->shutdown();
   }
   EXPECT_THAT(kinds, ElementsAre(LOCATOR_KIND_UDPv4, LOCATOR_KIND_SHM));
+}
+
+TEST(DefaultTransports, TellWhetherSharedMemoryHasRoom) {
+  EXPECT_TRUE(rmw_fastrtps::has_room_in_shared_memory(0));
+  EXPECT_FALSE(rmw_fastrtps::has_room_in_shared_memory(std::numeric_limits<std::uint64_t>::max()));
 }
 
 TEST(DefaultTransports, ReachAsManyLocalPeersAsAskedFor) {

@@ -6,6 +6,7 @@
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <sys/statvfs.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,12 +16,17 @@
 #include <utility>
 #include <vector>
 
+#include "rcutils/logging.h"
+
 namespace rmw_fastrtps {
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
 namespace transport = eprosima::fastdds::rtps;
 namespace rtps = eprosima::fastrtps::rtps;
+
+// Its segment of 512 KiB, and its ports.
+constexpr std::uint64_t kMemoryOfParticipant = 1024 * 1024;
 
 using transport::Locator;
 using transport::LocatorList;
@@ -187,6 +193,12 @@ struct Filtered final : Descriptor {
 
 }  // namespace
 
+bool has_room_in_shared_memory(std::uint64_t bytes) {
+  struct statvfs room {};
+  // A file system without a limit has no number of blocks.
+  return statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0 || room.f_bavail * room.f_frsize >= bytes;
+}
+
 bool has_default_transports(const fdds::DomainParticipantQos& qos) {
   const auto& transports = qos.transport();
   return transports.use_builtin_transports && transports.user_transports.empty() &&
@@ -202,7 +214,13 @@ void use_default_transports(std::uint32_t local_peers, const std::shared_ptr<Dis
   auto shared_memory = std::make_shared<Filtered<transport::SharedMemTransportDescriptor>>(traffic);
   shared_memory->max_message_size(udp->max_message_size());
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp, shared_memory};
+  qos.transport().user_transports = {udp};
+  if (has_room_in_shared_memory(kMemoryOfParticipant)) {
+    qos.transport().user_transports.push_back(shared_memory);
+  } else {
+    rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
+                "/dev/shm is full: messages to processes of this host take the way over UDP");
+  }
 }
 
 }  // namespace rmw_fastrtps

@@ -18,12 +18,16 @@ namespace rmw_fastrtps {
 // acknowledged without waiting for their heartbeat.
 constexpr std::uint32_t kBytesBetweenHeartbeats = 4 * 1024 * 1024;
 
+// Fast DDS maps shared memory without making sure of its pages, and a page that gets none later ends the process by
+// SIGBUS. True if the size of /dev/shm is not known.
+bool has_room_in_shared_memory(std::uint64_t bytes);
+
 // Whether the profile of the participant leaves the transports and the sizes of their buffers to Fast DDS.
 bool has_default_transports(const eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 // `local_peers`: the number of participants on one host that a unicast announcement reaches; 0 for the default of Fast
 // DDS. Buffers and segments have the sizes that Fast DDS gives them; the transports report kBytesBetweenHeartbeats to
-// writers, and let pass what `traffic` allows.
+// writers, and let pass what `traffic` allows. Without room in /dev/shm, UDP is the only one, and a warning says so.
 void use_default_transports(std::uint32_t local_peers, const std::shared_ptr<DiscoveryTraffic>& traffic,
                             eprosima::fastdds::dds::DomainParticipantQos& qos);
 

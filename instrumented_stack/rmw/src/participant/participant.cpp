@@ -220,7 +220,8 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   if (!siblings().prefixes.empty()) {
     be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
   }
-  participant_ = create_participant(domain_id, qos, may_choose_ports, *listener_);
+  const bool is_on_udp_alone = qos.transport().user_transports.size() == 1;
+  participant_ = create_participant(domain_id, qos, may_choose_ports && !is_on_udp_alone, *listener_);
   if (participant_ == nullptr) {
     throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
                              ", see its own messages above");
