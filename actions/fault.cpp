@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system, and
-// <fault topic="…" do="drop|duplicate|corrupt|delay">: what it does to messages, and <fault group="…"
+// <fault topic|service="…" do="drop|duplicate|corrupt|delay">: what it does to messages, and <fault group="…"
 // do="partition|lose|delay">: what it does to the network, and <fault clock="…" do="stop|skew|jump">: to simulated
 // time. The random parts are drawn here, so that a run has nothing left to chance.
 #include <fmt/format.h>
@@ -189,9 +189,10 @@ class Fault : public Action {
     static const char* const kWithMessages = "do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\"";
     static const std::vector<Kind> kOfNetwork = {Kind::kPartition, Kind::kLose, Kind::kDelay};
     static const char* const kWithNetwork = "do=\"partition\", do=\"lose\" and do=\"delay\"";
-    static const std::array<OwnAttribute, 16> kOwn = {
+    static const std::array<OwnAttribute, 17> kOwn = {
         {{"signal", {Kind::kKill}, "do=\"kill\""},
          {"topic", kOfMessages, kWithMessages},
+         {"service", kOfMessages, kWithMessages},
          {"node", kOfMessages, kWithMessages},
          {"on", kOfMessages, kWithMessages},
          {"occurrence", kOfMessages, kWithMessages},
@@ -218,7 +219,7 @@ class Fault : public Action {
     }
     const bool is_of_network = network_kind(kind_, fields).has_value();
     if (is_of_network) {
-      for (const char* const other : {"process", "topic", "node", "on", "occurrence", "every", "count"}) {
+      for (const char* const other : {"process", "topic", "service", "node", "on", "occurrence", "every", "count"}) {
         if (fields.has(other)) {
           throw LaunchError(fmt::format("{} does not go with a fault of the network", other), fields.where(other),
                             "group and from name the processes", Finding::kExclusive);
@@ -320,10 +321,13 @@ ActionType fault_action() {
           "ready.",
       .attributes =
           {{"process", AttributeType::kText, false, "",
-            "name of the process or of its node; all processes of that name are meant. With topic: each process", true},
+            "name of the process or of its node; all processes of that name are meant. With topic and service: each "
+            "process",
+            true},
            {"do", AttributeType::kLiteral, true, "",
             "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
-            "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic are lost, come twice, "
+            "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic or service are lost, "
+            "come twice, "
             "with other bytes, or late; partition, lose, delay: packets between processes are lost or late; stop, "
             "skew, jump: simulated time stands still, is faster or "
             "slower, or jumps",

@@ -13,15 +13,40 @@ namespace {
 
 constexpr const char* kNoEnd = "all";
 
-const Template& topic_of(const Fields& fields) {
-  if (!fields.has("topic")) {
+// The topic, or the service.
+const Template& name_of(const Fields& fields) {
+  if (fields.has("topic") && fields.has("service")) {
+    throw LaunchError("either a topic or a service suffers", fields.where("service"), {}, Finding::kExclusive);
+  }
+  if (!fields.has("topic") && !fields.has("service")) {
     const bool is_delay = fields.literal("do") == "delay";
     throw LaunchError("it is not said whose messages they are", fields.where(),
-                      is_delay ? "topic=\"/scan\" names a topic of the ROS graph; with group=\"…\", the network is late"
-                               : "topic=\"/scan\" names a topic of the ROS graph",
+                      std::string("topic=\"/scan\" or service=\"/add\" names something of the ROS graph") +
+                          (is_delay ? "; with group=\"…\", the network is late" : ""),
                       Finding::kMissingAttribute);
   }
-  return fields.text("topic");
+  return fields.text(fields.has("topic") ? "topic" : "service");
+}
+
+MessageFault::Side side_of(const Fields& fields) {
+  using Side = MessageFault::Side;
+  return fields.has("service") ? (choice(fields, "on", {"request", "response"}) == 0 ? Side::kRequest : Side::kResponse)
+                               : (choice(fields, "on", {"publish", "take"}) == 0 ? Side::kPublish : Side::kTake);
+}
+
+// As the draws of a fault know it.
+const char* identity_of(MessageFault::Side side) {
+  switch (side) {
+    case MessageFault::Side::kTake:
+      return "true";
+    case MessageFault::Side::kRequest:
+      return "request";
+    case MessageFault::Side::kResponse:
+      return "response";
+    case MessageFault::Side::kPublish:
+      break;
+  }
+  return "false";
 }
 
 bool has_end(const Fields& fields) {
@@ -42,7 +67,7 @@ NumberRange range(const std::optional<RangeField>& field, Scope& scope, double f
 
 std::string MessageFaultRanges::identity() const {
   return fmt::format("{} {} {} {} {}..{} {}..{} {} {}..{}", static_cast<int>(fault.kind), fault.topic, fault.node,
-                     fault.on_take, first.from, first.to, every.from, every.to,
+                     identity_of(fault.side), first.from, first.to, every.from, every.to,
                      count ? fmt::format("{}..{}", count->from, count->to) : kNoEnd, by.from, by.to);
 }
 
@@ -65,24 +90,28 @@ std::vector<AttributeSpec> MessageFaultFields::attributes() {
   return {
       {"topic", AttributeType::kText, false, "",
        "with drop, duplicate, corrupt and delay: the topic, under its name in the ROS graph", true},
-      {"node", AttributeType::kText, false, "each", "with topic: the node that publishes or takes the messages", true},
-      {"on", AttributeType::kLiteral, false, "publish",
-       "with topic: publish, or take, so that one of several subscriptions is hit", true},
+      {"service", AttributeType::kText, false, "",
+       "instead of topic: the service, under its name in the ROS graph; its messages are requests or responses", true},
+      {"node", AttributeType::kText, false, "each",
+       "with topic: the node that publishes or takes the messages; with service: the node that serves", true},
+      {"on", AttributeType::kLiteral, false, "publish, request",
+       "with topic: publish, or take, so that one of several subscriptions is hit; with service: request or response",
+       true},
       {"occurrence", AttributeType::kText, false, "1",
-       "with topic: the number of the first message that is hit; a range, from which the seed draws", true},
+       "with topic and service: the number of the first message that is hit; a range, from which the seed draws", true},
       {"every", AttributeType::kText, false, "1",
-       "with topic: from then on each message of so many; a range of numbers", true},
+       "with topic and service: from then on each message of so many; a range of numbers", true},
       {"count", AttributeType::kText, false, "1, or all with for",
-       "with topic: how many messages are hit; a range of numbers, or all", true},
+       "with topic and service: how many messages are hit; a range of numbers, or all", true},
       {"by", AttributeType::kText, false, "", "with delay: how late, with jump: how far, in seconds, or a range",
        true}};
 }
 
 MessageFaultFields::MessageFaultFields(const Fields& fields, MessageFault::Kind kind)
     : kind_(kind),
-      topic_(topic_of(fields)),
+      side_(side_of(fields)),
+      name_(name_of(fields)),
       node_(fields.optional_text("node")),
-      on_take_(choice(fields, "on", {"publish", "take"}) == 1),
       has_end_(has_end(fields)),
       occurrence_(RangeField::of(fields, "occurrence", true)),
       every_(RangeField::of(fields, "every", true)),
@@ -97,9 +126,9 @@ MessageFaultFields::MessageFaultFields(const Fields& fields, MessageFault::Kind 
 MessageFaultRanges MessageFaultFields::perform(Scope& scope) const {
   MessageFaultRanges ranges;
   ranges.fault.kind = kind_;
-  ranges.fault.topic = resolve_name(topic_, scope);
+  ranges.fault.side = side_;
+  ranges.fault.topic = resolve_name(name_, scope);
   ranges.fault.node = node_ ? resolve_name(*node_, scope) : "";
-  ranges.fault.on_take = on_take_;
   ranges.first = range(occurrence_, scope, 1);
   ranges.every = range(every_, scope, 1);
   if (has_end_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The attributes of a <fault> of messages: do="drop|duplicate|corrupt|delay" topic="…".
+// The attributes of a <fault> of messages: do="drop|duplicate|corrupt|delay", with topic="…" or service="…".
 #pragma once
 
 #include <optional>
@@ -39,9 +39,9 @@ class MessageFaultFields {
 
  private:
   MessageFault::Kind kind_;
-  Template topic_;
+  MessageFault::Side side_;
+  Template name_;  // of the topic or the service
   std::optional<Template> node_;
-  bool on_take_;
   bool has_end_;
   std::optional<RangeField> occurrence_;
   std::optional<RangeField> every_;

@@ -262,8 +262,8 @@ void Faults::end_messages(Fault& fault, const char* when) {
   }
   const MessageFault& messages = *fault.of_messages();
   const std::uint64_t seen = messages_.hits(fault.request.number).messages;
-  miss(fault, fmt::format("there {} {} message{} on '{}'{}", seen == 1 ? "was" : "were",
-                          seen == 0 ? "no" : std::to_string(seen), seen == 1 ? "" : "s", messages.topic, when));
+  miss(fault, fmt::format("there {} {} {}{}", seen == 1 ? "was" : "were", seen == 0 ? "no" : std::to_string(seen),
+                          describe_messages(messages, seen != 1), when));
 }
 
 void Faults::apply_to_network(Fault& fault) {

@@ -37,6 +37,20 @@ table::Kind kind_of(MessageFault::Kind kind) {
   return table::Kind::kDrop;
 }
 
+table::Side side_of(MessageFault::Side side) {
+  switch (side) {
+    case MessageFault::Side::kTake:
+      return table::Side::kTake;
+    case MessageFault::Side::kRequest:
+      return table::Side::kRequest;
+    case MessageFault::Side::kResponse:
+      return table::Side::kResponse;
+    case MessageFault::Side::kPublish:
+      break;
+  }
+  return table::Side::kPublish;
+}
+
 void copy_name(const std::string& name, char (&to)[table::kNameCapacity]) {
   if (name.size() >= table::kNameCapacity) {
     throw std::system_error(ENAMETOOLONG, std::system_category(), name);
@@ -47,7 +61,7 @@ void copy_name(const std::string& name, char (&to)[table::kNameCapacity]) {
 void fill(table::Fault& fault, const MessageFault& request) {
   std::construct_at(&fault);
   fault.kind = kind_of(request.kind);
-  fault.side = request.on_take ? table::Side::kTake : table::Side::kPublish;
+  fault.side = side_of(request.side);
   copy_name(request.topic, fault.topic);
   copy_name(request.node, fault.node);
   fault.first = request.first;

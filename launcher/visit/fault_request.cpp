@@ -14,21 +14,42 @@ std::string seconds(Duration duration) {
   return fmt::format("{:g} s", std::chrono::duration<double>(duration).count());
 }
 
+bool is_of_service(const MessageFault& fault) {
+  return fault.side == MessageFault::Side::kRequest || fault.side == MessageFault::Side::kResponse;
+}
+
+const char* word_for(const MessageFault& fault) {
+  switch (fault.side) {
+    case MessageFault::Side::kRequest:
+      return "request";
+    case MessageFault::Side::kResponse:
+      return "response";
+    default:
+      return "message";
+  }
+}
+
+// "on '/scan'", "of '/add'".
+std::string owner(const MessageFault& fault) {
+  return fmt::format("{} '{}'", is_of_service(fault) ? "of" : "on", fault.topic);
+}
+
 // "message 3 on '/scan'", "messages 3 to 5 on '/scan'", "all messages on '/scan' from message 3 on", "3 messages on
-// '/scan', 1 of 4 from message 2 on", "1 of 4 messages on '/scan'".
-std::string describe_messages(const MessageFault& fault) {
-  const std::string from = fault.first == 1 ? "" : fmt::format(" from message {} on", fault.first);
+// '/scan', 1 of 4 from message 2 on", "1 of 4 messages on '/scan'", "request 3 of '/add'".
+std::string describe_hits(const MessageFault& fault) {
+  const char* const word = word_for(fault);
+  const std::string all = describe_messages(fault, true);
+  const std::string from = fault.first == 1 ? "" : fmt::format(" from {} {} on", word, fault.first);
   if (fault.count == 1) {
-    return fmt::format("message {} on '{}'", fault.first, fault.topic);
+    return fmt::format("{} {} {}", word, fault.first, owner(fault));
   }
   if (fault.count && fault.every == 1) {
-    return fmt::format("messages {} to {} on '{}'", fault.first, fault.first + *fault.count - 1, fault.topic);
+    return fmt::format("{}s {} to {} {}", word, fault.first, fault.first + *fault.count - 1, owner(fault));
   }
   if (fault.count) {
-    return fmt::format("{} messages on '{}', 1 of {}{}", *fault.count, fault.topic, fault.every, from);
+    return fmt::format("{} {}, 1 of {}{}", *fault.count, all, fault.every, from);
   }
-  return fault.every == 1 ? fmt::format("all messages on '{}'{}", fault.topic, from)
-                          : fmt::format("1 of {} messages on '{}'{}", fault.every, fault.topic, from);
+  return fault.every == 1 ? fmt::format("all {}{}", all, from) : fmt::format("1 of {} {}{}", fault.every, all, from);
 }
 
 std::string quoted(const std::vector<NetworkFault::Member>& members) {
@@ -64,15 +85,15 @@ struct Describer {
     if (fault.kind == MessageFault::Kind::kDelay) {
       text += " by " + seconds(fault.by);
     }
-    text += " of " + describe_messages(fault);
+    text += " of " + describe_hits(fault);
     std::string who = process.empty() ? "" : fmt::format("'{}'", process);
     if (!fault.node.empty()) {
       who += fmt::format("{}'{}'", who.empty() ? "" : ", ", fault.node);
     }
-    if (fault.on_take) {
+    if (fault.side == MessageFault::Side::kTake) {
       return text + " when taken" + (who.empty() ? "" : " by " + who);
     }
-    return who.empty() ? text : text + " from " + who;
+    return who.empty() ? text : text + (is_of_service(fault) ? " at " : " from ") + who;
   }
   std::string operator()(const ClockFault& fault) const {
     switch (fault.kind) {
@@ -100,6 +121,10 @@ struct Describer {
 };
 
 }  // namespace
+
+std::string describe_messages(const MessageFault& fault, bool several) {
+  return fmt::format("{}{} {}", word_for(fault), several ? "s" : "", owner(fault));
+}
 
 std::string describe(const FaultRequest& fault) {
   std::string text = std::visit(Describer{fault.process}, fault.what);

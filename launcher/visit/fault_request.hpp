@@ -30,13 +30,14 @@ struct LimitFault {
   std::optional<std::uint64_t> files;   // open descriptors
 };
 
-// Messages are lost, come twice, with other bytes, or late.
+// Messages of a topic or a service are lost, come twice, with other bytes, or late.
 struct MessageFault {
   enum class Kind { kDrop, kDuplicate, kCorrupt, kDelay };
+  enum class Side { kPublish, kTake, kRequest, kResponse };
   Kind kind = Kind::kDrop;
-  std::string topic;                       // fully qualified
+  Side side = Side::kPublish;              // requests and responses suffer at the service
+  std::string topic;                       // or the service; fully qualified
   std::string node;                        // fully qualified; empty: any
-  bool on_take = false;                    // in the subscriptions; else in the publishers
   std::uint64_t first = 1;                 // the number of the first message, from 1
   std::uint64_t every = 1;                 // then each message of so many
   std::optional<std::uint64_t> count = 1;  // nullopt: no end
@@ -80,6 +81,9 @@ struct FaultRequest {
   SourceRange where;
   SourceRange process_where;
 };
+
+// "message on '/scan'", "requests of '/add'".
+std::string describe_messages(const MessageFault& fault, bool several);
 
 // "kill of 'worker'", "kill of 'worker' by SIGTERM", "stop of 'worker' for 2 s", "slow of 'worker' to 25% for 1 s",
 // "limit of 'worker' to 20 files", "drop of messages 3 to 5 on '/scan'", "partition of

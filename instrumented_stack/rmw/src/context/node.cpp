@@ -52,9 +52,7 @@ void check_node_name(const char* name, const char* namespace_) {
 // Of a test, if its faults name the endpoint.
 template <typename Handle>
 void set_faults_of(Handle& handle, rmw_message_faults::Side side, const char* topic, const rmw_node_t* node) {
-  const std::string& name_space = node_of(node).namespace_;
-  const std::string name = name_space + (name_space.ends_with('/') ? "" : "/") + node_of(node).name;
-  if (auto faults = rmw_fastrtps::MessageFaults::of(side, topic, name)) {
+  if (auto faults = rmw_fastrtps::faults_of(side, topic, node)) {
     rmw_fastrtps::set_faults(handle, std::move(faults));
   }
 }
@@ -86,6 +84,12 @@ void check_topic_name(const char* topic_name) {
     throw std::invalid_argument(std::string("invalid topic name '") + topic_name +
                                 "': " + rmw_full_topic_name_validation_result_string(result));
   }
+}
+
+std::unique_ptr<MessageFaults> faults_of(rmw_message_faults::Side side, const std::string& name,
+                                         const rmw_node_t* node) {
+  const std::string& name_space = node_of(node).namespace_;
+  return MessageFaults::of(side, name, name_space + (name_space.ends_with('/') ? "" : "/") + node_of(node).name);
 }
 
 void enter_graph(const rmw_node_t* node, std::initializer_list<EndpointIdentity> endpoints) {

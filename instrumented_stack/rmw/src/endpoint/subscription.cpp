@@ -185,8 +185,8 @@ void destroy_subscription(rmw_subscription_t* handle) {
 
 void set_faults(rmw_subscription_t& handle, std::unique_ptr<MessageFaults> faults) {
   Subscription& subscription = subscription_of(handle);
-  subscription.faults = std::make_unique<TakeFaults>(std::move(faults), *subscription.type,
-                                                     [&subscription] { subscription.announce_other_message(); });
+  subscription.faults = std::make_unique<TakeFaults<rmw_message_info_t>>(
+      std::move(faults), *subscription.type, [&subscription] { subscription.announce_other_message(); });
   subscription.handle.can_loan_messages = false;
 }
 

@@ -36,7 +36,7 @@ struct Subscription final : ReaderEvents {
       return *known;
     }
     const std::shared_lock lock(reader_mutex);
-    return ReaderEvents::is_ready() || has_message_of_faults();
+    return ReaderEvents::is_ready() || stays_ready(faults != nullptr && faults->has_message());
   }
 
   rmw_subscription_t handle{};
@@ -49,22 +49,13 @@ struct Subscription final : ReaderEvents {
   eprosima::fastdds::dds::DataReaderQos reader_qos;
   EndpointIdentity identity{};
 
-  std::unique_ptr<TakeFaults> faults;  // of a test; null: none
+  std::unique_ptr<TakeFaults<rmw_message_info_t>> faults;  // of a test; null: none
 
   // Held shared by all users of the reader, because a filter that is added or removed creates a new reader.
   std::shared_mutex reader_mutex;
 
   std::mutex loans_mutex;
   std::map<const void*, std::unique_ptr<Loan>> loans;
-
- private:
-  bool has_message_of_faults() {
-    if (faults == nullptr || !faults->has_message()) {
-      return false;
-    }
-    count_arrival();  // the reader, which knows nothing of it, may have settled
-    return true;
-  }
 };
 
 // rmw_wait() takes `data` as a Waitable.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends the messages of a publisher as its faults want it.
+// Sends the messages of a publisher, or the responses of a service, as its faults want it.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,9 @@
 
 namespace rmw_fastrtps {
 
-TakeFaults::TakeFaults(std::unique_ptr<MessageFaults> faults, const message_type_support_callbacks_t& type,
-                       std::function<void()> announce)
+template <typename Info>
+TakeFaults<Info>::TakeFaults(std::unique_ptr<MessageFaults> faults, const message_type_support_callbacks_t& type,
+                             std::function<void()> announce)
     : faults_(std::move(faults)), type_(type), announce_(std::move(announce)) {
   buffer_ = rmw_get_zero_initialized_serialized_message();
   const rcutils_allocator_t allocator = rcutils_get_default_allocator();
@@ -19,12 +20,14 @@ TakeFaults::TakeFaults(std::unique_ptr<MessageFaults> faults, const message_type
   }
 }
 
-TakeFaults::~TakeFaults() {
+template <typename Info>
+TakeFaults<Info>::~TakeFaults() {
   delayed_calls().forget(this);
   (void)rmw_serialized_message_fini(&buffer_);
 }
 
-bool TakeFaults::take(const Reader& reader, const IncomingMessage& message, rmw_message_info_t& info) {
+template <typename Info>
+bool TakeFaults<Info>::take(const Reader& reader, const IncomingMessage& message, Info& info) {
   std::unique_lock lock(mutex_);
   while (true) {
     Message next;
@@ -53,7 +56,8 @@ bool TakeFaults::take(const Reader& reader, const IncomingMessage& message, rmw_
   }
 }
 
-bool TakeFaults::pass(Message& message, std::size_t& copies) {
+template <typename Info>
+bool TakeFaults<Info>::pass(Message& message, std::size_t& copies) {
   const MessageFate fate = faults_->next();
   if (fate.is_dropped) {
     return false;
@@ -72,7 +76,8 @@ bool TakeFaults::pass(Message& message, std::size_t& copies) {
   return false;
 }
 
-void TakeFaults::put(const Message& message) {
+template <typename Info>
+void TakeFaults<Info>::put(const Message& message) {
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(message);
@@ -80,9 +85,13 @@ void TakeFaults::put(const Message& message) {
   announce_();
 }
 
-bool TakeFaults::has_message() const {
+template <typename Info>
+bool TakeFaults<Info>::has_message() const {
   const std::lock_guard lock(mutex_);
   return !waiting_.empty();
 }
+
+template class TakeFaults<rmw_message_info_t>;
+template class TakeFaults<rmw_service_info_t>;
 
 }  // namespace rmw_fastrtps

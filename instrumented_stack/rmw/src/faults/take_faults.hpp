@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives the messages of a subscription to its takes as its faults want it. A message that is late, or the copy of one,
-// waits here, where the reader does not know it.
+// Gives the messages of a subscription, or the requests of a service, to its takes as its faults want it. A message
+// that is late, or the copy of one, waits here, where the reader does not know it.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,12 @@ namespace rmw_fastrtps {
 
 struct IncomingMessage;
 
+// `Info` is what a take tells of a message beside it: rmw_message_info_t, or rmw_service_info_t of a request.
+template <typename Info>
 class TakeFaults {
  public:
   // Takes the next message of the reader. False if there is none.
-  using Reader = std::function<bool(rmw_serialized_message_t& message, rmw_message_info_t& info)>;
+  using Reader = std::function<bool(rmw_serialized_message_t& message, Info& info)>;
 
   // `announce` is called when has_message() has become true, by any thread.
   TakeFaults(std::unique_ptr<MessageFaults> faults, const message_type_support_callbacks_t& type,
@@ -32,7 +34,7 @@ class TakeFaults {
   TakeFaults& operator=(const TakeFaults&) = delete;
 
   // False if there is no message now. A message whose bytes can't be read any more is lost.
-  bool take(const Reader& reader, const IncomingMessage& message, rmw_message_info_t& info);
+  bool take(const Reader& reader, const IncomingMessage& message, Info& info);
 
   // Whether a message waits here whose time has come.
   bool has_message() const;
@@ -40,7 +42,7 @@ class TakeFaults {
  private:
   struct Message {
     std::vector<std::uint8_t> bytes;
-    rmw_message_info_t info;
+    Info info;
   };
 
   // Applies the faults. False if nothing is left of the message for now.
@@ -54,5 +56,8 @@ class TakeFaults {
   std::deque<Message> waiting_;
   rmw_serialized_message_t buffer_;
 };
+
+extern template class TakeFaults<rmw_message_info_t>;
+extern template class TakeFaults<rmw_service_info_t>;
 
 }  // namespace rmw_fastrtps

@@ -6,6 +6,8 @@
 
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
+#include "faults/publish_faults.hpp"
+#include "faults/take_faults.hpp"
 #include "rmw/error_handling.h"
 #include "service/service_channel.hpp"
 #include "service/service_clients.hpp"
@@ -20,8 +22,10 @@ namespace rtps = eprosima::fastrtps::rtps;
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
 using rmw_fastrtps::OutgoingMessage;
+using rmw_fastrtps::PublishFaults;
 using rmw_fastrtps::ServiceChannel;
 using rmw_fastrtps::ServiceClients;
+using rmw_fastrtps::TakeFaults;
 using rmw_fastrtps::Waitable;
 
 namespace {
@@ -45,8 +49,15 @@ struct Service final : ServiceChannel {
     }
   }
 
+  bool is_ready() override {
+    return ServiceChannel::is_ready() || stays_ready(request_faults != nullptr && request_faults->has_message());
+  }
+
   rmw_service_t handle{};
   ServiceClients clients;
+  // Of a test; null: none.
+  std::unique_ptr<TakeFaults<rmw_service_info_t>> request_faults;
+  std::unique_ptr<PublishFaults> response_faults;
 };
 
 // Whether the client of a request is known by its response reader. A client of another DDS program may name none; then
@@ -62,6 +73,42 @@ Service& service_of(const rmw_service_t& handle) {
   return *static_cast<Service*>(static_cast<Waitable*>(handle.data));
 }
 
+void set_faults(Service& service, const rmw_node_t* node) {
+  using rmw_message_faults::Side;
+  if (auto faults = rmw_fastrtps::faults_of(Side::kRequest, service.service_name(), node)) {
+    service.request_faults = std::make_unique<TakeFaults<rmw_service_info_t>>(
+        std::move(faults), *service.reader_type, [&service] { service.announce_other_message(); });
+  }
+  if (auto faults = rmw_fastrtps::faults_of(Side::kResponse, service.service_name(), node)) {
+    service.response_faults = std::make_unique<PublishFaults>(std::move(faults), *service.writer, *service.writer_type);
+  }
+}
+
+// Takes the next request that the reader holds. False if there is none.
+bool take_from_reader(Service& service, IncomingMessage incoming, rmw_service_info_t& info) {
+  fdds::SampleInfo sample;
+  bool taken = false;
+  // An invalid sample announces the end of a client. It is no request.
+  while (!taken && service.take_next(&incoming, sample)) {
+    taken = sample.valid_data;
+  }
+  if (!taken) {
+    return false;
+  }
+  const auto writer = rmw_fastrtps::to_gid(sample.sample_identity.writer_guid());
+  const rtps::GUID_t& reader_guid = sample.related_sample_identity.writer_guid();
+  // A client that names no reader of its own (it is not a ROS 2 client) is identified by its writer.
+  const auto client = reader_guid == rtps::GUID_t::unknown() ? writer : rmw_fastrtps::to_gid(reader_guid);
+  std::copy(client.begin(), client.end(), info.request_id.writer_guid);
+  info.request_id.sequence_number = sample.sample_identity.sequence_number().to64long();
+  info.source_timestamp = sample.source_timestamp.to_ns();
+  info.received_timestamp = sample.reception_timestamp.to_ns();
+  if (names_a_reader(client)) {
+    service.clients.request_taken(client, writer);
+  }
+  return true;
+}
+
 }  // namespace
 
 rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_type_support_t* type_support,
@@ -73,6 +120,12 @@ rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_t
   std::lock_guard lock(node->context->impl->mutex);
   auto service = std::make_unique<Service>();
   service->open(ServiceChannel::End::kService, node, *type_support, service_name, *qos_policies);
+  try {
+    set_faults(*service, node);
+  } catch (...) {
+    service->close(node);
+    throw;
+  }
   service->handle = {kIdentifier, static_cast<Waitable*>(service.get()), service->service_name().c_str()};
   TRACETOOLS_EXT_TRACEPOINT(rmw_service_init, static_cast<const void*>(&service->handle), service->reader_gid().data());
   return &service.release()->handle;
@@ -87,6 +140,8 @@ rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service) try {
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, static_cast<const void*>(service));
   const std::unique_ptr<Service> owned(&service_of(*service));
+  owned->request_faults.reset();
+  owned->response_faults.reset();
   owned->close(node);
   return RMW_RET_OK;
 } catch (const std::exception& error) {
@@ -101,27 +156,16 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_request, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);
   Service& owned = service_of(*service);
-  *taken = false;
-  IncomingMessage incoming{ros_request, nullptr};
-  fdds::SampleInfo sample;
-  // An invalid sample announces the end of a client. It is no request.
-  while (!*taken && owned.take_next(&incoming, sample)) {
-    *taken = sample.valid_data;
+  const IncomingMessage incoming{ros_request, nullptr};
+  if (owned.request_faults == nullptr) {
+    *taken = take_from_reader(owned, incoming, *request_header);
+  } else {
+    const auto reader = [&](rmw_serialized_message_t& request, rmw_service_info_t& info) {
+      return take_from_reader(owned, {nullptr, &request}, info);
+    };
+    *taken = owned.request_faults->take(reader, incoming, *request_header);
   }
-  rmw_request_id_t& id = request_header->request_id;
-  if (*taken) {
-    const auto writer = rmw_fastrtps::to_gid(sample.sample_identity.writer_guid());
-    const rtps::GUID_t& reader_guid = sample.related_sample_identity.writer_guid();
-    // A client that names no reader of its own (it is not a ROS 2 client) is identified by its writer.
-    const auto client = reader_guid == rtps::GUID_t::unknown() ? writer : rmw_fastrtps::to_gid(reader_guid);
-    std::copy(client.begin(), client.end(), id.writer_guid);
-    id.sequence_number = sample.sample_identity.sequence_number().to64long();
-    request_header->source_timestamp = sample.source_timestamp.to_ns();
-    request_header->received_timestamp = sample.reception_timestamp.to_ns();
-    if (names_a_reader(client)) {
-      owned.clients.request_taken(client, writer);
-    }
-  }
+  [[maybe_unused]] const rmw_request_id_t& id = request_header->request_id;
   TRACETOOLS_TRACEPOINT(rmw_take_request, static_cast<const void*>(service), ros_request,
                         reinterpret_cast<const uint8_t*>(id.writer_guid), id.sequence_number, *taken);
   return RMW_RET_OK;
@@ -156,7 +200,9 @@ rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* requ
   TRACETOOLS_TRACEPOINT(rmw_send_response, static_cast<const void*>(service), ros_response, client.data(),
                         request_header->sequence_number, now);
   OutgoingMessage outgoing{ros_response, nullptr};
-  if (!owned.writer->write(&outgoing, params)) {
+  const bool is_written = owned.response_faults == nullptr ? owned.writer->write(&outgoing, params)
+                                                           : owned.response_faults->write(outgoing, params);
+  if (!is_written) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a response of service '%s' cannot be written", service->service_name);
     return RMW_RET_ERROR;
   }

@@ -83,6 +83,7 @@ void ServiceChannel::open_reader(const std::string& topic_name, const message_ty
                                  const rmw_qos_profile_t& profile) {
   fdds::DataReaderQos qos = participant_->reader_qos(topic_name, type);
   apply_profile(profile, qos);
+  reader_type = &type;
   reader_topic_ = &participant_->acquire_topic(topic_name, type);
   fdds::StatusMask events = fdds::StatusMask::data_available();
   events << fdds::StatusMask::subscription_matched();
@@ -98,6 +99,7 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
                                  const rmw_qos_profile_t& profile) {
   fdds::DataWriterQos qos = participant_->writer_qos(topic_name, type);
   apply_profile(profile, qos);
+  writer_type = &type;
   writer_topic_ = &participant_->acquire_topic(topic_name, type);
   writer =
       participant_->publisher().create_datawriter(writer_topic_, qos, this, fdds::StatusMask::publication_matched());

@@ -35,6 +35,8 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
   rmw_ret_t get_writer_qos(rmw_qos_profile_t* qos) const;
 
   eprosima::fastdds::dds::DataWriter* writer = nullptr;
+  const message_type_support_callbacks_t* reader_type = nullptr;
+  const message_type_support_callbacks_t* writer_type = nullptr;
 
  private:
   void open_endpoints(End end, const rosidl_service_type_support_t& type_support, const rmw_qos_profile_t& profile);

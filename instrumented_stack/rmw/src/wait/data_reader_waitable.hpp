@@ -71,7 +71,14 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   eprosima::fastdds::dds::DataReader* reader = nullptr;
 
  protected:
-  void count_arrival() { arrivals_.fetch_add(1, std::memory_order_release); }
+  // Whether a message that the reader does not hold `is_there`. The reader, which knows nothing of it, may have
+  // settled.
+  bool stays_ready(bool is_there) {
+    if (is_there) {
+      count_arrival();
+    }
+    return is_there;
+  }
 
   // What is known without asking the reader.
   std::optional<bool> is_known_to_be_ready() const {
@@ -79,6 +86,8 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   }
 
  private:
+  void count_arrival() { arrivals_.fetch_add(1, std::memory_order_release); }
+
   std::optional<bool> is_known_to_be_ready(std::uint64_t arrivals) const {
     if (settled_.load(std::memory_order_acquire) == arrivals) {
       return false;

@@ -16,7 +16,7 @@ constexpr const char* kVariable = "RMW_MESSAGE_FAULTS";
 constexpr const char* kWakeSuffix = ".wake";
 
 enum class Kind : std::uint32_t { kDrop, kDuplicate, kCorrupt, kDelay };
-enum class Side : std::uint32_t { kPublish, kTake };
+enum class Side : std::uint32_t { kPublish, kTake, kRequest, kResponse };  // the last two: at the service
 
 // No ROS name is longer.
 constexpr std::size_t kNameCapacity = 256;
@@ -25,7 +25,7 @@ struct Fault {
   // Written before the processes start.
   Kind kind;
   Side side;
-  char topic[kNameCapacity];  // "/chatter"; ends with a zero byte, as the next one does
+  char topic[kNameCapacity];  // "/chatter", or of a service "/add"; ends with a zero byte, as the next one does
   char node[kNameCapacity];   // "/talker"; empty: each node
   std::uint64_t first;        // number of the first message that is hit, from 1
   std::uint64_t every;        // then each message of so many
@@ -37,7 +37,7 @@ struct Fault {
   std::atomic<std::uint32_t> is_armed;
 
   // Counted by all processes together.
-  std::atomic<std::uint64_t> seen;        // messages of the topic
+  std::atomic<std::uint64_t> seen;        // messages of the topic or service
   std::atomic<std::uint64_t> hit;         // of them
   std::atomic<std::int64_t> first_time;   // CLOCK_MONOTONIC, ns, of the first hit; 0: none yet
   std::atomic<std::int64_t> latest_time;  // of the latest one
