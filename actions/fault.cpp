@@ -2,7 +2,8 @@
 // <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system, and
 // <fault topic|service="…" do="drop|duplicate|corrupt|delay">: what it does to messages, and <fault group="…"
 // do="partition|lose|delay">: what it does to the network, and <fault clock="…" do="stop|skew|jump">: to simulated
-// time. The random parts are drawn here, so that a run has nothing left to chance.
+// time, and <fault path="…" do="fill_disk">: to a disk. The random parts are drawn here, so that a run has nothing left
+// to chance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "actions/clock_fault.hpp"
 #include "actions/depends_on.hpp"
+#include "actions/disk_fault.hpp"
 #include "actions/expectation_fields.hpp"
 #include "actions/message_fault.hpp"
 #include "actions/network_fault.hpp"
@@ -25,9 +27,23 @@ namespace launch {
 
 namespace {
 
-enum class Kind { kKill, kStop, kSlow, kLimit, kDrop, kDuplicate, kCorrupt, kDelay, kPartition, kLose, kSkew, kJump };
-const std::vector<std::string> kKinds = {"kill",    "stop",  "slow",      "limit", "drop", "duplicate",
-                                         "corrupt", "delay", "partition", "lose",  "skew", "jump"};
+enum class Kind {
+  kKill,
+  kStop,
+  kSlow,
+  kLimit,
+  kDrop,
+  kDuplicate,
+  kCorrupt,
+  kDelay,
+  kPartition,
+  kLose,
+  kSkew,
+  kJump,
+  kFillDisk
+};
+const std::vector<std::string> kKinds = {"kill",  "stop",      "slow", "limit", "drop", "duplicate", "corrupt",
+                                         "delay", "partition", "lose", "skew",  "jump", "fill_disk"};
 
 std::optional<NetworkFault::Kind> network_kind(Kind kind, const Fields& fields) {
   switch (kind) {
@@ -115,6 +131,8 @@ class Fault : public Action {
       clock_.emplace(fields, *clock);
     } else if (const auto messages = message_kind(kind_)) {
       messages_.emplace(fields, *messages);
+    } else if (kind_ == Kind::kFillDisk) {
+      disk_.emplace(fields);
     }
   }
 
@@ -142,9 +160,13 @@ class Fault : public Action {
         messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
     const std::optional<NetworkFaultRanges> network = network_ ? std::optional(network_->perform(scope)) : std::nullopt;
     const std::optional<ClockFaultRanges> clock = clock_ ? std::optional(clock_->perform(scope)) : std::nullopt;
+    if (disk_) {
+      fault.what = disk_->perform(scope);
+    }
     const std::string what = messages  ? fmt::format("{} {}", fault.process, messages->identity())
                              : network ? network->identity()
                              : clock   ? fmt::format("{} {}", fault.process, clock->identity())
+                             : disk_   ? disk_->identity()
                                        : describe(fault);
     fault.identity = name_
                          ? name_->perform(scope)
@@ -189,7 +211,7 @@ class Fault : public Action {
     static const char* const kWithMessages = "do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\"";
     static const std::vector<Kind> kOfNetwork = {Kind::kPartition, Kind::kLose, Kind::kDelay};
     static const char* const kWithNetwork = "do=\"partition\", do=\"lose\" and do=\"delay\"";
-    static const std::array<OwnAttribute, 17> kOwn = {
+    static const std::array<OwnAttribute, 19> kOwn = {
         {{"signal", {Kind::kKill}, "do=\"kill\""},
          {"topic", kOfMessages, kWithMessages},
          {"service", kOfMessages, kWithMessages},
@@ -204,6 +226,8 @@ class Fault : public Action {
          {"group", kOfNetwork, kWithNetwork},
          {"from", kOfNetwork, kWithNetwork},
          {"share", {Kind::kLose}, "do=\"lose\""},
+         {"path", {Kind::kFillDisk}, "do=\"fill_disk\""},
+         {"free", {Kind::kFillDisk}, "do=\"fill_disk\""},
          {"to", {Kind::kSlow}, "do=\"slow\""},
          {"memory", {Kind::kLimit}, "do=\"limit\""},
          {"files", {Kind::kLimit}, "do=\"limit\""}}};
@@ -230,7 +254,12 @@ class Fault : public Action {
     if (is_of_clock && process_) {
       throw LaunchError("either a process or a clock suffers", fields.where("process"), {}, Finding::kExclusive);
     }
-    if (!process_ && !is_of_network && !is_of_clock && !message_kind(kind_)) {
+    if (kind_ == Kind::kFillDisk && process_) {
+      throw LaunchError("process does not go with do=\"fill_disk\": all processes of the test share the disk",
+                        fields.where("process"), {}, Finding::kExclusive);
+    }
+    const bool has_process = !is_of_network && !is_of_clock && !message_kind(kind_) && kind_ != Kind::kFillDisk;
+    if (!process_ && has_process) {
       throw LaunchError("it is not said which process suffers", fields.where(),
                         "process=\"…\": the name of the process or of its node", Finding::kMissingAttribute);
     }
@@ -307,6 +336,7 @@ class Fault : public Action {
   std::optional<MessageFaultFields> messages_;
   std::optional<NetworkFaultFields> network_;
   std::optional<ClockFaultFields> clock_;
+  std::optional<DiskFaultFields> disk_;
   std::vector<DependsOn> dependencies_;
 };
 
@@ -316,9 +346,9 @@ ActionType fault_action() {
   ActionType type{
       .tag = "fault",
       .help =
-          "In a test: does something to a process, to messages, to the network or to simulated time, at a time or when "
-          "something is "
-          "ready.",
+          "In a test: does something to a process, to messages, to the network, to simulated time or to a disk, at a "
+          "time "
+          "or when something is ready.",
       .attributes =
           {{"process", AttributeType::kText, false, "",
             "name of the process or of its node; all processes of that name are meant. With topic and service: each "
@@ -330,7 +360,7 @@ ActionType fault_action() {
             "come twice, "
             "with other bytes, or late; partition, lose, delay: packets between processes are lost or late; stop, "
             "skew, jump: simulated time stands still, is faster or "
-            "slower, or jumps",
+            "slower, or jumps; fill_disk: a disk is full",
             true},
            {"at", AttributeType::kText, false, "0",
             "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
@@ -350,8 +380,8 @@ ActionType fault_action() {
       .items = {DependsOn::item_of_fault()},
       .extension = true,
       .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
-  for (const std::vector<AttributeSpec>& more :
-       {MessageFaultFields::attributes(), NetworkFaultFields::attributes(), ClockFaultFields::attributes()}) {
+  for (const std::vector<AttributeSpec>& more : {MessageFaultFields::attributes(), NetworkFaultFields::attributes(),
+                                                 ClockFaultFields::attributes(), DiskFaultFields::attributes()}) {
     type.attributes.insert(type.attributes.end(), more.begin(), more.end());
   }
   return type;

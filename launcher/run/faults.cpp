@@ -43,8 +43,10 @@ struct Faults::Fault {
   std::uint64_t messages = 0;  // that were hit
 
   std::optional<std::size_t> impairment = std::nullopt;  // of the network, while it lasts
+  bool fills_disk = false;                               // now
 
   const NetworkFault* of_network() const { return std::get_if<NetworkFault>(&request.what); }
+  const DiskFault* of_disk() const { return std::get_if<DiskFault>(&request.what); }
   const MessageFault* of_messages() const { return std::get_if<MessageFault>(&request.what); }
 };
 
@@ -110,6 +112,10 @@ void Faults::begin(Fault& fault) {
     apply_to_network(fault);
     return;
   }
+  if (fault.of_disk() != nullptr && fault.request.at == Duration(0)) {
+    apply_to_disk(fault);
+    return;
+  }
   fault.timer = loop_.after(fault.request.at, [this, &fault] { apply(fault); });
 }
 
@@ -121,6 +127,10 @@ void Faults::apply(Fault& fault) {
   }
   if (fault.of_network() != nullptr) {
     apply_to_network(fault);
+    return;
+  }
+  if (fault.of_disk() != nullptr) {
+    apply_to_disk(fault);
     return;
   }
   const std::string& name = fault.request.process;
@@ -145,7 +155,8 @@ void Faults::apply(Fault& fault) {
     const std::string reason = std::visit(
         [&](const auto& what) -> std::string {
           using What = std::decay_t<decltype(what)>;
-          if constexpr (std::is_same_v<What, MessageFault> || std::is_same_v<What, NetworkFault>) {
+          if constexpr (std::is_same_v<What, MessageFault> || std::is_same_v<What, NetworkFault> ||
+                        std::is_same_v<What, DiskFault>) {
             return {};  // not applied to a process
           } else {
             return apply(fault, id, what);
@@ -290,6 +301,39 @@ void Faults::end_network(Fault& fault) {
   fault.is_over = true;
 }
 
+void Faults::apply_to_disk(Fault& fault) {
+  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
+  try {
+    if (disks_ == nullptr) {
+      throw std::runtime_error("there is no disk for it");
+    }
+    disks_->fill(fault.request.number, *fault.of_disk());
+  } catch (const std::runtime_error& error) {
+    miss(fault, error.what());
+    return;
+  }
+  fault.fills_disk = true;
+  tell(fault, {});
+  if (fault.request.lasts) {
+    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end_disk(fault); });
+  } else {
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
+  }
+}
+
+void Faults::end_disk(Fault& fault) {
+  if (!std::exchange(fault.fills_disk, false)) {
+    return;
+  }
+  try {
+    disks_->make_room(fault.request.number);
+  } catch (const std::runtime_error& error) {
+    log_(fmt::format("fault {}: the disk stays full: {}", fault.request.number, error.what()));
+  }
+  fault.is_over = true;
+  tell(fault, {.kind = FaultEvent::Kind::kOver});
+}
+
 void Faults::turn(Fault& fault, bool runs) {
   const unsigned percent = std::get<SlowFault>(fault.request.what).percent;
   for (const ProcessId id : fault.processes) {
@@ -376,6 +420,7 @@ void Faults::shutdown() {
       end_messages(fault, "");
     }
     end_network(fault);
+    end_disk(fault);
     fault.is_over = true;
     fault.timer.reset();
     fault.turn_timer.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faults of a test: each is applied to its process, to messages or to the network, when its time has come.
+// The faults of a test: each is applied to its process, to messages, the network or a disk, when its time has come.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,7 @@
 #include "launcher/run/dependency_watches.hpp"
 #include "launcher/run/message_faults.hpp"
 #include "launcher/run/processes.hpp"
+#include "launcher/run/test_disks.hpp"
 #include "launcher/run/test_network.hpp"
 #include "launcher/visit/fault_request.hpp"
 
@@ -56,6 +57,9 @@ class Faults {
   // The network that faults of the network are applied to. It must outlive this object.
   void use_network(TestNetwork& network) { network_ = &network; }
 
+  // The disks that faults of disks are applied to. They must outlive this object.
+  void use_disks(TestDisks& disks) { disks_ = &disks; }
+
   // The test begins: the times of its faults count from now. Their dependencies must be resolved. Faults that are left
   // out are passed over. Must be called before its processes start. The directory is for files, which end with this
   // object.
@@ -89,6 +93,8 @@ class Faults {
   void end_messages(Fault& fault, const char* when);
   void apply_to_network(Fault& fault);
   void end_network(Fault& fault);
+  void apply_to_disk(Fault& fault);
+  void end_disk(Fault& fault);
   std::string apply(Fault& fault, ProcessId id, const ClockFault& clock);
   void go_on(const Fault& fault) const;
   void turn(Fault& fault, bool runs);
@@ -106,6 +112,7 @@ class Faults {
   DependencyWatches watches_;
   MessageFaults messages_;
   TestNetwork* network_ = nullptr;
+  TestDisks* disks_ = nullptr;
   std::list<Fault> faults_;                           // their addresses don't change
   std::map<ProcessId, std::set<const Fault*>> held_;  // processes that stand still, and the faults that hold them
 };

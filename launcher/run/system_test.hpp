@@ -40,6 +40,8 @@ class SystemTest {
   void prepare_by(std::function<void(ProcessSpec&)> prepare) { prepare_ = std::move(prepare); }
   // Of a test with faults of the network. It must outlive this object.
   void use_network(TestNetwork& network) { faults_.use_network(network); }
+  // Of a test with faults of disks. They must outlive this object.
+  void use_disks(TestDisks& disks) { faults_.use_disks(disks); }
 
   // The tests that the launch file has requested begin. The directory is for files, which end with this object.
   void begin(std::vector<TestRequest> tests, const std::string& directory);

@@ -50,6 +50,19 @@ std::vector<std::string> search(const std::string& directory) {
   return found;
 }
 
+// A visit of the file with the tests in it.
+LaunchPlan plan_of(const LaunchDescription& description, const Registry& registry, const Environment& environment,
+                   const LaunchArguments& arguments, std::optional<std::size_t> chosen,
+                   const std::string& log_directory) {
+  LaunchContext context(registry, environment, own_prefix(), [](LogLevel, std::string_view, std::string_view) {});
+  context.scope().log_directory = log_directory;
+  for (const auto& [name, value] : arguments) {
+    context.scope().configurations.insert_or_assign(name, value);
+  }
+  context.take_tests(chosen);
+  return plan_launch(context, description);
+}
+
 // A launch file whose tests are looked for.
 struct TestFile {
   TestFile(const std::string& path, const Registry& with, const Environment& in, const LaunchArguments& given)
@@ -59,14 +72,9 @@ struct TestFile {
     description = load_launch_files({file}, registry, scope);
   }
 
-  // A visit of the file with the tests in it. `chosen` as in LaunchContext::take_tests().
+  // `chosen` as in LaunchContext::take_tests().
   LaunchPlan plan(std::optional<std::size_t> chosen) const {
-    LaunchContext context(registry, environment, own_prefix(), [](LogLevel, std::string_view, std::string_view) {});
-    for (const auto& [name, value] : arguments) {
-      context.scope().configurations.insert_or_assign(name, value);
-    }
-    context.take_tests(chosen);
-    return plan_launch(context, *description);
+    return plan_of(*description, registry, environment, arguments, chosen, {});
   }
 
   TestCase test_case(const TestRequest& test, std::size_t number) const;
@@ -106,6 +114,16 @@ std::vector<NetworkFault::Member> network_of(const TestRequest& test) {
     }
   }
   return members;
+}
+
+std::vector<DiskFault> disks_of(const TestRequest& test) {
+  std::vector<DiskFault> disks;
+  for (const FaultRequest& fault : test.faults) {
+    if (const auto* const disk = std::get_if<DiskFault>(&fault.what)) {
+      disks.push_back(*disk);
+    }
+  }
+  return disks;
 }
 
 void check_names(const TestRequest& test, const LaunchPlan& plan, std::vector<Diagnostic>& errors) {
@@ -176,6 +194,7 @@ TestCase TestFile::test_case(const TestRequest& test, std::size_t number) const 
           .events = other_events(test),
           .fault_count = test.faults.size(),
           .network = network_of(test),
+          .fills_disk = !disks_of(test).empty(),
           .shows_seed = !test.faults.empty()};
 }
 
@@ -239,6 +258,24 @@ TestCase find_test(const std::string& file, const Registry& registry, const Envi
                       SourceRange{tests_of.description->file, 0, 0});
   }
   return tests_of.test_case(whole.tests.front(), number);
+}
+
+DiskPlan plan_disks(const TestCase& test, const Registry& registry, const Environment& environment,
+                    const LaunchArguments& arguments, const std::string& log_directory) {
+  const LaunchPlan plan = plan_of(*test.description, registry, environment, arguments, test.number, log_directory);
+  DiskPlan disks;
+  if (!plan.tests.empty()) {
+    disks.faults = disks_of(plan.tests.front());
+  }
+  for (const std::unique_ptr<RunScope>& scope : plan.scopes) {
+    for (const ScopeSetting& setting : scope->describe()) {
+      const auto* const directory = std::get_if<std::string>(&setting.value);
+      if (setting.name == "trace-directory" && directory != nullptr) {
+        disks.traces.push_back(*directory);
+      }
+    }
+  }
+  return disks;
 }
 
 }  // namespace launch

@@ -33,6 +33,7 @@ struct TestCase {
   bool is_only = false;             // the only one of its file
   std::size_t fault_count = 0;
   std::vector<NetworkFault::Member> network = {};    // the processes that faults of the network name
+  bool fills_disk = false;                           // it has faults of disks
   std::uint64_t seed = 1;                            // of its faults
   bool shows_seed = false;                           // the result names the seed
   bool seed_in_name = false;                         // it runs with several
@@ -55,5 +56,14 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
 // LaunchError, also if it has another name here.
 TestCase find_test(const std::string& file, const Registry& registry, const Environment& environment,
                    const LaunchArguments& arguments, std::size_t number, const std::string& name);
+
+// What faults of disks need before a run begins (launcher/run/test_disks.hpp).
+struct DiskPlan {
+  std::vector<DiskFault> faults;
+  std::vector<std::string> traces;  // the directories of all traces
+};
+// With the environment and the log directory of the run. Throws LaunchError.
+DiskPlan plan_disks(const TestCase& test, const Registry& registry, const Environment& environment,
+                    const LaunchArguments& arguments, const std::string& log_directory);
 
 }  // namespace launch

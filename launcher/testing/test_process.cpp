@@ -25,11 +25,13 @@
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/run/test_disks.hpp"
 #include "launcher/run/test_network.hpp"
 #include "launcher/testing/artefacts.hpp"
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
 #include "launcher/testing/trace_session.hpp"
+#include "tracing/lttng/session_daemon.hpp"
 
 namespace launch {
 
@@ -62,17 +64,55 @@ std::optional<TestHosts> make_hosts(const TestRun& run, TestResult& result) {
   }
 }
 
+// A session daemon that began later would see the disks of the test, as long as it lives.
+void begin_session_daemon() {
+  try {
+    tracing::ensure_session_daemon();
+  } catch (const std::exception&) {
+    // The recording of the test tells why.
+  }
+}
+
+// None without faults of disks, or if they can't be applied here; then the result has a failure.
+std::unique_ptr<TestDisks> make_disks(const TestRun& run, const Environment& environment,
+                                      const std::string& log_directory, TestResult& result) {
+  if (!run.test.fills_disk) {
+    return nullptr;
+  }
+  try {
+    DiskPlan plan = plan_disks(run.test, run.registry, environment, run.arguments, log_directory);
+    if (plan.faults.empty()) {
+      return nullptr;  // this run has none: the file reads the environment
+    }
+    if (run.test.traced) {
+      plan.traces.push_back(trace_directory(run.directory));
+    }
+    if (!plan.traces.empty()) {
+      begin_session_daemon();
+    }
+    return std::make_unique<TestDisks>(
+        plan.faults, TestDisks::Places{run.directory, environment.at("ROS_LOG_DIR"), std::move(plan.traces)});
+  } catch (const LaunchError& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics()) {
+      result.failures.push_back(as_text(diagnostic));
+    }
+    return nullptr;
+  }
+}
+
 // Makes everything that a run needs. The order is that of destruction, backwards.
 void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
-  std::optional<TestHosts> hosts = make_hosts(run, result);  // while there is one thread
-  if (!result.failures.empty()) {
-    return;
-  }
   const DomainLease domain;
   const Environment environment = own_surroundings(run, domain.id());
   ::setenv("ROS_DOMAIN_ID", std::to_string(domain.id()).c_str(), 1);
-
   const LogDirectory log_directory = LogDirectory::create(environment);
+
+  // While there is one thread. A host has the disks, too.
+  const std::unique_ptr<TestDisks> disks = make_disks(run, environment, log_directory.path, result);
+  std::optional<TestHosts> hosts = make_hosts(run, result);
+  if (!result.failures.empty()) {
+    return;
+  }
   OutputRouter::Options options;
   options.log_directory = log_directory.path;
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
@@ -116,6 +156,9 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   launch.record_to(tracepoints);
   if (network) {
     launch.test().use_network(*network);
+  }
+  if (disks) {
+    launch.test().use_disks(*disks);
   }
   launch.test().use({[&](TestRequest test) {
                        if (test.name == run.test.name) {

@@ -106,6 +106,11 @@ struct Describer {
     }
     return fmt::format("stop of clock '{}'", process);
   }
+  std::string operator()(const DiskFault& fault) const {
+    const std::string text =
+        fault.directory.empty() ? "full disk of the logs" : fmt::format("full disk at '{}'", fault.directory);
+    return fault.free == 0 ? text : fmt::format("{} but for {} bytes", text, fault.free);
+  }
   std::string operator()(const NetworkFault& fault) const {
     const std::string between = fmt::format("between {} and {}", quoted(fault.group), quoted(fault.from));
     switch (fault.kind) {

@@ -68,10 +68,17 @@ struct ClockFault {
   double by = 0;    // of kJump: seconds
 };
 
+// The disk of a directory is full.
+struct DiskFault {
+  std::string directory;   // absolute; empty: that of the logs
+  std::uint64_t free = 0;  // bytes for which there is room nevertheless
+  SourceRange where;
+};
+
 struct FaultRequest {
   std::size_t number = 0;  // among the faults of its test, from 1
   std::string process;     // one of its names (process_table.hpp); every process of that name is meant
-  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault, NetworkFault, ClockFault> what;
+  std::variant<KillFault, StopFault, SlowFault, LimitFault, MessageFault, NetworkFault, ClockFault, DiskFault> what;
   Duration at{0};                 // from the begin of the test, or from when all dependencies hold
   std::optional<Duration> lasts;  // nullopt: as long as the process; of a MessageFault: until its count is reached
   std::vector<Dependency> dependencies;  // their number of a process means nothing
@@ -87,7 +94,7 @@ std::string describe_messages(const MessageFault& fault, bool several);
 
 // "kill of 'worker'", "kill of 'worker' by SIGTERM", "stop of 'worker' for 2 s", "slow of 'worker' to 25% for 1 s",
 // "limit of 'worker' to 20 files", "drop of messages 3 to 5 on '/scan'", "partition of
-// 'camera' from the others for 2 s".
+// 'camera' from the others for 2 s", "full disk at '/data' for 1 s".
 std::string describe(const FaultRequest& fault);
 
 }  // namespace launch

@@ -489,6 +489,10 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
   EXPECT_THAT(late.out, HasSubstr(" outside; least "));
   EXPECT_THAT(late.out, HasSubstr("error: the chain /ping /pong does not take the time that is expected\n"));
   EXPECT_THAT(late.out, HasSubstr("nearest events:"));
+}
+
+TEST_P(ExampleTests, OfFaultsDoWhatTheirCommentsSay) {
+  const std::string folder = EXAMPLES_DIRECTORY "/";
   const CommandResult faults = run_command(
       {.argv = {LAUNCH_PROGRAM, "test", folder + "46_faults.launch." + GetParam()}}, std::chrono::seconds(100));
   EXPECT_EQ(faults.exit_code, 0) << faults.out << faults.err;
@@ -511,6 +515,15 @@ TEST_P(ExampleTests, PassOrFailAsTheReadmeSays) {
   const CommandResult clock = run_command(
       {.argv = {LAUNCH_PROGRAM, "test", folder + "47_clock_faults.launch." + GetParam()}}, std::chrono::seconds(100));
   EXPECT_EQ(clock.exit_code, 0) << clock.out << clock.err;
+  const CommandResult services =
+      run_command({.argv = {LAUNCH_PROGRAM, "test", folder + "52_service_faults.launch." + GetParam(), "--seeds", "2"}},
+                  std::chrono::seconds(100));
+  EXPECT_EQ(services.exit_code, 0) << services.out << services.err;
+  EXPECT_THAT(services.out, HasSubstr("6 tests: 6 passed, in "));
+  const CommandResult disk = run_command(
+      {.argv = {LAUNCH_PROGRAM, "test", folder + "53_full_disk.launch." + GetParam()}}, std::chrono::seconds(100));
+  EXPECT_EQ(disk.exit_code, 0) << disk.out << disk.err;
+  EXPECT_THAT(disk.out, HasSubstr("2 tests: 2 passed, in "));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, ExampleTests, testing::Values("xml", "yaml"));

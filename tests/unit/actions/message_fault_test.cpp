@@ -45,6 +45,33 @@ TEST(MessageFault, SaysWhatHappensToWhichMessages) {
                                  "drop of all messages on '/left/scan' for 1 s"));
 }
 
+TEST(MessageFault, SaysWhatHappensToRequestsAndResponses) {
+  const PlannedFaults planned = plan_faults(R"xml(
+    <fault service="/add" do="drop"/>
+    <fault service="/add" do="delay" by="0.5" on="response" occurrence="2" count="2" process="p"/>
+    <fault service="/add" do="duplicate" count="all" on="request" node="/ns/n" process="p"/>
+    <fault service="/add" do="corrupt" on="response" every="3" for="2"/>
+    <group><push_ros_namespace namespace="left"/><fault service="add" do="drop" occurrence="2" count="all"/></group>)xml");
+  ASSERT_EQ(planned.error, "");
+  std::vector<std::string> texts;
+  for (const FaultRequest& fault : planned.faults()) {
+    texts.push_back(describe(fault));
+  }
+  EXPECT_THAT(texts, ElementsAre("drop of request 1 of '/add'", "delay by 0.5 s of responses 2 to 3 of '/add' at 'p'",
+                                 "duplicate of all requests of '/add' at 'p', '/ns/n'",
+                                 "corruption of 1 of 3 responses of '/add' for 2 s",
+                                 "drop of all requests of '/left/add' from request 2 on"));
+  EXPECT_EQ(messages(planned.faults().at(0)).side, MessageFault::Side::kRequest);
+  EXPECT_EQ(messages(planned.faults().at(1)).side, MessageFault::Side::kResponse);
+}
+
+// Otherwise a file would have other faults with the same seed than before.
+TEST(MessageFault, WhatIsDrawnStaysTheSame) {
+  const FaultRequest drawn =
+      plan_faults(R"xml(<fault topic="/a" do="drop" on="take" occurrence="1..1000000"/>)xml", 7).faults().at(0);
+  EXPECT_EQ(drawn.identity, "0 /a  true 1..1000000 1..1 1..1 0..0 0..0 0..0 1");
+}
+
 TEST(MessageFault, TheSeedDrawsEachNumber) {
   const std::string fault =
       R"xml(<fault topic="/a" do="delay" occurrence="3..9" every="1..2" count="2..4" by="0.1..0.2"/>)xml";
@@ -86,7 +113,15 @@ TEST(MessageFault, AttributesGoTogether) {
             "/t.launch.xml:4:2: error: it is not said whose messages they are\n"
             "    4 | <fault do=\"drop\"/>\n"
             "      |  ^~~~~\n"
-            "      = help: topic=\"/scan\" names a topic of the ROS graph");
+            "      = help: topic=\"/scan\" or service=\"/add\" names something of the ROS graph");
+  EXPECT_EQ(error_of(R"(<fault topic="/a" service="/b" do="drop"/>)"),
+            "/t.launch.xml:4:28: error: either a topic or a service suffers\n"
+            "    4 | <fault topic=\"/a\" service=\"/b\" do=\"drop\"/>\n"
+            "      |                            ^~");
+  EXPECT_EQ(error_of(R"(<fault service="/a" do="drop" on="take"/>)"),
+            "/t.launch.xml:4:35: error: on can be request or response, got 'take'\n"
+            "    4 | <fault service=\"/a\" do=\"drop\" on=\"take\"/>\n"
+            "      |                                   ^~~~");
   EXPECT_EQ(error_of(R"(<fault process="p" do="kill" topic="/a"/>)"),
             "/t.launch.xml:4:37: error: topic goes with do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\" "
             "only\n"

@@ -3,14 +3,8 @@
 // says afterwards.
 #include "faults/message_faults.hpp"
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
-#include <stdlib.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <set>
@@ -18,8 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "fault_table.hpp"
 #include "faults/delayed_calls.hpp"
-#include "rmw_message_faults/fault_table.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
 #include "std_msgs/msg/u_int64.hpp"
@@ -27,28 +21,19 @@
 
 namespace {
 
-using rmw_message_faults::Fault;
-using rmw_message_faults::Kind;
-using rmw_message_faults::Side;
-using rmw_message_faults::Table;
+using rmw_test::Asked;
 using rmw_test::Context;
+using rmw_test::Fault;
+using rmw_test::FaultTable;
+using rmw_test::Kind;
 using rmw_test::Node;
 using rmw_test::Publisher;
+using rmw_test::Side;
 using rmw_test::Subscription;
+using rmw_test::Table;
 using std_msgs::msg::String;
 using std_msgs::msg::UInt64;
 using testing::ElementsAre;
-
-struct Asked {
-  const char* topic;
-  Kind kind;
-  Side side = Side::kPublish;
-  std::uint64_t first = 1;
-  std::uint64_t every = 1;
-  std::uint64_t count = 1;
-  std::chrono::nanoseconds delay{0};
-  const char* node = "";
-};
 
 // A process reads its faults once, so those of all tests are in one table. Each test has topics of its own.
 const std::vector<Asked> kAsked = {
@@ -70,60 +55,7 @@ const std::vector<Asked> kAsked = {
     {"/other_process", Kind::kDrop, Side::kPublish, 1, 1, 0},
 };
 
-class FaultTable : public testing::Environment {
- public:
-  void SetUp() override {
-    char name[] = "/tmp/message_faults_test.XXXXXX";
-    ASSERT_NE(::mkdtemp(name), nullptr);
-    directory_ = name;
-    path_ = directory_ + "/table";
-    const std::size_t size = Table::size_for(kAsked.size());
-    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    ASSERT_EQ(::ftruncate(file, static_cast<off_t>(size)), 0);
-    void* const memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-    ASSERT_NE(memory, MAP_FAILED);
-    ::close(file);
-    table = new (memory) Table{Table::kMagic, sizeof(Fault), kAsked.size()};
-    std::string numbers;
-    for (std::size_t i = 0; i < kAsked.size(); ++i) {
-      const Asked& asked = kAsked[i];
-      Fault& fault = *std::construct_at(table->faults() + i);
-      fault.kind = asked.kind;
-      fault.side = asked.side;
-      std::copy_n(asked.topic, std::string(asked.topic).size(), fault.topic);
-      std::copy_n(asked.node, std::string(asked.node).size(), fault.node);
-      fault.first = asked.first;
-      fault.every = asked.every;
-      fault.count = asked.count;
-      fault.delay = asked.delay.count();
-      fault.seed = i;
-      fault.is_armed = fault.topic == std::string("/unarmed") ? 0 : 1;
-      numbers += fault.topic == std::string("/other_process") ? "" : std::to_string(i + 1) + ",";
-    }
-    ASSERT_EQ(::mkfifo((path_ + ".wake").c_str(), 0600), 0);
-    wake = ::open((path_ + ".wake").c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    ::setenv("RMW_MESSAGE_FAULTS", (numbers + ":" + path_).c_str(), 1);
-  }
-  void TearDown() override {
-    ::unlink((path_ + ".wake").c_str());
-    ::unlink(path_.c_str());
-    ::rmdir(directory_.c_str());
-  }
-
-  static Fault& of(const std::string& topic) {
-    const auto found = std::find_if(kAsked.begin(), kAsked.end(), [&](const Asked& one) { return one.topic == topic; });
-    return table->faults()[found - kAsked.begin()];
-  }
-
-  static inline Table* table = nullptr;
-  static inline int wake = -1;
-
- private:
-  std::string directory_;
-  std::string path_;
-};
-
-const auto* const kTable = testing::AddGlobalTestEnvironment(new FaultTable);
+const auto* const kTable = testing::AddGlobalTestEnvironment(new FaultTable(kAsked));
 
 class MessageFaultsTest : public testing::Test {
  protected:

@@ -137,8 +137,10 @@ TEST_F(MessageFaultsRun, EachProcessLearnsOfItsFaults) {
               <fault topic="/a" do="drop" process="p"/>
               <fault topic="/b" do="delay" by="0.5" process="q-2" node="n" on="take" occurrence="3" every="2"/>
               <fault process="p" do="kill" at="9"/>
-              <fault topic="/c" do="corrupt" count="all" at="0.5"/>)");
-  EXPECT_THAT(variables_, ElementsAre("1,3", "2,3", "3"));
+              <fault topic="/c" do="corrupt" count="all" at="0.5"/>
+              <fault service="/d" do="drop" process="r"/>
+              <fault service="/d" do="drop" on="response" process="r"/>)");
+  EXPECT_THAT(variables_, ElementsAre("1,3", "2,3", "3,4,5"));
   const table::Fault& first = node_->fault(1);
   EXPECT_EQ(std::string(first.topic), "/a");
   EXPECT_EQ(first.kind, table::Kind::kDrop);
@@ -151,6 +153,9 @@ TEST_F(MessageFaultsRun, EachProcessLearnsOfItsFaults) {
   EXPECT_EQ(second.first, 3U);
   EXPECT_EQ(second.every, 2U);
   EXPECT_EQ(node_->fault(3).count, 0U);
+  EXPECT_EQ(node_->fault(4).side, table::Side::kRequest);
+  EXPECT_EQ(std::string(node_->fault(4).topic), "/d");
+  EXPECT_EQ(node_->fault(5).side, table::Side::kResponse);
 }
 
 TEST_F(MessageFaultsRun, TellsOfEachHitAndOfTheLastOne) {
@@ -189,13 +194,18 @@ TEST_F(MessageFaultsRun, SaysHowManyMessagesThereWereInstead) {
   at(1s, [](const NodeSide& node) {
     node.fault(1).seen = 2;
     node.fault(2).seen = 1;
+    node.fault(4).seen = 1;
   });
   run_with(R"(<executable cmd="p"/>)", R"(<fault topic="/a" do="drop" occurrence="5"/>
                                           <fault topic="/b" do="drop" occurrence="5" for="2"/>
-                                          <fault topic="/c" do="drop"/>)");
-  EXPECT_THAT(events_, ElementsAre("2 s: 2 missed: there was 1 message on '/b' in that time",
-                                   "4 s: 1 missed: there were 2 messages on '/a'",
-                                   "4 s: 3 missed: there were no messages on '/c'"));
+                                          <fault topic="/c" do="drop"/>
+                                          <fault service="/d" do="drop" occurrence="2"/>
+                                          <fault service="/d" do="drop" on="response"/>)");
+  EXPECT_THAT(
+      events_,
+      ElementsAre("2 s: 2 missed: there was 1 message on '/b' in that time",
+                  "4 s: 1 missed: there were 2 messages on '/a'", "4 s: 3 missed: there were no messages on '/c'",
+                  "4 s: 4 missed: there was 1 request of '/d'", "4 s: 5 missed: there were no responses of '/d'"));
 }
 
 TEST_F(MessageFaultsRun, HitsOfTheLastMomentCount) {
