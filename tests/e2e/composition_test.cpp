@@ -6,17 +6,17 @@
 
 #include <cerrno>
 #include <regex>
+#include <utility>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
+using namespace launch_trace_testing;
 using namespace test_support;
-using testing::Contains;
 using testing::HasSubstr;
-using testing::Not;
 
 class Composition : public testing::Test {
  protected:
@@ -60,16 +60,15 @@ subbuffer-size-ust="1048576"/>)xml" +
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
 
-  const RecordedTrace trace = read_trace(sandbox_.trace_directory() / "t");
-  std::vector<std::string> nodes;
-  for (const RecordedEvent& event : trace.events) {
-    // The trace has the launcher's own events, but no events of its client for the ROS graph.
-    EXPECT_EQ(event.procname, event.name.starts_with("launch:") ? "launch" : "component_conta") << event.name;
-    if (event.name == "ros2:rcl_node_init") {
-      nodes.push_back(event.text("namespace") + " " + event.text("node_name"));
-    }
+  const Trace trace(sandbox_.trace_directory() / "t");
+  // The trace has the launcher's own events, but no events of its client for the ROS graph.
+  EXPECT_THAT(trace, EachEvent(event(""), event("").that("is of the launcher or the container", [](const Event& event) {
+                return event.procname() == (event.name().starts_with("launch:") ? "launch" : "component_conta");
+              })));
+  for (const auto& [name, name_space] :
+       {std::pair("c", "/"), std::pair("talker", "/"), std::pair("listener", "/ear")}) {
+    EXPECT_THAT(trace, HasEvent(event("ros2:rcl_node_init").with("node_name", name).with("namespace", name_space)));
   }
-  EXPECT_THAT(nodes, testing::IsSupersetOf({"/ c", "/ talker", "/ear listener"}));
 }
 
 TEST_F(Composition, AContainerThatStartsAgainGetsItsNodesAgain) {

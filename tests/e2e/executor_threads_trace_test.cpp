@@ -7,12 +7,13 @@
 #include <map>
 #include <set>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
+using namespace launch_trace_testing;
 using namespace test_support;
 
 constexpr const char* kGetNextReady = "ros2:rclcpp_executor_get_next_ready";
@@ -30,27 +31,20 @@ class ExecutorThreadsTrace : public testing::Test {
 )";
     const CommandResult result = run_command({LAUNCH_PROGRAM, file.string()});
     ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
-    trace_ = read_trace(sandbox_.trace_directory() / "threads");
-    ASSERT_EQ(trace_.losses, 0U);
+    trace_ = Trace(sandbox_.trace_directory() / "threads");
+    ASSERT_THAT(trace_, LostNothing());
   }
 
-  std::uint64_t only(const std::string& name, const std::string& field) const {
-    const auto found = all(name, field);
-    EXPECT_EQ(found.size(), 1U) << name;
-    return found.empty() ? 0 : *found.begin();
-  }
   std::set<std::uint64_t> all(const std::string& name, const std::string& field) const {
     std::set<std::uint64_t> values;
-    for (const RecordedEvent& event : trace_.events) {
-      if (event.name == name) {
-        values.insert(event.number(field));
-      }
+    for (const Event* const each : event(name).select(trace_)) {
+      values.insert(each->handle(field));
     }
     return values;
   }
 
   Sandbox sandbox_;
-  RecordedTrace trace_;
+  Trace trace_;
 };
 
 TEST_F(ExecutorThreadsTrace, EveryThreadTellsWhatItDoesInOrder) {
@@ -59,32 +53,32 @@ TEST_F(ExecutorThreadsTrace, EveryThreadTellsWhatItDoesInOrder) {
   std::map<std::int64_t, bool> executing;  // the event came, but the callback has not begun
   std::int64_t waiter = 0;
   std::set<std::int64_t> threads_that_ran;
-  for (const RecordedEvent& event : trace_.events) {
-    std::string& last = last_of_executor[event.vtid];
-    auto& callbacks = running[event.vtid];
-    if (event.name == kGetNextReady || event.name == kWaitForWork || event.name == kExecute) {
-      EXPECT_TRUE(callbacks.empty()) << event.name << " within a callback";
-      EXPECT_FALSE(executing[event.vtid]) << event.name << " before the callback of an execution";
+  for (const Event& event : trace_) {
+    std::string& last = last_of_executor[event.vtid()];
+    auto& callbacks = running[event.vtid()];
+    if (event.name() == kGetNextReady || event.name() == kWaitForWork || event.name() == kExecute) {
+      EXPECT_TRUE(callbacks.empty()) << event.name() << " within a callback";
+      EXPECT_FALSE(executing[event.vtid()]) << event.name() << " before the callback of an execution";
     }
-    if (event.name == kGetNextReady || event.name == kWaitForWork) {
-      EXPECT_TRUE(waiter == 0 || waiter == event.vtid) << event.name << " while another thread waits";
-      EXPECT_TRUE(event.name == kGetNextReady || last == kGetNextReady) << "waits without having looked";
-      waiter = event.name == kWaitForWork ? event.vtid : 0;
-      last = event.name;
-    } else if (event.name == kExecute) {
+    if (event.name() == kGetNextReady || event.name() == kWaitForWork) {
+      EXPECT_TRUE(waiter == 0 || waiter == event.vtid()) << event.name() << " while another thread waits";
+      EXPECT_TRUE(event.name() == kGetNextReady || last == kGetNextReady) << "waits without having looked";
+      waiter = event.name() == kWaitForWork ? event.vtid() : 0;
+      last = event.name();
+    } else if (event.name() == kExecute) {
       EXPECT_EQ(last, kGetNextReady) << "executes without having looked";
-      executing[event.vtid] = true;
-      last = event.name;
-    } else if (event.name == "ros2:rmw_take" && event.number("taken") == 0) {
-      executing[event.vtid] = false;  // another thread was faster
-    } else if (event.name == "ros2:callback_start") {
-      EXPECT_TRUE(executing[event.vtid]) << "a callback that the executor does not tell of";
-      executing[event.vtid] = false;
-      threads_that_ran.insert(event.vtid);
-      callbacks.push_back(event.number("callback"));
-    } else if (event.name == "ros2:callback_end") {
+      executing[event.vtid()] = true;
+      last = event.name();
+    } else if (event.name() == "ros2:rmw_take" && event.number("taken") == 0) {
+      executing[event.vtid()] = false;  // another thread was faster
+    } else if (event.name() == "ros2:callback_start") {
+      EXPECT_TRUE(executing[event.vtid()]) << "a callback that the executor does not tell of";
+      executing[event.vtid()] = false;
+      threads_that_ran.insert(event.vtid());
+      callbacks.push_back(event.handle("callback"));
+    } else if (event.name() == "ros2:callback_end") {
       ASSERT_FALSE(callbacks.empty()) << "an end without a start";
-      EXPECT_EQ(callbacks.back(), event.number("callback"));
+      EXPECT_EQ(callbacks.back(), event.handle("callback"));
       callbacks.pop_back();
     }
   }
@@ -95,21 +89,19 @@ TEST_F(ExecutorThreadsTrace, EveryThreadTellsWhatItDoesInOrder) {
 }
 
 TEST_F(ExecutorThreadsTrace, CallbacksOverlapWhereTheirGroupLetsThem) {
-  const std::uint64_t subscription = only("ros2:rclcpp_subscription_callback_added", "callback");
+  ASSERT_THAT(trace_, HasEvents(event("ros2:rclcpp_subscription_callback_added"), exactly(1)));
+  const std::uint64_t subscription = event("ros2:rclcpp_subscription_callback_added").first(trace_)->handle("callback");
   const std::set<std::uint64_t> timers = all("ros2:rclcpp_timer_callback_added", "callback");
   EXPECT_EQ(timers.size(), 2U);
   int running_timers = 0;
   int running_subscriptions = 0;
   int most_subscriptions = 0;
-  for (const RecordedEvent& event : trace_.events) {
-    if (event.name != "ros2:callback_start" && event.name != "ros2:callback_end") {
-      continue;
-    }
-    const int change = event.name == "ros2:callback_start" ? 1 : -1;
-    if (timers.contains(event.number("callback"))) {
+  for (const Event* const each : event("ros2:callback_*").select(trace_)) {
+    const int change = each->name() == "ros2:callback_start" ? 1 : -1;
+    if (timers.contains(each->handle("callback"))) {
       running_timers += change;
       EXPECT_LE(running_timers, 1);
-    } else if (event.number("callback") == subscription) {
+    } else if (each->handle("callback") == subscription) {
       running_subscriptions += change;
       most_subscriptions = std::max(most_subscriptions, running_subscriptions);
     }

@@ -8,15 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
+using namespace launch_trace_testing;
 using namespace test_support;
 using testing::ElementsAre;
-using testing::SizeIs;
+using testing::IsEmpty;
 
 constexpr const char* kLaunchFile = R"(<launch>
   <trace session-name="ext" events-ust="ros2:* ros2_ext:*" context-fields="procname vpid vtid" subbuffer-size-ust="1048576"/>
@@ -46,14 +47,6 @@ constexpr Life kLives[] = {
     {"ros2:rcl_timer_init", "ros2_ext:rcl_timer_fini", "timer_handle"},
     {"ros2:rclcpp_callback_register", "ros2_ext:rclcpp_callback_fini", "callback"},
 };
-
-std::vector<RecordedEvent> with_name(const RecordedTrace& trace, const std::string& name) {
-  std::vector<RecordedEvent> found;
-  for (const RecordedEvent& event : trace.events) {
-    if (event.name == name) found.push_back(event);
-  }
-  return found;
-}
 
 // Checks the report of `launch report` for the same trace.
 void expect_reported(const std::filesystem::path& directory) {
@@ -96,51 +89,45 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
   std::ofstream(file) << kLaunchFile;
   const CommandResult result = run_command({LAUNCH_PROGRAM, file.string()});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
-  const RecordedTrace trace = read_trace(sandbox.trace_directory() / "ext");
-  EXPECT_EQ(trace.losses, 0U);
+  const Trace trace(sandbox.trace_directory() / "ext");
+  EXPECT_THAT(trace, LostNothing());
 
   for (const Life& life : kLives) {
     SCOPED_TRACE(life.begin);
+    EXPECT_THAT(trace, HasEvent(event(life.begin)));
     std::map<std::int64_t, std::set<std::uint64_t>> living;
-    std::size_t begun = 0;
-    for (const RecordedEvent& event : trace.events) {
-      if (event.name == life.begin) {
-        EXPECT_TRUE(living[event.vpid].insert(event.number(life.field)).second) << "begins twice";
-        ++begun;
-      } else if (event.name == life.end) {
-        EXPECT_EQ(living[event.vpid].erase(event.number(life.field)), 1U) << "ends without having begun";
+    for (const Event& event : trace) {
+      if (event.name() == life.begin) {
+        EXPECT_TRUE(living[event.vpid()].insert(event.handle(life.field)).second) << "begins twice";
+      } else if (event.name() == life.end) {
+        EXPECT_EQ(living[event.vpid()].erase(event.handle(life.field)), 1U) << "ends without having begun";
       }
     }
-    EXPECT_GT(begun, 0U);
-    for (const auto& [vpid, handles] : living) EXPECT_THAT(handles, SizeIs(0)) << "of process " << vpid;
+    for (const auto& [vpid, handles] : living) EXPECT_THAT(handles, IsEmpty()) << "of process " << vpid;
   }
 
-  const std::uint64_t client = with_name(trace, "ros2:rcl_client_init").at(0).number("client_handle");
+  ASSERT_THAT(trace, HasEvent(event("ros2:rcl_client_init")));
+  const Value& client = event("ros2:rcl_client_init").first(trace)->at("client_handle");
+  const EventQuery of_client = event("").with("client_handle", client);
   std::vector<std::string> with_responses;
-  for (const RecordedEvent& event : trace.events) {
-    if (event.name.starts_with("ros2_ext:rclcpp_client_callback")) {
-      EXPECT_EQ(event.number("client_handle"), client);
-      with_responses.push_back(event.name.substr(23) + " " + std::to_string(event.number("sequence_number")));
-    }
+  for (const Event* const each : event("ros2_ext:rclcpp_client_callback*").select(trace)) {
+    with_responses.push_back(each->name().substr(23) + " " + std::to_string(each->number("sequence_number")));
   }
   EXPECT_THAT(with_responses, ElementsAre("callback_start 1", "callback_end 1", "callback_start 2", "callback_end 2",
                                           "callback_start 3", "callback_end 3"));
-  EXPECT_EQ(with_name(trace, "ros2_ext:rclcpp_executor_execute_service").size(), 3U);
-  for (const RecordedEvent& event : with_name(trace, "ros2_ext:rclcpp_executor_execute_client")) {
-    EXPECT_EQ(event.number("client_handle"), client);
-  }
-  for (const char* kind : {"publisher", "subscription"}) {
-    const std::vector<RecordedEvent> made = with_name(trace, "ros2:rmw_" + std::string(kind) + "_init");
-    const std::vector<RecordedEvent> qos = with_name(trace, "ros2_ext:rmw_" + std::string(kind) + "_qos");
-    const std::string handle = "rmw_" + std::string(kind) + "_handle";
+  EXPECT_THAT(trace, EachEvent(event("ros2_ext:rclcpp_client_callback*"), of_client));
+  EXPECT_THAT(trace, HasEvents(event("ros2_ext:rclcpp_executor_execute_service"), exactly(3)));
+  EXPECT_THAT(trace, EachEvent(event("ros2_ext:rclcpp_executor_execute_client"), of_client));
+  for (const std::string kind : {"publisher", "subscription"}) {
+    const std::string handle = "rmw_" + kind + "_handle";
+    const std::vector<const Event*> made = event("ros2:rmw_" + kind + "_init").select(trace);
+    const std::vector<const Event*> qos = event("ros2_ext:rmw_" + kind + "_qos").select(trace);
     ASSERT_EQ(qos.size(), made.size()) << kind;
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      EXPECT_EQ(qos[i].number(handle), made[i].number(handle));
-      EXPECT_EQ(qos[i].number("reliable"), 1U);
-    }
+    for (std::size_t i = 0; i < made.size(); ++i) EXPECT_EQ(qos[i]->at(handle), made[i]->at(handle));
+    EXPECT_THAT(trace, EachEvent(event("ros2_ext:rmw_" + kind + "_qos"), event("").with("reliable", 1)));
   }
   // No object existed before the session, so there is no state dump.
-  EXPECT_THAT(with_name(trace, "ros2_ext:state_dump_begin"), SizeIs(0));
+  EXPECT_THAT(trace, HasNoEvent(event("ros2_ext:state_dump_begin")));
   expect_reported(sandbox.trace_directory() / "ext");
 }
 

@@ -2,19 +2,22 @@
 // The trace of services: those that every node has, and one that a client calls.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
-#include <optional>
+#include <stdexcept>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace test_support;
+using namespace launch_trace_testing;
+using test_support::CommandResult;
+using test_support::run_command;
+using test_support::Sandbox;
 using testing::ElementsAre;
-using Events = std::vector<RecordedEvent>;
 
 constexpr const char* kLaunchFile = R"(<launch>
   <trace session-name="service" context-fields="procname vpid vtid" subbuffer-size-ust="1048576"/>
@@ -24,59 +27,56 @@ constexpr const char* kLaunchFile = R"(<launch>
   </node>
 </launch>
 )";
+constexpr int kRequests = 3;
 
-bool is_publication(const RecordedEvent& event) {
-  return event.name == "ros2:rclcpp_publish" || event.name == "ros2:rcl_publish" || event.name == "ros2:rmw_publish";
+EventQuery of(const std::string& process, const std::string& name) {
+  return event("ros2:" + name).in_process(process).that("in its main thread", [](const Event& event) {
+    return event.vpid() == event.vtid();
+  });
+}
+EventQuery of_server(const std::string& name) {
+  return of("add_two_ints_server", name);
+}
+EventQuery of_client(const std::string& name) {
+  return of("add_two_ints_client", name);
 }
 
-// The events of a process's main thread, without those of its publications: log lines, parameter events, the graph.
-Events events_of(const RecordedTrace& trace, const std::string& procname) {
-  Events events;
-  for (const RecordedEvent& event : trace.events) {
-    if (event.procname == procname && event.vpid == event.vtid && !is_publication(event)) {
-      events.push_back(event);
-    }
+// The one event that is meant. Without it, the test ends with the nearest ones.
+const Event& only(const Trace& trace, const EventQuery& query) {
+  if (const Verdict verdict = expect_count(trace, query, exactly(1)); !verdict) {
+    throw std::runtime_error(verdict.text);
   }
-  return events;
+  return *query.first(trace);
 }
 
-std::vector<std::string> names(const Events& events) {
+bool is_publication(const Event& event) {
+  return event.name() == "ros2:rclcpp_publish" || event.name() == "ros2:rcl_publish" ||
+         event.name() == "ros2:rmw_publish";
+}
+
+// The names of events of the main thread of the server around this one, from `before` earlier ones to `after` later
+// ones, without those of publications: log lines, parameter events, the graph.
+std::vector<std::string> names_around(const Trace& trace, const Event& middle, std::ptrdiff_t before,
+                                      std::ptrdiff_t after) {
+  const auto thread =
+      of_server("*").that("no publication", [](const Event& event) { return !is_publication(event); }).select(trace);
+  const auto at = std::find(thread.begin(), thread.end(), &middle);
+  std::vector<std::string> names;
+  for (auto event = at - std::min(before, at - thread.begin());
+       event != thread.end() && event <= at + std::min(after, thread.end() - at); ++event) {
+    names.push_back((*event)->name().substr(std::string("ros2:").size()));
+  }
+  return names;
+}
+
+// One line per entity that the server makes.
+std::vector<std::string> entities(const Trace& trace) {
   std::vector<std::string> result;
-  for (const RecordedEvent& event : events) {
-    result.push_back(event.name.substr(event.name.find(':') + 1));
-  }
-  return result;
-}
-
-Events all_of(const Events& events, const std::string& name, const std::string& field, std::uint64_t value) {
-  Events found;
-  for (const RecordedEvent& event : events) {
-    if (event.name == "ros2:" + name && event.number(field) == value) {
-      found.push_back(event);
-    }
-  }
-  return found;
-}
-
-// The events of the creation of a service, from the first one; fails the test if there are none.
-std::optional<Events> creation_of(const Events& events, const std::string& service) {
-  for (std::size_t i = 0; i + 2 < events.size(); ++i) {
-    if (events[i].name == "ros2:rcl_service_init" && events[i].text("service_name") == service) {
-      return Events{events[i], events[i + 1], events[i + 2]};
-    }
-  }
-  ADD_FAILURE() << "no service " << service;
-  return std::nullopt;
-}
-
-// One line per entity that a node makes by itself.
-std::vector<std::string> initial_entities(const Events& events) {
-  std::vector<std::string> result;
-  for (const RecordedEvent& event : events) {
-    if (event.name == "ros2:rcl_publisher_init") {
-      result.push_back("publisher " + event.text("topic_name"));
-    } else if (event.name == "ros2:rcl_service_init") {
-      result.push_back("service " + event.text("service_name"));
+  for (const Event* const event : of_server("rcl_*_init").select(trace)) {
+    if (event->name() == "ros2:rcl_publisher_init") {
+      result.push_back("publisher " + event->text("topic_name"));
+    } else if (event->name() == "ros2:rcl_service_init") {
+      result.push_back("service " + event->text("service_name"));
     }
   }
   return result;
@@ -88,72 +88,62 @@ TEST(ServiceTrace, TellsWhoAskedWhomAndWhen) {
   std::ofstream(file) << kLaunchFile;
   const CommandResult result = run_command({LAUNCH_PROGRAM, file.string()});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
-  const RecordedTrace trace = read_trace(sandbox.trace_directory() / "service");
-  EXPECT_EQ(trace.losses, 0U);
-  const Events server = events_of(trace, "add_two_ints_se");
-  const Events client = events_of(trace, "add_two_ints_cl");
+  const Trace trace(sandbox.trace_directory() / "service");
+  EXPECT_THAT(trace, LostNothing());
 
   // The entities that a node makes by itself, in this order.
   EXPECT_THAT(
-      initial_entities(server),
+      entities(trace),
       ElementsAre("publisher /rosout", "service /server/get_parameters", "service /server/get_parameter_types",
                   "service /server/set_parameters", "service /server/set_parameters_atomically",
                   "service /server/describe_parameters", "service /server/list_parameters",
                   "publisher /parameter_events", "service /server/get_type_description", "service /add_two_ints"));
 
-  const auto service = creation_of(server, "/add_two_ints");
-  ASSERT_TRUE(service);
-  EXPECT_THAT(names(*service),
+  const Event& service = only(trace, of_server("rcl_service_init").with("service_name", "/add_two_ints"));
+  EXPECT_THAT(names_around(trace, service, 0, 2),
               ElementsAre("rcl_service_init", "rclcpp_service_callback_added", "rclcpp_callback_register"));
-  const std::uint64_t rmw_service = service->at(0).number("rmw_service_handle");
-  const std::uint64_t callback = service->at(1).number("callback");
-  EXPECT_EQ(service->at(1).number("service_handle"), service->at(0).number("service_handle"));
-  EXPECT_EQ(service->at(2).number("callback"), callback);
-  EXPECT_NE(service->at(2).text("symbol"), "");
+  const Event& added =
+      only(trace, of_server("rclcpp_service_callback_added").with("service_handle", service.handle("service_handle")));
+  EXPECT_THAT(trace, HasFieldOfKind(of_server("rclcpp_callback_register").with("callback", added.at("callback")),
+                                    "symbol", FieldKind::kNonEmptyText));
 
-  std::vector<std::uint64_t> gid;
-  std::uint64_t rmw_client = 0;
-  for (std::size_t i = 0; i + 1 < client.size(); ++i) {
-    if (client[i].name == "ros2:rmw_client_init") {
-      gid = client[i].arrays.at("gid");
-      rmw_client = client[i].number("rmw_client_handle");
-      EXPECT_EQ(client[i + 1].name, "ros2:rcl_client_init");
-      EXPECT_EQ(client[i + 1].number("rmw_client_handle"), rmw_client);
-      EXPECT_EQ(client[i + 1].text("service_name"), "/add_two_ints");
-    }
-  }
-  ASSERT_EQ(gid.size(), 16U);
+  const Event& client = only(trace, of_client("rcl_client_init").with("service_name", "/add_two_ints"));
+  const EventQuery client_init = of_client("rmw_client_init").with("rmw_client_handle", client.at("rmw_client_handle"));
+  EXPECT_THAT(trace, HasFieldOfKind(client_init, "gid", FieldKind::kArray, 16));
+  const Event& rmw_client = only(trace, client_init);
+  EXPECT_EQ(of_client("*").after(rmw_client).first(trace), &client);
 
-  const Events sent = all_of(client, "rmw_send_request", "rmw_client_handle", rmw_client);
-  const Events answered = all_of(client, "rmw_take_response", "rmw_client_handle", rmw_client);
-  ASSERT_EQ(sent.size(), 3U);
-  ASSERT_EQ(answered.size(), 3U);
-  std::size_t request = 0;
-  for (std::size_t i = 1; i + 3 < server.size(); ++i) {
-    if (server[i].name != "ros2:rmw_take_request") {
-      continue;
-    }
-    ASSERT_LT(request, 3U);
-    const Events exchange(server.begin() + static_cast<std::ptrdiff_t>(i) - 1,
-                          server.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+  const auto of_this_client = [&](const std::string& name) {
+    return of_client(name).with("rmw_client_handle", client.at("rmw_client_handle"));
+  };
+  EXPECT_THAT(trace, HasEvents(of_this_client("rmw_send_request"), exactly(kRequests)));
+  EXPECT_THAT(trace, HasEvents(of_this_client("rmw_take_response"), exactly(kRequests)));
+  EXPECT_THAT(trace, HasEvents(of_server("rmw_take_request"), exactly(kRequests)));
+  for (int number = 1; number <= kRequests; ++number) {
+    SCOPED_TRACE(number);
+    only(trace, of_this_client("rmw_send_request").with("sequence_number", number));
+    const auto for_request = [&](const std::string& name) {
+      return of_server(name)
+          .with("client_gid", rmw_client.at("gid"))
+          .with("sequence_number", number)
+          .with("rmw_service_handle", service.at("rmw_service_handle"));
+    };
+    const Event& taken = only(trace, for_request("rmw_take_request").with("taken", 1));
     // The execution of a service has no event of its own.
-    EXPECT_THAT(names(exchange), ElementsAre("rclcpp_executor_get_next_ready", "rmw_take_request", "callback_start",
-                                             "callback_end", "rmw_send_response"));
-    EXPECT_EQ(exchange[1].number("rmw_service_handle"), rmw_service);
-    EXPECT_EQ(exchange[1].number("taken"), 1U);
-    EXPECT_EQ(exchange[2].number("callback"), callback);
-    EXPECT_EQ(exchange[2].number("is_intra_process"), 0U);
-    for (const RecordedEvent* event : {&exchange[1], &exchange[4]}) {
-      EXPECT_EQ(event->arrays.at("client_gid"), gid);
-      EXPECT_EQ(event->number("sequence_number"), request + 1);
-    }
-    EXPECT_EQ(sent[request].number("sequence_number"), request + 1);
-    EXPECT_EQ(answered[request].number("sequence_number"), request + 1);
-    EXPECT_EQ(answered[request].number("taken"), 1U);
-    EXPECT_EQ(answered[request].number("source_timestamp"), exchange[4].number("timestamp"));
-    ++request;
+    EXPECT_THAT(names_around(trace, taken, 1, 3), ElementsAre("rclcpp_executor_get_next_ready", "rmw_take_request",
+                                                              "callback_start", "callback_end", "rmw_send_response"));
+    const Event& start = *of_server("callback_start").after(taken).first(trace);
+    EXPECT_EQ(start.handle("callback"), added.handle("callback"));
+    EXPECT_EQ(start.number("is_intra_process"), 0);
+    const Event& response = only(trace, for_request("rmw_send_response"));
+    only(trace, of_this_client("rmw_take_response")
+                    .with("sequence_number", number)
+                    .with("taken", 1)
+                    .with("source_timestamp", response.at("timestamp")));
   }
-  EXPECT_EQ(request, 3U);
+  // Each request leads to a response, and each response to one that is taken.
+  EXPECT_THAT(trace, HappensBefore(of_client("rmw_send_request"), of_server("rmw_send_response")));
+  EXPECT_THAT(trace, HappensBefore(of_server("rmw_send_response"), of_client("rmw_take_response")));
 }
 
 }  // namespace
