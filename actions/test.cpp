@@ -94,6 +94,7 @@ class Test : public Action {
       throw LaunchError("the name of the test has a line break or another control character", name_.where(),
                         "it stands on one line in reports");
     }
+    test.has_actions = !actions_.empty();
     test.timeout = timeout_ ? seconds(*timeout_) : kTimeout;
     if (duration_) {
       test.duration = seconds(*duration_);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "launcher/base/utf8.hpp"
 #include "launcher/cli/xml_text.hpp"
 
 namespace launch {
@@ -32,10 +33,12 @@ std::string first_message(const TestResult& result) {
   return result.failures.empty() ? std::string() : result.failures.front().message;
 }
 
-// Characters that XML has no way to write are left out.
+// Characters that XML has no way to write are left out. The output of a program may be no UTF-8.
 std::string xml(const std::string& text) {
+  std::string characters;
+  append_as_utf8(characters, text);
   std::string clean;
-  std::copy_if(text.begin(), text.end(), std::back_inserter(clean),
+  std::copy_if(characters.begin(), characters.end(), std::back_inserter(clean),
                [](char c) { return static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t'; });
   return as_xml_text(clean);
 }

@@ -237,9 +237,10 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
         errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
       }
     }
-    const LaunchPlan whole = tests_of.plan(tests.size());
-    const TestRequest& same = whole.tests.front();
-    check_names(same, whole, errors);
+    // A test without actions starts what the file starts. So a file of many such tests is visited once.
+    const std::optional<LaunchPlan> own = test.has_actions ? std::optional(tests_of.plan(tests.size())) : std::nullopt;
+    const TestRequest& same = own ? own->tests.front() : test;
+    check_names(same, own ? *own : all, errors);
     tests.push_back(tests_of.test_case(same, tests.size()));
     tests.back().is_only = all.tests.size() == 1;
   }

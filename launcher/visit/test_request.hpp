@@ -81,6 +81,7 @@ struct TestRequest {
   Duration timeout{0};
   std::optional<Duration> duration;  // the system runs so long at least
   std::vector<Expectation> expectations;
+  bool has_actions = false;          // beside its expectations, faults among them
   std::vector<FaultRequest> faults;  // only if its actions were visited
   SourceRange where;
   SourceRange name_where;

@@ -203,6 +203,29 @@ TEST_F(TestCommand, ATestWhoseLauncherIsKilledHasFailed) {
                                            "SIGKILL, without a result\n"));
 }
 
+// A report for other programs shows the last output of such a test, whatever bytes it has.
+TEST_F(TestCommand, OutputThatIsNoTextLeavesTheResultsReadable) {
+  const std::string bytes = sandbox_.directory() / "bytes";
+  write_file(bytes, "before \xff\xfe\x01 after\n");
+  const std::string file =
+      write("a.launch.xml", R"xml(
+  <test name="kills it"><executable name="step" shell="true" output="screen" cmd="cat )xml" +
+                                bytes + R"xml(; kill -9 $PPID; sleep 1000"/><exit process="step"/></test>
+  <test name="fails"><executable name="step" cmd="cat )xml" +
+                                bytes + R"xml("/><output process="step" text="none"/></test>)xml");
+  const std::string junit = sandbox_.directory() / "junit.xml";
+  const std::string json = sandbox_.directory() / "result.json";
+  EXPECT_EQ(run({file, "--junit", junit, "--json", json}).exit_code, 1);
+  const CommandResult read = run_command({"python3", "-c",
+                                          "import json, sys, xml.etree.ElementTree as tree\n"
+                                          "print(len(json.load(open(sys.argv[2]))['tests']))\n"
+                                          "print(sum('before \ufffd\ufffd after' in (case.text or '') for case in "
+                                          "tree.parse(sys.argv[1]).iter('failure')))\n",
+                                          junit, json},
+                                         std::chrono::seconds(20));
+  EXPECT_EQ(read.out, "2\n2\n") << read.err;
+}
+
 TEST_F(TestCommand, ATestExpectsSomething) {
   const std::string file = write("a.launch.xml", R"xml(<test name="t"/>)xml");
   const CommandResult result = run({file});
