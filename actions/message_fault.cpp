@@ -21,7 +21,7 @@ const Template& name_of(const Fields& fields) {
   if (!fields.has("topic") && !fields.has("service")) {
     const bool is_delay = fields.literal("do") == "delay";
     throw LaunchError("it is not said whose messages they are", fields.where(),
-                      std::string("topic=\"/scan\" or service=\"/add\" names something of the ROS graph") +
+                      std::string("topic=\"/scan\" or service=\"/add\", by its name in the ROS graph") +
                           (is_delay ? "; with group=\"…\", the network is late" : ""),
                       Finding::kMissingAttribute);
   }

@@ -42,7 +42,7 @@ std::string path_of(const UniqueFd& directory) {
 std::uint64_t size_of_files(const fs::path& directory) {
   std::uint64_t size = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.is_regular_file() && !entry.is_symlink()) {
+    if (!entry.is_symlink() && entry.is_regular_file()) {
       size += entry.file_size();
     }
   }

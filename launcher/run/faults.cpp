@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <stdexcept>
 #include <system_error>
 #include <type_traits>
 #include <utility>

@@ -124,7 +124,7 @@ std::string error_of(const std::string& fault) {
 TEST(Fault, KnowsItsKinds) {
   EXPECT_EQ(error_of(R"(<fault process="p" do="kil"/>)"),
             "/t.launch.xml:4:24: error: do can be kill, stop, slow, limit, drop, duplicate, corrupt, delay, partition, "
-            "lose, skew or jump, got 'kil'\n"
+            "lose, skew, jump or fill_disk, got 'kil'\n"
             "    4 | <fault process=\"p\" do=\"kil\"/>\n"
             "      |                        ^~~\n"
             "      = help: did you mean 'kill'?");

@@ -113,7 +113,7 @@ TEST(MessageFault, AttributesGoTogether) {
             "/t.launch.xml:4:2: error: it is not said whose messages they are\n"
             "    4 | <fault do=\"drop\"/>\n"
             "      |  ^~~~~\n"
-            "      = help: topic=\"/scan\" or service=\"/add\" names something of the ROS graph");
+            "      = help: topic=\"/scan\" or service=\"/add\", by its name in the ROS graph");
   EXPECT_EQ(error_of(R"(<fault topic="/a" service="/b" do="drop"/>)"),
             "/t.launch.xml:4:28: error: either a topic or a service suffers\n"
             "    4 | <fault topic=\"/a\" service=\"/b\" do=\"drop\"/>\n"
