@@ -27,14 +27,14 @@ class DiskFaultTest : public LaunchTestFixture {
   // A program that appends to the file until that fails, tells why, and tells when it works again. Then it ends.
   std::string writer(const std::string& file) {
     const std::string path = sandbox_.directory() / "writer.sh";
-    write_file(path, R"(error=$(mktemp)
+    write_file(path, R"xml(error=$(mktemp)
 while head -c 65536 /dev/zero 2>$error >>$1; do echo written; sleep 0.02; done
 cat $error
 echo full
 until head -c 65536 /dev/zero 2>$error >>$1; do sleep 0.02; done
 echo room again
 rm $error
-)");
+)xml");
     return "<executable name=\"writer\" cmd=\"sh " + path + " " + file + "\"/>\n";
   }
 
@@ -52,17 +52,17 @@ TEST_F(DiskFaultTest, AProgramMeetsAFullDiskAndFindsRoomAfterwards) {
   write_file(data / "map.yaml", "resolution: 0.05\n");
   const std::string file = write(
       writer(data / "bag") + "<executable name=\"reader\" cmd=\"cat " + data.string() +
-      R"(/map.yaml"/>
+      R"xml(/map.yaml"/>
   <test name="t">
-    <fault do="fill_disk" path=")" +
+    <fault do="fill_disk" path=")xml" +
       data.string() +
-      R"(" for="0.5..0.6"><depends_on process="writer" condition="output" pattern="written" occurrence="3"/></fault>
+      R"xml(" for="0.5..0.6"><depends_on process="writer" condition="output" pattern="written" occurrence="3"/></fault>
     <in_order process="writer">
       <line text="written"/><line text="No space left on device"/><line text="full"/><line text="room again"/>
     </in_order>
     <output process="reader" text="resolution: 0.05"/>
     <exit process="writer"/>
-  </test>)");
+  </test>)xml");
   const std::string json = sandbox_.directory() / "result.json";
   const CommandResult result = run({file, "--json", json});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -77,13 +77,13 @@ TEST_F(DiskFaultTest, SomeRoomMayBeLeft) {
   const fs::path data = make_directory("data");
   const std::string file =
       write("<executable name=\"writer\" cmd=\"sh -c 'head -c 100000 /dev/zero > " + data.string() +
-            "/a &amp;&amp; echo first; head -c 1000000 /dev/zero > " + data.string() + R"(/b || echo second'"/>
+            "/a &amp;&amp; echo first; head -c 1000000 /dev/zero > " + data.string() + R"xml(/b || echo second'"/>
   <test name="t">
-    <fault do="fill_disk" path=")" +
+    <fault do="fill_disk" path=")xml" +
             data.string() +
-            R"(" free="200K"/>
+            R"xml(" free="200K"/>
     <in_order process="writer"><line text="first"/><line text="second"/></in_order>
-  </test>)");
+  </test>)xml");
   const CommandResult result = run({file});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }
@@ -91,7 +91,7 @@ TEST_F(DiskFaultTest, SomeRoomMayBeLeft) {
 // Supervision needs no disk: lines are seen, processes are started again, and exits are judged. What was written before
 // and afterwards is kept with the files of the test.
 TEST_F(DiskFaultTest, SupervisionGoesOnWhenTheDiskOfTheLogsIsFull) {
-  const std::string file = write(R"(
+  const std::string file = write(R"xml(
   <executable name="noisy" cmd="sh -c 'seq 1 20000; echo noise over; exec sleep 100'" output="both"/>
   <executable name="again" cmd="sh -c 'echo begun; exec sleep 100'" respawn="true" output="both"/>
   <test name="t">
@@ -100,7 +100,7 @@ TEST_F(DiskFaultTest, SupervisionGoesOnWhenTheDiskOfTheLogsIsFull) {
     <output process="again" text="begun" min="2"/>
     <output process="noisy" text="19999"/>
     <exit process="noisy" when="shutdown" code="any"/>
-  </test>)");
+  </test>)xml");
   const fs::path directory = sandbox_.directory() / "kept";
   const CommandResult result = run({file, "--keep", "--directory", directory});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -117,9 +117,9 @@ TEST_F(DiskFaultTest, SupervisionGoesOnWhenTheDiskOfTheLogsIsFull) {
 }
 
 TEST_F(DiskFaultTest, EachRunHasTheDiskOfItsOwnRosHome) {
-  const std::string file = write(writer("$(env ROS_HOME)/bag") + R"(
+  const std::string file = write(writer("$(env ROS_HOME)/bag") + R"xml(
   <test name="t"><fault do="fill_disk" path="$(env ROS_HOME)" at="0.1" for="0.5"/>
-    <output process="writer" text="No space left on device"/><exit process="writer"/></test>)");
+    <output process="writer" text="No space left on device"/><exit process="writer"/></test>)xml");
   const fs::path directory = sandbox_.directory() / "kept";
   const CommandResult result = run({file, "--keep", "--directory", directory, "--seeds", "2"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -129,22 +129,22 @@ TEST_F(DiskFaultTest, EachRunHasTheDiskOfItsOwnRosHome) {
 // The session daemon that the test begins must not have the disks of the test.
 TEST_F(DiskFaultTest, ATestWithATraceMayHaveAFullDisk) {
   const fs::path data = make_directory("data");
-  const std::string nodes = R"(
+  const std::string nodes = R"xml(
   <node pkg="demo_nodes" exec="pong"/>
-  <node pkg="demo_nodes" exec="ping" on_exit="shutdown"><param name="count" value="3"/></node>)";
-  const std::string full = write(nodes + R"(
+  <node pkg="demo_nodes" exec="ping" on_exit="shutdown"><param name="count" value="3"/></node>)xml";
+  const std::string full = write(nodes + R"xml(
   <test name="t">
-    <fault do="fill_disk" path=")" +
-                                 data.string() + R"("/>
+    <fault do="fill_disk" path=")xml" +
+                                 data.string() + R"xml("/>
     <event name="ros2:rcl_publish" min="3"/>
     <exit process="ping"/>
-  </test>)");
+  </test>)xml");
   const CommandResult result = run({full});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const std::string later =
       LaunchTestFixture::write("b.launch.xml", "<trace session-name=\"later\" base-path=\"" + data.string() +
                                                    "\" events-ust=\"ros2:*\"/>" + nodes);
-  const CommandResult after = run_command({LAUNCH_PROGRAM, later}, std::chrono::seconds(60));
+  const CommandResult after = run_command({.argv = {LAUNCH_PROGRAM, later}}, std::chrono::seconds(60));
   EXPECT_EQ(after.exit_code, 0) << after.out << after.err;
   EXPECT_THAT(after.out, HasSubstr("trace written to: " + data.string())) << "nothing covers what the daemon writes";
 }
@@ -152,29 +152,29 @@ TEST_F(DiskFaultTest, ATestWithATraceMayHaveAFullDisk) {
 TEST_F(DiskFaultTest, NoTestPassesWithADirectoryThatCannotBeADisk) {
   const fs::path data = make_directory("data");
   fs::resize_file((write_file(data / "large", ""), data / "large"), 300 << 20);
-  const std::string file = write(R"(
+  const std::string file = write(R"xml(
   <executable name="p" cmd="true"/>
+  <trace session-name="own"/>
   <test name="missing"><fault do="fill_disk" path="/nowhere/data"/><exit process="p"/></test>
   <test name="around"><fault do="fill_disk" path="/"/><exit process="p"/></test>
-  <test name="large"><fault do="fill_disk" path=")" +
-                                     data.string() +
-                                     R"("/><exit process="p"/></test>
-  <test name="trace"><fault do="fill_disk" path="$(env ROS_TRACE_DIR)" /
-                                 > <event name = "ros2:*" /><exit process = "p" /></ test>) ");
-      const CommandResult result = run({file, "-j", "1"});
+  <test name="large"><fault do="fill_disk" path=")xml" +
+                                 data.string() +
+                                 R"xml("/><exit process="p"/></test>
+  <test name="trace"><fault do="fill_disk" path="$(env ROS_TRACE_DIR)"/><event name="ros2:*"/><exit process="p"/></test>)xml");
+  const CommandResult result = run({file, "-j", "1"});
   EXPECT_EQ(result.exit_code, 1);
   const std::string out = plain(result.out);
-  EXPECT_THAT(out, HasSubstr(R"(FAIL  a.launch.xml: missing  T s  (0 of 1 fault)
-a.launch.xml:4:52: error: a full disk is not possible here: '/nowhere/data' is no directory
-    4 |   <test name="missing"><fault do="fill_disk" path="/nowhere/data"/><exit process="p"/></test>
+  EXPECT_THAT(out, HasSubstr(R"xml(FAIL  a.launch.xml: missing  T s  (0 of 1 fault)
+a.launch.xml:5:52: error: a full disk is not possible here: '/nowhere/data' is no directory
+    5 |   <test name="missing"><fault do="fill_disk" path="/nowhere/data"/><exit process="p"/></test>
       |                                                    ^~~~~~~~~~~~~
       = help: a directory must be there when the test begins
-)"));
-  EXPECT_THAT(out, HasSubstr(R"(error: a full disk is not possible here: '/' holds the files of the test
-    5 |   <test name="around"><fault do="fill_disk" path="/"/><exit process="p"/></test>
+)xml"));
+  EXPECT_THAT(out, HasSubstr(R"xml(error: a full disk is not possible here: '/' holds the files of the test
+    6 |   <test name="around"><fault do="fill_disk" path="/"/><exit process="p"/></test>
       |                                                   ^
       = help: without path, the disk of the logs is full; launch test --directory puts the files elsewhere
-)"));
+)xml"));
   EXPECT_THAT(out, HasSubstr("error: a full disk is not possible here: 'data' holds more than 256 MiB\n"));
   EXPECT_THAT(out, HasSubstr("      = help: a test works on a copy of the directory, in memory\n"));
   EXPECT_THAT(out, HasSubstr("      = help: LTTng's daemons write it, and they do not see the disks of a test\n"));
@@ -196,9 +196,9 @@ a.launch.xml:4:52: error: a full disk is not possible here: '/nowhere/data' is n
 }
 
 TEST_F(DiskFaultTest, NoTestPassesWhereTheyAreNotPossible) {
-  const std::string file = write(R"(
+  const std::string file = write(R"xml(
   <executable name="p" cmd="true"/>
-  <test name="t"><fault do="fill_disk" probability="0"/><exit process="p"/></test>)");
+  <test name="t"><fault do="fill_disk" probability="0"/><exit process="p"/></test>)xml");
   const pid_t child = ::fork();
   if (child == 0) {
     become_without_namespaces(file);

@@ -21,6 +21,7 @@ using rmw_test::kPatience;
 using rmw_test::Node;
 using rmw_test::Service;
 using rmw_test::take_error;
+using rmw_test::type_support;
 
 constexpr rmw_time_t kNoWait{0, 0};
 
