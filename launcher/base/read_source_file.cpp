@@ -42,6 +42,7 @@ std::shared_ptr<const SourceFile> read_source_file(const std::string& path, Sour
       fail(error);
     }
   }
+  text.shrink_to_fit();  // the text stays as long as the launch, and each process of `launch test` inherits it
   try {
     return std::make_shared<const SourceFile>(path, std::move(text), included_from);
   } catch (const std::length_error& error) {

@@ -129,20 +129,17 @@ void MemoryDisk::leave(std::optional<std::uint64_t> room) {
     return;
   }
   const std::uint64_t blocks = *room / block_size_;
-  // The kernel refuses a size below what is used, which a program may change meanwhile.
+  // The kernel refuses a size below what is used, which a program may change meanwhile. What it removes makes room,
+  // as on other disks.
   constexpr int kMostTimes = 1000;
-  for (int i = 0;; ++i) {
-    const std::uint64_t before = used();
+  for (int i = 1;; ++i) {
     try {
-      resize(before + blocks);
+      resize(used() + blocks);
+      return;
     } catch (const std::system_error& error) {
       if (error.code().value() != EINVAL || i == kMostTimes) {
         throw;
       }
-      continue;
-    }
-    if (used() >= before || i == kMostTimes) {
-      return;
     }
   }
 }

@@ -57,19 +57,19 @@ TEST_F(ServiceFaultTest, WhatIsDroppedIsLostInTheTrace) {
     <call name="lost" service="/add_two_ints" type="example_interfaces/srv/AddTwoInts" values="{a: 7}"/>
     <output process="lost" text="sum=" absent="true"/>
     <exit process="lost" when="shutdown" code="any"/>
-    <event name="ros2:rmw_send_request" process="launch-ros-comm" min="1" max="1"/>)xml";
+    <event name="ros2:rmw_send_request" process="lost" min="1" max="1"/>)xml";
   const std::string file = write(std::string(kServer) + R"xml(
   <test name="a request" timeout="30">
     <fault service="/add_two_ints" do="drop"/>)xml" +
                                  call + R"xml(
-    <event name="ros2:rmw_take_request" where="taken == 1 &amp;&amp; procname =~ 'add_two_ints'" max="0" min="0"/>
+    <event name="ros2:rmw_take_request" where="taken == 1" process="add_two_ints_server" max="0" min="0"/>
   </test>
   <test name="a response" timeout="30">
     <fault service="/add_two_ints" do="drop" on="response"/>)xml" +
                                  call + R"xml(
     <event name="ros2:rmw_take_request" where="taken == 1" process="add_two_ints_server" min="1"/>
     <event name="ros2:rmw_send_response" process="add_two_ints_server" min="1" max="1"/>
-    <event name="ros2:rmw_take_response" where="taken == 1" process="launch-ros-comm" min="0" max="0"/>
+    <event name="ros2:rmw_take_response" where="taken == 1" process="lost" min="0" max="0"/>
   </test>)xml");
   const CommandResult result = run({file});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

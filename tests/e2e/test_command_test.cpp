@@ -216,13 +216,14 @@ TEST_F(TestCommand, OutputThatIsNoTextLeavesTheResultsReadable) {
   const std::string junit = sandbox_.directory() / "junit.xml";
   const std::string json = sandbox_.directory() / "result.json";
   EXPECT_EQ(run({file, "--junit", junit, "--json", json}).exit_code, 1);
-  const CommandResult read = run_command({"python3", "-c",
-                                          "import json, sys, xml.etree.ElementTree as tree\n"
-                                          "print(len(json.load(open(sys.argv[2]))['tests']))\n"
-                                          "print(sum('before \ufffd\ufffd after' in (case.text or '') for case in "
-                                          "tree.parse(sys.argv[1]).iter('failure')))\n",
-                                          junit, json},
-                                         std::chrono::seconds(20));
+  const CommandResult read =
+      run_command({.argv = {"python3", "-c",
+                            "import json, sys, xml.etree.ElementTree as tree\n"
+                            "print(len(json.load(open(sys.argv[2]))['tests']))\n"
+                            "print(sum('before \ufffd\ufffd after' in (failure.text or '') for failure in "
+                            "tree.parse(sys.argv[1]).iter('failure')))\n",
+                            junit, json}},
+                  std::chrono::seconds(20));
   EXPECT_EQ(read.out, "2\n2\n") << read.err;
 }
 

@@ -126,7 +126,7 @@ TEST_F(MemoryDiskTest, IsFullWhilePeopleWriteAndRemove) {
       fs::remove(directory_ / "a");
     }
   });
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 50; ++i) {
     disk.leave(0);
     disk.leave(std::nullopt);
   }
