@@ -59,12 +59,12 @@ TEST_F(ServiceFaultTest, WhatIsDroppedIsLostInTheTrace) {
     <exit process="lost" when="shutdown" code="any"/>
     <event name="ros2:rmw_send_request" process="lost" min="1" max="1"/>)xml";
   const std::string file = write(std::string(kServer) + R"xml(
-  <test name="a request" timeout="30">
+  <test name="a request" duration="1">
     <fault service="/add_two_ints" do="drop"/>)xml" +
                                  call + R"xml(
     <event name="ros2:rmw_take_request" where="taken == 1" process="add_two_ints_server" max="0" min="0"/>
   </test>
-  <test name="a response" timeout="30">
+  <test name="a response" duration="1">
     <fault service="/add_two_ints" do="drop" on="response"/>)xml" +
                                  call + R"xml(
     <event name="ros2:rmw_take_request" where="taken == 1" process="add_two_ints_server" min="1"/>
