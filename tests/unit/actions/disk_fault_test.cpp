@@ -60,9 +60,9 @@ TEST(DiskFault, AttributesGoTogether) {
             "      |                             ^~~~\n"
             "      = help: write bytes, or a number with K, M or G");
   EXPECT_EQ(error_of(R"(<fault do="fill_disk" path=""/>)"),
-            "/t.launch.xml:4:28: error: the path of the disk is empty\n"
+            "/t.launch.xml:4:29: error: the path of the disk is empty\n"
             "    4 | <fault do=\"fill_disk\" path=\"\"/>\n"
-            "      |                            ^");
+            "      |                             ^");
   EXPECT_EQ(error_of(R"(<fault process="p" do="kill" path="/a"/>)"),
             "/t.launch.xml:4:36: error: path goes with do=\"fill_disk\" only\n"
             "    4 | <fault process=\"p\" do=\"kill\" path=\"/a\"/>\n"

@@ -69,7 +69,7 @@ TEST(MessageFault, SaysWhatHappensToRequestsAndResponses) {
 TEST(MessageFault, WhatIsDrawnStaysTheSame) {
   const FaultRequest drawn =
       plan_faults(R"xml(<fault topic="/a" do="drop" on="take" occurrence="1..1000000"/>)xml", 7).faults().at(0);
-  EXPECT_EQ(drawn.identity, "0 /a  true 1..1000000 1..1 1..1 0..0 0..0 0..0 1");
+  EXPECT_EQ(drawn.identity, " 0 /a  true 1..1000000 1..1 1..1 0..0 0..0 0..0 1");
 }
 
 TEST(MessageFault, TheSeedDrawsEachNumber) {

@@ -64,6 +64,15 @@ TEST(SourceFile, ReadsAWholeFile) {
   ::unlink(path.c_str());
 }
 
+// A campaign of tests keeps the texts of thousands of small files.
+TEST(SourceFile, KeepsNoMoreMemoryThanItsText) {
+  std::string path = "/tmp/launch_source_test_XXXXXX";
+  ASSERT_GE(::close(::mkstemp(path.data())), 0);
+  std::ofstream(path) << "<launch/>";
+  EXPECT_LT(read_source_file(path)->text().capacity(), 100U);
+  ::unlink(path.c_str());
+}
+
 TEST(SourceFile, SaysWhyItCannotBeReadAndWhoIncludedIt) {
   const auto includer = std::make_shared<const SourceFile>("main.launch.xml", "<launch>\n  <include/>\n</launch>\n");
   try {
