@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "actions/expectation_fields.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
 namespace launch {
@@ -35,8 +37,23 @@ Duration as_duration(double seconds) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
 }
 
+std::optional<TimeField> TimeField::of(const Fields& fields, const char* attribute, double unit) {
+  std::optional<NumberField> number = from_zero(fields, attribute);
+  return number ? std::optional(TimeField(*std::move(number), fields.where(attribute), unit)) : std::nullopt;
+}
+
+Duration TimeField::perform(Scope& scope) const {
+  constexpr double kMost = 1e9;
+  const double seconds = number_.perform(scope) * unit_;
+  if (!(seconds <= kMost)) {
+    throw LaunchError(fmt::format("a time of {:g} s is too long", seconds), where_, "a billion seconds at most",
+                      Finding::kWrongValue);
+  }
+  return as_duration(seconds);
+}
+
 ExpectationSubject::ExpectationSubject(const Fields& fields)
-    : where_(fields.where()), process_(fields.optional_text("process")), within_(from_zero(fields, "within")) {}
+    : where_(fields.where()), process_(fields.optional_text("process")), within_(TimeField::of(fields, "within")) {}
 
 Expectation ExpectationSubject::perform(Scope& scope) const {
   Expectation expectation;
@@ -47,7 +64,7 @@ Expectation ExpectationSubject::perform(Scope& scope) const {
     expectation.process_where = process_->where();
   }
   if (within_) {
-    expectation.within = as_duration(within_->perform(scope));
+    expectation.within = within_->perform(scope);
   }
   return expectation;
 }

@@ -23,6 +23,28 @@ std::optional<NumberField> from_zero(const Fields& fields, const char* attribute
 
 Duration as_duration(double seconds);
 
+// A time that an attribute gives in seconds, or in milliseconds.
+class TimeField {
+ public:
+  static constexpr double kSecond = 1;
+  static constexpr double kMillisecond = 1e-3;
+
+  // nullopt if it is not given. Throws LaunchError for a literal that is no time.
+  static std::optional<TimeField> of(const Fields& fields, const char* attribute, double unit = kSecond);
+
+  // Throws LaunchError, also above a billion seconds, which the clock can't count.
+  Duration perform(Scope& scope) const;
+  const SourceRange& where() const { return where_; }
+
+ private:
+  TimeField(NumberField number, SourceRange where, double unit)
+      : number_(std::move(number)), where_(std::move(where)), unit_(unit) {}
+
+  NumberField number_;
+  SourceRange where_;
+  double unit_;
+};
+
 // The process that an item speaks of, and the time that it gives.
 class ExpectationSubject {
  public:
@@ -41,7 +63,7 @@ class ExpectationSubject {
 
   SourceRange where_;
   std::optional<Template> process_;
-  std::optional<NumberField> within_;
+  std::optional<TimeField> within_;
 };
 
 }  // namespace launch

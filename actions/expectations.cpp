@@ -27,10 +27,6 @@ std::vector<AttributeSpec> line_attributes() {
       own_attribute("stream", AttributeType::kText, false, "both", "stdout, stderr or both")};
 }
 
-std::optional<Duration> perform_seconds(const std::optional<NumberField>& number, Scope& scope) {
-  return number ? std::optional(as_duration(number->perform(scope))) : std::nullopt;
-}
-
 class Line {
  public:
   explicit Line(const Fields& fields)
@@ -135,7 +131,7 @@ PerformExpectation graph_expectation(const Fields& fields) {
 PerformExpectation resources_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
   const std::optional<Template> memory = fields.optional_text("max_memory");
-  const std::optional<NumberField> time = from_zero(fields, "max_processor_time");
+  const std::optional<TimeField> time = TimeField::of(fields, "max_processor_time");
   if (!memory && !time) {
     throw LaunchError("there is no ceiling", fields.where(), "give max_memory, max_processor_time or both",
                       Finding::kMissingAttribute);
@@ -146,7 +142,9 @@ PerformExpectation resources_expectation(const Fields& fields) {
     if (memory) {
       expected.memory = parse_bytes(memory->perform(scope), memory->where());
     }
-    expected.processor_time = perform_seconds(time, scope);
+    if (time) {
+      expected.processor_time = time->perform(scope);
+    }
     return subject.of(expected, scope);
   };
 }

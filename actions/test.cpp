@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "actions/expectation_fields.hpp"
 #include "actions/expectations.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -20,14 +21,9 @@ class Test : public Action {
   explicit Test(const Fields& fields)
       : Action(fields.where(), fields.condition()),
         name_(fields.text("name")),
-        timeout_(fields.number("timeout")),
-        duration_(fields.number("duration")),
+        timeout_(TimeField::of(fields, "timeout")),
+        duration_(TimeField::of(fields, "duration")),
         actions_(fields.actions()) {
-    for (std::optional<NumberField>* const number : {&timeout_, &duration_}) {
-      if (*number) {
-        (*number)->require_not_negative();
-      }
-    }
     std::vector<Diagnostic> errors;
     for (const ExpectationType& type : expectation_types()) {
       for (const Fields* const item : fields.items(type.item.tag)) {
@@ -79,9 +75,6 @@ class Test : public Action {
   };
 
   TestRequest request(Scope& scope, LaunchContext& context) const {
-    const auto seconds = [&](const NumberField& number) {
-      return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(number.perform(scope)));
-    };
     TestRequest test;
     test.name = name_.perform(scope);
     test.name_where = name_.where();
@@ -95,9 +88,9 @@ class Test : public Action {
                         "it stands on one line in reports");
     }
     test.has_actions = !actions_.empty();
-    test.timeout = timeout_ ? seconds(*timeout_) : kTimeout;
+    test.timeout = timeout_ ? timeout_->perform(scope) : kTimeout;
     if (duration_) {
-      test.duration = seconds(*duration_);
+      test.duration = duration_->perform(scope);
     }
     for (const Item& item : items_) {
       if (item.condition.holds(scope)) {
@@ -111,8 +104,8 @@ class Test : public Action {
   }
 
   Template name_;
-  std::optional<NumberField> timeout_;
-  std::optional<NumberField> duration_;
+  std::optional<TimeField> timeout_;
+  std::optional<TimeField> duration_;
   std::vector<Item> items_;
   std::vector<ActionPtr> actions_;
 };

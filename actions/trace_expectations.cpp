@@ -30,8 +30,12 @@ std::string perform_text(const std::optional<Template>& text, Scope& scope) {
   return text ? text->perform(scope) : std::string();
 }
 
-std::optional<Duration> perform_milliseconds(const std::optional<NumberField>& number, Scope& scope) {
-  return number ? std::optional(as_duration(number->perform(scope) / 1000)) : std::nullopt;
+std::optional<TimeField> milliseconds(const Fields& fields, const char* attribute) {
+  return TimeField::of(fields, attribute, TimeField::kMillisecond);
+}
+
+std::optional<Duration> perform_time(const std::optional<TimeField>& time, Scope& scope) {
+  return time ? std::optional(time->perform(scope)) : std::nullopt;
 }
 
 double perform_percentile(const std::optional<NumberField>& number, const SourceRange& where, Scope& scope) {
@@ -50,8 +54,8 @@ AttributeSpec percentile_attribute() {
 class Bounds {
  public:
   explicit Bounds(const Fields& fields)
-      : least_(from_zero(fields, "min_ms")),
-        most_(from_zero(fields, "max_ms")),
+      : least_(milliseconds(fields, "min_ms")),
+        most_(milliseconds(fields, "max_ms")),
         percentile_(fields.number("percentile")),
         percentile_where_(fields.where("percentile")) {
     if (!least_ && !most_) {
@@ -66,13 +70,19 @@ class Bounds {
   }
 
   TimeBounds perform(Scope& scope) const {
-    return {perform_milliseconds(least_, scope).value_or(Duration(0)), perform_milliseconds(most_, scope),
-            perform_percentile(percentile_, percentile_where_, scope)};
+    const TimeBounds bounds{perform_time(least_, scope).value_or(Duration(0)), perform_time(most_, scope),
+                            perform_percentile(percentile_, percentile_where_, scope)};
+    if (bounds.most && *bounds.most < bounds.least) {
+      throw LaunchError(fmt::format("max_ms is less than min_ms, {:g}",
+                                    std::chrono::duration<double, std::milli>(bounds.least).count()),
+                        most_->where(), {}, Finding::kWrongValue);
+    }
+    return bounds;
   }
 
  private:
-  std::optional<NumberField> least_;
-  std::optional<NumberField> most_;
+  std::optional<TimeField> least_;
+  std::optional<TimeField> most_;
   std::optional<NumberField> percentile_;
   SourceRange percentile_where_;
 };
@@ -231,18 +241,17 @@ PerformExpectation callback_expectation(const Fields& fields) {
 PerformExpectation timer_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
   const Template node = fields.text("node");
-  const NumberField period = *from_zero(fields, "period_ms");
-  const std::optional<NumberField> jitter = from_zero(fields, "jitter_ms");
+  const TimeField period = *milliseconds(fields, "period_ms");
+  const std::optional<TimeField> jitter = milliseconds(fields, "jitter_ms");
   const std::optional<NumberField> percentile = fields.number("percentile");
   const SourceRange percentile_where = fields.where("percentile");
   const std::optional<NumberField> missed = from_zero(fields, "max_missed");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();
-    return subject.of(
-        TraceExpectation(ExpectedTimer{
-            resolve_name(node, scope), as_duration(period.perform(scope) / 1000), perform_milliseconds(jitter, scope),
-            perform_percentile(percentile, percentile_where, scope), perform_count(missed, scope, 0)}),
-        scope);
+    return subject.of(TraceExpectation(ExpectedTimer{
+                          resolve_name(node, scope), period.perform(scope), perform_time(jitter, scope),
+                          perform_percentile(percentile, percentile_where, scope), perform_count(missed, scope, 0)}),
+                      scope);
   };
 }
 

@@ -118,6 +118,32 @@ a.launch.xml:12:35: error: state can be active, unconfigured, inactive, finalize
 )x");
 }
 
+TEST_F(TestExpectations, TimesThatCannotBeAreErrorsAtTheirPlace) {
+  const auto error_of = [&](const std::string& test) {
+    const CommandResult result = run_file(test);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.out, "");
+    return plain(result.err);
+  };
+  EXPECT_EQ(error_of(R"(<test name="t" timeout="1e300"><output text="a"/></test>)"),
+            R"(a.launch.xml:2:25: error: a time of 1e+300 s is too long
+    2 | <test name="t" timeout="1e300"><output text="a"/></test>
+      |                         ^~~~~
+      = help: a billion seconds at most
+)");
+  EXPECT_THAT(error_of(R"(<test name="t" duration="inf"><output text="a"/></test>)"),
+              HasSubstr("a.launch.xml:2:26: error: a time of inf s is too long\n"));
+  EXPECT_THAT(error_of(R"(<test name="t"><output text="a" within="1e12"/></test>)"),
+              HasSubstr("a.launch.xml:2:41: error: a time of 1e+12 s is too long\n"));
+  EXPECT_THAT(error_of(R"(<test name="t" duration="$(eval '10 ** 20')"><output text="a"/></test>)"),
+              HasSubstr("a.launch.xml:2:26: error: a time of 1e+20 s is too long\n"));
+  EXPECT_EQ(error_of(R"(<test name="t"><latency topic="/a" max_ms="1" min_ms="5"/></test>)"),
+            R"(a.launch.xml:2:44: error: max_ms is less than min_ms, 5
+    2 | <test name="t"><latency topic="/a" max_ms="1" min_ms="5"/></test>
+      |                                            ^
+)");
+}
+
 TEST_F(TestExpectations, AFieldThatAMessageLacksIsAnErrorAtItsPlace) {
   const CommandResult result = run_file(R"xml(
   <test name="t">
