@@ -135,7 +135,7 @@ TEST_F(TestExpectations, TimesThatCannotBeAreErrorsAtTheirPlace) {
               HasSubstr("a.launch.xml:2:26: error: a time of inf s is too long\n"));
   EXPECT_THAT(error_of(R"(<test name="t"><output text="a" within="1e12"/></test>)"),
               HasSubstr("a.launch.xml:2:41: error: a time of 1e+12 s is too long\n"));
-  EXPECT_THAT(error_of(R"(<test name="t" duration="$(eval '10 ** 20')"><output text="a"/></test>)"),
+  EXPECT_THAT(error_of(R"xml(<test name="t" duration="$(eval '10 ** 20')"><output text="a"/></test>)xml"),
               HasSubstr("a.launch.xml:2:26: error: a time of 1e+20 s is too long\n"));
   EXPECT_EQ(error_of(R"(<test name="t"><latency topic="/a" max_ms="1" min_ms="5"/></test>)"),
             R"(a.launch.xml:2:44: error: max_ms is less than min_ms, 5
