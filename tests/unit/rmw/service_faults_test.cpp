@@ -40,7 +40,8 @@ const std::vector<Asked> kAsked = {
     {"/twice_response", Kind::kDuplicate, Side::kResponse, 2, 1, 1},
     {"/late_response", Kind::kDelay, Side::kResponse, 1, 1, 1, std::chrono::milliseconds(50)},
     {"/corrupt_response", Kind::kCorrupt, Side::kResponse, 2, 1, 1},
-    {"/node", Kind::kDrop, Side::kRequest, 1, 1, 0, {}, "/other"},
+    {"/node", Kind::kDrop, Side::kRequest, 1, 1, 0, {}, "/server"},
+    {"/other_node", Kind::kDrop, Side::kRequest, 1, 1, 0, {}, "/other"},
     {"/topic", Kind::kDrop, Side::kTake, 1, 1, 0},
 };
 const auto* const kTable = testing::AddGlobalTestEnvironment(new FaultTable(kAsked));
@@ -177,10 +178,9 @@ TEST_F(ServiceFaultsTest, ChangesBytesOfResponses) {
 }
 
 TEST_F(ServiceFaultsTest, HitsTheServiceOfTheNodeThatItNamesOnly) {
-  ask("/node", 2, 2, 2);
-  EXPECT_EQ(FaultTable::of("/node").seen, 0U);
-  Node other(serving_context_, "other");
-  Service service(other, "/node");
+  ask("/other_node", 2, 2, 2);
+  EXPECT_EQ(FaultTable::of("/other_node").seen, 0U);
+  Service service(server_, "/node");
   Client client(asker_, "/node");
   client.wait_for_service();
   client.send(1, 10);
