@@ -117,30 +117,27 @@ std::uint64_t MemoryDisk::used() const {
   return room.f_blocks - room.f_bfree;
 }
 
-void MemoryDisk::resize(std::uint64_t blocks) const {
+bool MemoryDisk::try_resize(std::uint64_t blocks) const {
   const std::string options = fmt::format("size={}", blocks * block_size_);
-  check(::mount(nullptr, path_of(root_).c_str(), nullptr, MS_REMOUNT | kFlags, options.c_str()) == 0,
-        fmt::format("change the size of the disk on '{}'", directory_));
+  const bool done = ::mount(nullptr, path_of(root_).c_str(), nullptr, MS_REMOUNT | kFlags, options.c_str()) == 0;
+  check(done || errno == EINVAL, fmt::format("change the size of the disk on '{}'", directory_));
+  return done;
 }
 
 void MemoryDisk::leave(std::optional<std::uint64_t> room) {
   if (!room) {
-    resize(whole_);
+    check(try_resize(whole_), directory_);
     return;
   }
   const std::uint64_t blocks = *room / block_size_;
-  // The kernel refuses a size below what is used, which a program may change meanwhile. What it removes makes room,
-  // as on other disks.
-  constexpr int kMostTimes = 1000;
-  for (int i = 1;; ++i) {
-    try {
-      resize(used() + blocks);
-      return;
-    } catch (const std::system_error& error) {
-      if (error.code().value() != EINVAL || i == kMostTimes) {
-        throw;
-      }
-    }
+  // The kernel refuses a size below what is used, and a program may write meanwhile. So there may be some more room at
+  // first, which such a program fills, or which is taken now.
+  std::uint64_t more = 0;
+  while (!try_resize(used() + blocks + more)) {
+    more = more == 0 ? 1 : 2 * more;
+  }
+  constexpr int kMostTimes = 20;
+  for (int i = 0; more > 0 && i < kMostTimes && !try_resize(used() + blocks); ++i) {
   }
 }
 

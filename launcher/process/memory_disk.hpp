@@ -37,7 +37,8 @@ class MemoryDisk {
 
  private:
   std::uint64_t used() const;
-  void resize(std::uint64_t blocks) const;
+  // False if more is used. Throws std::system_error.
+  bool try_resize(std::uint64_t blocks) const;
 
   std::string directory_;
   UniqueFd covered_;  // the directory below
