@@ -10,6 +10,7 @@
 #include <set>
 
 #include "launcher/base/diagnostic.hpp"
+#include "launcher/base/home_directory.hpp"
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/testing/checks/trace_check.hpp"
@@ -63,10 +64,20 @@ LaunchPlan plan_of(const LaunchDescription& description, const Registry& registr
   return plan_launch(context, description);
 }
 
+// Each run has these variables, with values of its own.
+Environment with_variables_of_a_run(Environment environment) {
+  environment.emplace("ROS_HOME", ros_home(environment));
+  environment.emplace("ROS_LOG_DIR", ros_log_directory(environment));
+  environment.emplace("ROS_TRACE_DIR", environment.at("ROS_HOME") + "/tracing");
+  environment.emplace("ROS_DOMAIN_ID", "0");
+  environment.emplace("LAUNCH_TEST_SEED", "1");
+  return environment;
+}
+
 // A launch file whose tests are looked for.
 struct TestFile {
   TestFile(const std::string& path, const Registry& with, const Environment& in, const LaunchArguments& given)
-      : file(path), registry(with), environment(in), arguments(given) {
+      : file(path), registry(with), environment(with_variables_of_a_run(in)), arguments(given) {
     Scope scope;
     scope.environment = environment;
     description = load_launch_files({file}, registry, scope);
@@ -81,7 +92,7 @@ struct TestFile {
 
   const std::string& file;
   const Registry& registry;
-  const Environment& environment;
+  const Environment environment;
   const LaunchArguments& arguments;
   std::shared_ptr<const LaunchDescription> description;
 };

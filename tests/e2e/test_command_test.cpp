@@ -227,6 +227,18 @@ TEST_F(TestCommand, OutputThatIsNoTextLeavesTheResultsReadable) {
   EXPECT_EQ(read.out, "2\n2\n") << read.err;
 }
 
+// They are read before anything starts, when no run is there yet.
+TEST_F(TestCommand, ALaunchFileMayReadTheVariablesThatEachRunHas) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable name="p" cmd="echo '$(env ROS_HOME)' '$(env ROS_LOG_DIR)' '$(env ROS_TRACE_DIR)' domain $(env ROS_DOMAIN_ID) seed $(env LAUNCH_TEST_SEED)"/>
+  <test name="t"><output process="p" pattern="0001-t__seed_1_/ros .*0001-t__seed_1_/log .*/own_traces domain [0-9]+ seed 1$"/></test>)xml");
+  const CommandResult result =
+      run_command({.argv = {"env", "-u", "ROS_HOME", "-u", "ROS_LOG_DIR", "-u", "ROS_TRACE_DIR", "-u", "ROS_DOMAIN_ID",
+                            LAUNCH_PROGRAM, "test", file, "--seeds", "1"}},
+                  std::chrono::seconds(60));
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
 TEST_F(TestCommand, ATestExpectsSomething) {
   const std::string file = write("a.launch.xml", R"xml(<test name="t"/>)xml");
   const CommandResult result = run({file});
