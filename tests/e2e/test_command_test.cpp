@@ -230,7 +230,7 @@ TEST_F(TestCommand, OutputThatIsNoTextLeavesTheResultsReadable) {
 // They are read before anything starts, when no run is there yet.
 TEST_F(TestCommand, ALaunchFileMayReadTheVariablesThatEachRunHas) {
   const std::string file = write("a.launch.xml", R"xml(
-  <executable name="p" cmd="echo '$(env ROS_HOME)' '$(env ROS_LOG_DIR)' '$(env ROS_TRACE_DIR)' domain $(env ROS_DOMAIN_ID) seed $(env LAUNCH_TEST_SEED)"/>
+  <executable name="p" cmd="echo $(env ROS_HOME) $(env ROS_LOG_DIR) $(env ROS_TRACE_DIR) domain $(env ROS_DOMAIN_ID) seed $(env LAUNCH_TEST_SEED)"/>
   <test name="t"><output process="p" pattern="0001-t__seed_1_/ros .*0001-t__seed_1_/log .*/own_traces domain [0-9]+ seed 1$"/></test>)xml");
   const CommandResult result =
       run_command({.argv = {"env", "-u", "ROS_HOME", "-u", "ROS_LOG_DIR", "-u", "ROS_TRACE_DIR", "-u", "ROS_DOMAIN_ID",
