@@ -89,6 +89,12 @@ TEST_F(InstalledStack, BuildsAmentPackagesUnchanged) {
             "arm_driver::ArmComponent;lib/libarm_component.so\narm_driver::SelfTest;lib/libarm_component.so\n");
   EXPECT_EQ(run({(driver / "lib/arm_driver/self_test").string()}).out, "the arm is there\n");
   EXPECT_EQ(run({(driver / "lib/arm_driver/effort_in_c").string()}).out, "elbow: 44 bytes\n");
+  const fs::path settings = sandbox_.directory() / "settings.yaml";
+  std::ofstream(settings) << "/arm:\n  elbow:\n    ros__parameters: {speed: 1.5, limits: {angles: [10, 90]}}\n";
+  EXPECT_EQ(run({(driver / "lib/arm_driver/settings_in_c").string(), settings.string()}).out,
+            "speed 1.5\n\n Node Name\t\t\t\tParameters\n/arm/elbow\n"
+            "                                             speed: 1.500000\n"
+            "                                     limits.angles: 10, 90, \n");
   // Programs in C++ do not load what is there for C.
   const std::string libraries = run({"ldd", (driver / "lib/arm_driver/arm_node").string()}).out;
   EXPECT_NE(libraries.find("libstd_msgs.so"), std::string::npos) << libraries;

@@ -53,6 +53,17 @@ struct Constructed {
   Message* message;
 };
 
+TEST(Message, WithTheStandardAllocatorIsTheMessage) {
+  EXPECT_TRUE((std::is_same_v<std_msgs::msg::String_<std::allocator<void>>, std_msgs::msg::String>));
+  EXPECT_TRUE((std::is_same_v<test_interfaces::srv::AddTwoInts_Request_<std::allocator<void>>,
+                              test_interfaces::srv::AddTwoInts::Request>));
+  EXPECT_TRUE((std::is_same_v<std_msgs::msg::Header::Type, std_msgs::msg::Header>));
+  const std::allocator<void> allocator;
+  EXPECT_EQ(Defaults(allocator).number, -7);
+  EXPECT_EQ(Defaults(allocator, MessageInitialization::ZERO).number, 0);
+  EXPECT_EQ(std_msgs::msg::Empty(allocator), std_msgs::msg::Empty());
+}
+
 TEST(MessageInitialization, ZeroIgnoresDefaults) {
   const Constructed<Defaults> made(MessageInitialization::ZERO);
   EXPECT_EQ(made.message->number, 0);

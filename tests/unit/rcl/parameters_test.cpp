@@ -7,6 +7,7 @@
 
 #include "rcl/parameter_overrides.hpp"
 #include "rcl_test.hpp"
+#include "rcl_yaml_param_parser/parser.h"
 
 namespace {
 
@@ -153,7 +154,7 @@ TEST_F(ParameterFile, MayBeEmptyOrHaveNoParameters) {
   ParameterOverrides overrides;
   write("");
   overrides.load_file(path_);
-  write("/**:\n  ros__parameters:\n");
+  write("---\n/**:\n  ros__parameters: {}\n---\ntalker:\n  ros__parameters: {}\n");
   overrides.load_file(path_);
   write("/**:\n  ros__parameters: {}\n");
   overrides.load_file(path_);
@@ -173,6 +174,39 @@ TEST_F(ParameterFile, LaterValuesWinButPatternsKeepTheirFirstPlace) {
               ElementsAre(Pair("x", ParameterValue("node")), Pair("y", ParameterValue("all"))));
 }
 
+TEST_F(ParameterFile, IsToldToProgramsInC) {
+  write("/**: {ros__parameters: {x: [1, 2], none: []}}");
+  const Arguments arguments({"program", "--ros-args", "--params-file", path_, "-p", "talker:x:=node"});
+  ASSERT_EQ(rcl_arguments_get_param_files_count(&arguments.handle), 1);
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  char** files = nullptr;
+  ASSERT_EQ(rcl_arguments_get_param_files(&arguments.handle, allocator, &files), RCL_RET_OK);
+  EXPECT_EQ(files[0], path_);
+  allocator.deallocate(files[0], allocator.state);
+  allocator.deallocate(files, allocator.state);
+
+  rcl_params_t* params = nullptr;
+  ASSERT_EQ(rcl_arguments_get_param_overrides(&arguments.handle, &params), RCL_RET_OK);
+  ASSERT_EQ(params->num_nodes, 2u);
+  EXPECT_STREQ(params->node_names[0], "/**");
+  EXPECT_EQ(rcl_yaml_node_struct_get("/**", "x", params)->integer_array_value->values[1], 2);
+  EXPECT_STREQ(params->params[0].parameter_names[1], "none");
+  EXPECT_STREQ(rcl_yaml_node_struct_get("/talker", "x", params)->string_value, "node");
+  EXPECT_EQ(rcl_arguments_get_param_overrides(&arguments.handle, &params), RCL_RET_INVALID_ARGUMENT);
+  EXPECT_EQ(rcl_test::take_error(), "Output parameter override pointer is not null. May leak memory.");
+  rcl_yaml_node_struct_fini(params);
+
+  const Arguments none({"program"});
+  params = nullptr;
+  EXPECT_EQ(rcl_arguments_get_param_overrides(&none.handle, &params), RCL_RET_OK);
+  EXPECT_EQ(params, nullptr);
+  EXPECT_EQ(rcl_arguments_get_param_files_count(&none.handle), 0);
+  const rcl_arguments_t never_parsed = rcl_get_zero_initialized_arguments();
+  EXPECT_EQ(rcl_arguments_get_param_files_count(&never_parsed), -1);
+  EXPECT_EQ(rcl_arguments_get_param_overrides(&never_parsed, &params), RCL_RET_INVALID_ARGUMENT);
+  rcl_reset_error();
+}
+
 TEST_F(ParameterFile, NamesTheLineOfAnError) {
   write("talker:\n  ros__parameters:\n    x:\n");
   EXPECT_EQ(load_error(), ":3: parameter 'x' has no value; an empty string is written \"\"");
@@ -181,8 +215,8 @@ TEST_F(ParameterFile, NamesTheLineOfAnError) {
             ":3: the list of parameter 'x' must be of one type, but begins with a integer and has a double");
   write("talker:\n  ros__parameters:\n    x: [[1]]\n");
   EXPECT_EQ(load_error(), ":3: the list of parameter 'x' may only have plain values");
-  write("talker:\n  ros__parameters:\n    x: []\n");
-  EXPECT_EQ(load_error(), ":3: parameter 'x' is an empty list, which has no type");
+  write("talker:\n  ros__parameters:\n");
+  EXPECT_EQ(load_error(), ":2: 'ros__parameters' must hold parameters as NAME: VALUE");
   write("talker:\n  rate: 5\n");
   EXPECT_EQ(load_error(),
             ":2: 'rate' stands where a node name is expected; parameters must stand below NODE: ros__parameters:");
@@ -196,6 +230,21 @@ TEST_F(ParameterFile, NamesTheLineOfAnError) {
   EXPECT_EQ(load_error(), ":4: aliases (*name) are not supported");
   write("talker:\n  ros__parameters:\n    x: 'open\n");
   EXPECT_EQ(load_error(), ":4: found unexpected end of stream");
+}
+
+TEST_F(ParameterFile, AnEmptyListIsWrongOnlyForANodeThatGetsIt) {
+  write("talker:\n  ros__parameters:\n    x: []\nlistener:\n  ros__parameters:\n    y: 1\n");
+  ParameterOverrides overrides;
+  overrides.load_file(path_);
+  EXPECT_THAT(overrides.for_node("/listener"), ElementsAre(Pair("y", ParameterValue(std::int64_t{1}))));
+  try {
+    (void)overrides.for_node("/talker");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), path_ + ":3: parameter 'x' is an empty list, which has no type");
+  }
+  overrides.set_from_text("talker", "x", "[1]");
+  EXPECT_EQ(overrides.for_node("/talker").size(), 1u);
 }
 
 TEST_F(ParameterFile, ChangesNothingWhenItIsWrong) {

@@ -12,6 +12,7 @@
 
 #include "rcl/allocator.h"
 #include "rcl/types.h"
+#include "rcl_yaml_param_parser/types.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -62,6 +63,15 @@ rcl_ret_t rcl_arguments_get_unparsed_ros(const rcl_arguments_t* args, rcl_alloca
 // The command line without its ROS sections. The strings are those of argv. Free the array with the allocator.
 rcl_ret_t rcl_remove_ros_arguments(const char* const* argv, const rcl_arguments_t* args, rcl_allocator_t allocator,
                                    int* nonros_argc, const char*** nonros_argv);
+
+// The parameter files; -1 if the arguments were never parsed. Free each string and the array with the allocator.
+int rcl_arguments_get_param_files_count(const rcl_arguments_t* args);
+rcl_ret_t rcl_arguments_get_param_files(const rcl_arguments_t* arguments, rcl_allocator_t allocator,
+                                        char*** parameter_files);
+
+// The parameters of files and of `-p`, in a new structure for rcl_yaml_node_struct_fini(). Each name of a node has a
+// slash in front. The pointer must be null before, and stays null if there are no parameters.
+rcl_ret_t rcl_arguments_get_param_overrides(const rcl_arguments_t* arguments, rcl_params_t** parameter_overrides);
 
 rcl_ret_t rcl_arguments_copy(const rcl_arguments_t* args, rcl_arguments_t* args_out);
 rcl_ret_t rcl_arguments_fini(rcl_arguments_t* args);

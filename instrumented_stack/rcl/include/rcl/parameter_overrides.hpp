@@ -6,7 +6,6 @@
 // old position.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,20 +14,26 @@
 #include <vector>
 
 #include "rcl/arguments.h"
+#include "rcl_yaml_param_parser/read_yaml.hpp"
 
 namespace rcl {
 
-using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
-                                    std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
+using ParameterValue = rcl_yaml::ParameterValue;
+
+// An empty list. It is an error only for a node that it applies to.
+struct NoValue {
+  std::string error;
+};
 
 // Whether a node pattern matches the node with this fully qualified name.
 bool node_pattern_matches(std::string_view pattern, std::string_view fully_qualified_name);
 
 class ParameterOverrides {
  public:
-  using Values = std::vector<std::pair<std::string, ParameterValue>>;
+  using Value = std::variant<ParameterValue, NoValue>;
+  using Values = std::vector<std::pair<std::string, Value>>;
 
-  void set(std::string_view node_pattern, std::string_view name, ParameterValue value);
+  void set(std::string_view node_pattern, std::string_view name, Value value);
 
   // Reads a parameter file; its values replace present ones. Throws std::invalid_argument with `FILE:LINE: what is
   // wrong`.
@@ -44,7 +49,7 @@ class ParameterOverrides {
   void merge(const ParameterOverrides& other);
 
   // The values for a node by its fully qualified name: those of all matching patterns in order; later ones replace
-  // earlier ones.
+  // earlier ones. Throws std::invalid_argument if one of them is an empty list.
   std::map<std::string, ParameterValue> for_node(std::string_view fully_qualified_name) const;
 
   bool empty() const { return patterns_.empty(); }

@@ -75,6 +75,7 @@ void parameter(Impl& impl, std::string_view flag, std::string_view value) {
 void parameter_file(Impl& impl, std::string_view flag, std::string_view value) {
   try {
     impl.parameters.load_file(std::string(value));
+    impl.parameter_files.emplace_back(value);
   } catch (const std::invalid_argument& error) {
     wrong(quoted(flag, value) + ": " + error.what());
   }

@@ -16,6 +16,7 @@ struct rcl_arguments_impl_s {
   std::vector<int> unparsed_ros;  // indices into argv, inside ROS sections
   std::vector<rcl::RemapRule> remap_rules;
   rcl::ParameterOverrides parameters;
+  std::vector<std::string> parameter_files;
   std::optional<std::string> enclave;
   std::optional<int> default_log_level;
   std::vector<std::pair<std::string, int>> logger_levels;

@@ -7,6 +7,7 @@
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/client_base.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
@@ -34,6 +35,7 @@ struct AnyExecutable {
   Waitable::SharedPtr waitable;
   std::shared_ptr<void> data;  // for the timer or the waitable
   CallbackGroup::SharedPtr callback_group;
+  node_interfaces::NodeBaseInterface::SharedPtr node_base;  // only memory strategies set it
 };
 
 }  // namespace rclcpp

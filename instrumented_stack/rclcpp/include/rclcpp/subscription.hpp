@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "rclcpp/experimental/subscription_intra_process.hpp"
+#include "rclcpp/message_memory_strategy.hpp"
 #include "rclcpp/subscription_base.hpp"
 
 namespace rclcpp {
@@ -21,17 +22,22 @@ class Subscription : public SubscriptionBase {
   using SubscribedType = typename TypeAdapter<MessageT>::custom_type;
   using ROSMessageType = typename TypeAdapter<MessageT>::ros_message_type;
   using CallbackType = AnySubscriptionCallback<MessageT, AllocatorT>;
+  using MessageMemoryStrategyType = message_memory_strategy::MessageMemoryStrategy<ROSMessageType, AllocatorT>;
   RCLCPP_SMART_PTR_DEFINITIONS(Subscription)
 
-  // Throws std::invalid_argument for intra-process communication with the history "keep all" or a depth of 0.
-  Subscription(
-      node_interfaces::NodeBaseInterface* node_base, const std::string& topic, const QoS& qos,
-      CallbackType any_callback,
-      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>())
-      : SubscriptionBase(node_base, *rosidl_typesupport_cpp::get_message_type_support_handle<ROSMessageType>(), topic,
-                         qos, options),
+  // Without a memory strategy (null), messages come from the allocator of the options, and one that was only read is
+  // used again. `statistics` may be null. Throws std::invalid_argument for intra-process communication with the history
+  // "keep all" or a depth of 0.
+  Subscription(node_interfaces::NodeBaseInterface* node_base, const rosidl_message_type_support_t& type_support,
+               const std::string& topic, const QoS& qos, CallbackType any_callback,
+               const SubscriptionOptionsWithAllocator<AllocatorT>& options,
+               std::shared_ptr<MessageMemoryStrategyType> memory_strategy,
+               std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics = nullptr)
+      : SubscriptionBase(node_base, type_support, topic, qos, options),
         allocator_(*options.get_allocator()),
-        any_callback_(std::move(any_callback)) {
+        any_callback_(std::move(any_callback)),
+        memory_strategy_(std::move(memory_strategy)) {
+    set_has_memory_strategy(memory_strategy_ != nullptr);
     // The middleware alone delivers bytes.
     if (!any_callback_.is_serialized_message_callback() && uses_intra_process(options, *node_base)) {
       using IntraProcess = experimental::SubscriptionIntraProcess<MessageT, AllocatorT>;
@@ -41,6 +47,7 @@ class Subscription : public SubscriptionBase {
       join_intra_process(*node_base, intra_process, intra_process->get_callback());
     }
     trace_creation(any_callback_);
+    set_topic_statistics(std::move(statistics));
   }
 
   // Takes the next message without running the callback. Returns false if there is none.
@@ -61,7 +68,30 @@ class Subscription : public SubscriptionBase {
 
   // Reading a message sets every member, so the message needs no initial values.
   std::shared_ptr<void> create_message() override {
+    if (memory_strategy_) {
+      return memory_strategy_->borrow_message();
+    }
     return allocator::make_shared<ROSMessageType>(allocator_, rosidl_runtime_cpp::MessageInitialization::SKIP);
+  }
+  void return_message(std::shared_ptr<void>& message) override {
+    if (memory_strategy_) {
+      auto typed_message = std::static_pointer_cast<ROSMessageType>(message);
+      message.reset();
+      memory_strategy_->return_message(typed_message);
+    } else {
+      message.reset();
+    }
+  }
+  std::shared_ptr<SerializedMessage> create_serialized_message() override {
+    return memory_strategy_ ? memory_strategy_->borrow_serialized_message()
+                            : SubscriptionBase::create_serialized_message();
+  }
+  void return_serialized_message(std::shared_ptr<SerializedMessage>& message) override {
+    if (memory_strategy_) {
+      memory_strategy_->return_serialized_message(message);
+    } else {
+      message.reset();
+    }
   }
 
  protected:
@@ -70,6 +100,7 @@ class Subscription : public SubscriptionBase {
  private:
   AllocatorT allocator_;
   CallbackType any_callback_;
+  std::shared_ptr<MessageMemoryStrategyType> memory_strategy_;
 };
 
 }  // namespace rclcpp

@@ -16,6 +16,9 @@
 #include "rclcpp/any_subscription_callback.hpp"
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
+#include "rclcpp/dynamic_typesupport/dynamic_message.hpp"
+#include "rclcpp/dynamic_typesupport/dynamic_message_type.hpp"
+#include "rclcpp/dynamic_typesupport/dynamic_serialization_support.hpp"
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/message_info.hpp"
@@ -36,6 +39,9 @@ class SubscriptionIntraProcessBase;
 namespace topic_statistics {
 class SubscriptionTopicStatistics;
 }  // namespace topic_statistics
+
+// What a subscription hands to its callback.
+enum class DeliveredMessageKind : uint8_t { INVALID = 0, ROS_MESSAGE = 1, SERIALIZED_MESSAGE = 2, DYNAMIC_MESSAGE = 3 };
 
 class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
  public:
@@ -86,14 +92,30 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // For executors of others that take messages themselves: make one, take it, run the callback, return it. For
   // is_serialized(), the message is a SerializedMessage for take_serialized().
   bool is_serialized() { return callback().is_serialized_message_callback(); }
+  DeliveredMessageKind get_delivered_message_kind() {
+    return is_serialized() ? DeliveredMessageKind::SERIALIZED_MESSAGE : DeliveredMessageKind::ROS_MESSAGE;
+  }
   virtual std::shared_ptr<void> create_message() = 0;
-  std::shared_ptr<SerializedMessage> create_serialized_message() { return std::make_shared<SerializedMessage>(); }
+  virtual std::shared_ptr<SerializedMessage> create_serialized_message() {
+    return std::make_shared<SerializedMessage>();
+  }
   void handle_message(const std::shared_ptr<void>& message, const MessageInfo& message_info);
   void handle_serialized_message(const std::shared_ptr<SerializedMessage>& message, const MessageInfo& message_info) {
     dispatch(message, message_info);
   }
-  void return_message(std::shared_ptr<void>& message) { message.reset(); }
-  void return_serialized_message(std::shared_ptr<SerializedMessage>& message) { message.reset(); }
+  virtual void return_message(std::shared_ptr<void>& message) { message.reset(); }
+  virtual void return_serialized_message(std::shared_ptr<SerializedMessage>& message) { message.reset(); }
+
+  // For types that are made at run time, which no subscription has: as in rclcpp so far, these throw
+  // exceptions::UnimplementedError.
+  virtual dynamic_typesupport::DynamicMessageType::SharedPtr get_shared_dynamic_message_type();
+  virtual dynamic_typesupport::DynamicMessage::SharedPtr get_shared_dynamic_message();
+  virtual dynamic_typesupport::DynamicSerializationSupport::SharedPtr get_shared_dynamic_serialization_support();
+  virtual dynamic_typesupport::DynamicMessage::SharedPtr create_dynamic_message();
+  virtual void return_dynamic_message(dynamic_typesupport::DynamicMessage::SharedPtr& message);
+  virtual void handle_dynamic_message(const dynamic_typesupport::DynamicMessage::SharedPtr& message,
+                                      const MessageInfo& message_info);
+  bool take_dynamic_message(dynamic_typesupport::DynamicMessage& message_out, MessageInfo& message_info_out);
 
   // The handlers of the callbacks in the options, and the default one.
   using EventHandlers = std::unordered_map<rcl_subscription_event_type_t, std::shared_ptr<EventHandlerBase>>;
@@ -125,6 +147,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
  protected:
   virtual AnySubscriptionCallbackBase& callback() = 0;
 
+  // With a memory strategy, execute() takes every message from create_message() and gives it to return_message(), or
+  // the same for serialized messages.
+  void set_has_memory_strategy(bool has) { has_memory_strategy_ = has; }
+
   // Call it in the most derived constructor, when the callback has its final address.
   void trace_creation(const AnySubscriptionCallbackBase& callback);
 
@@ -150,6 +176,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   // A message, or serialized message, for the callback; it is returned after the callback.
   std::shared_ptr<void> borrow_message();
   void keep_message(std::shared_ptr<void> message);
+  void return_to_strategy(std::shared_ptr<void> message);
 
   std::shared_ptr<rcl_subscription_t> subscription_handle_;
   const rosidl_message_type_support_t& type_support_;
@@ -168,6 +195,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   std::atomic_flag is_spare_in_use_ = ATOMIC_FLAG_INIT;
   std::shared_ptr<void> spare_message_;
   bool can_loan_messages_ = false;
+  bool has_memory_strategy_ = false;
 };
 
 }  // namespace rclcpp

@@ -24,9 +24,13 @@ std::map<std::string, ParameterValue> collect_overrides(NodeBaseInterface& node_
                                                         const rcl_node_options_t& rcl_options) {
   std::map<std::string, ParameterValue> overrides;
   const auto add = [&](const rcl_arguments_t& arguments) {
-    for (const auto& [name, value] :
-         rcl::parameter_overrides(arguments).for_node(node_base.get_fully_qualified_name())) {
-      overrides[name] = std::visit([](const auto& typed) { return ParameterValue(typed); }, value);
+    try {
+      for (const auto& [name, value] :
+           rcl::parameter_overrides(arguments).for_node(node_base.get_fully_qualified_name())) {
+        overrides[name] = std::visit([](const auto& typed) { return ParameterValue(typed); }, value);
+      }
+    } catch (const std::invalid_argument& error) {
+      throw exceptions::InvalidParameterValueException(error.what());
     }
   };
   if (rcl_options.use_global_arguments) {

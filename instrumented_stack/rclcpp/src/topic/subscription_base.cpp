@@ -224,6 +224,9 @@ void SubscriptionBase::execute_loaned() {
   } catch (const exceptions::RCLError& error) {
     RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a message from topic '%s': %s", get_topic_name(),
                  error.what());
+    if (has_memory_strategy_) {
+      return_to_strategy(std::move(message));
+    }
     return;
   }
   if (taken && !is_delivered_twice(message_info)) {
@@ -259,20 +262,35 @@ void SubscriptionBase::set_topic_statistics(std::shared_ptr<topic_statistics::Su
 
 [[gnu::hot]] std::shared_ptr<void> SubscriptionBase::borrow_message() {
   std::shared_ptr<void> message;
-  if (callback().takes_reference() && !is_spare_in_use_.test_and_set(std::memory_order_acquire)) {
+  if (!has_memory_strategy_ && callback().takes_reference() &&
+      !is_spare_in_use_.test_and_set(std::memory_order_acquire)) {
     message.swap(spare_message_);
     is_spare_in_use_.clear(std::memory_order_release);
   }
   if (!message) {
-    message = callback().is_serialized_message_callback() ? std::make_shared<SerializedMessage>() : create_message();
+    message = callback().is_serialized_message_callback() ? create_serialized_message() : create_message();
   }
   return message;
 }
 
 [[gnu::hot]] void SubscriptionBase::keep_message(std::shared_ptr<void> message) {
+  if (has_memory_strategy_) {
+    return_to_strategy(std::move(message));
+    return;
+  }
   if (callback().takes_reference() && !is_spare_in_use_.test_and_set(std::memory_order_acquire)) {
     message.swap(spare_message_);
     is_spare_in_use_.clear(std::memory_order_release);
+  }
+}
+
+void SubscriptionBase::return_to_strategy(std::shared_ptr<void> message) {
+  if (callback().is_serialized_message_callback()) {
+    auto serialized_message = std::static_pointer_cast<SerializedMessage>(message);
+    message.reset();
+    return_serialized_message(serialized_message);
+  } else {
+    return_message(message);
   }
 }
 

@@ -57,7 +57,7 @@ def _includes(file: InterfaceFile) -> List[str]:
     if any(_is_unusual_float(c) for m in file.messages for c in m.constants) or any(
             _is_unusual_float(value) for m in members for value in _values(m)):
         used.add('<limits>')
-    ours = {'"rosidl_runtime_cpp/message_initialization.hpp"'}
+    ours = {'"rosidl_runtime_cpp/message_allocator.hpp"', '"rosidl_runtime_cpp/message_initialization.hpp"'}
     if any(t.sequence_bound is not None for t in types):
         ours.add('"rosidl_runtime_cpp/bounded_vector.hpp"')
     for used_type in file.messages_of_others:
@@ -80,7 +80,9 @@ def _struct(message: Message) -> str:
     name = message.name
     parts = [_constructor(message), _members(message), _setters(message), _constants(message), _pointers(name),
              _comparison(message)]
-    return f'struct {name} {{\n' + '\n'.join(part for part in parts if part) + '};\n'
+    alias = (f'template <class ContainerAllocator>\n'
+             f'using {name}_ = rosidl_runtime_cpp::MessageWithAllocator<{name}, ContainerAllocator>;\n')
+    return f'struct {name} {{\n' + '\n'.join(part for part in parts if part) + '};\n' + alias
 
 
 def _constructor(message: Message) -> str:
@@ -101,7 +103,9 @@ def _constructor(message: Message) -> str:
     head = f'  explicit {message.name}({kind}{parameter} = {kind}::ALL)'
     if initializers:
         head += '\n      : ' + ', '.join(initializers)
-    return head + (' {\n' + ''.join(f'    {line}\n' for line in body) + '  }\n' if body else ' {}\n')
+    with_allocator = f'  explicit {message.name}(const std::allocator<void>&, {kind} _init = {kind}::ALL)'
+    return (head + (' {\n' + ''.join(f'    {line}\n' for line in body) + '  }\n' if body else ' {}\n') +
+            f'{with_allocator} : {message.name}(_init) {{}}\n')
 
 
 def _if_any(one: str, other: str, statements: List[str]) -> List[str]:
@@ -158,7 +162,8 @@ def constant_definitions(message: Message) -> str:
 
 
 def _pointers(name: str) -> str:
-    return f'''  using RawPtr = {name}*;
+    return f'''  using Type = {name};
+  using RawPtr = {name}*;
   using ConstRawPtr = const {name}*;
   using SharedPtr = std::shared_ptr<{name}>;
   using ConstSharedPtr = std::shared_ptr<const {name}>;

@@ -5,6 +5,8 @@
 #include <rclcpp/create_publisher.hpp>
 #include <rclcpp/create_subscription.hpp>
 #include <rclcpp/create_timer.hpp>
+#include <rclcpp/dynamic_typesupport/dynamic_message_type_builder.hpp>
+#include <rclcpp/dynamic_typesupport/dynamic_message_type_support.hpp>
 #include <rclcpp/expand_topic_or_service_name.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <string>
@@ -285,6 +287,20 @@ TEST(SmallFunctions, AreThoseOfRclcpp) {
   EXPECT_EQ(time.nanosec, 500'000'000u);
   EXPECT_EQ(rclcpp::get_log_directory(), rclcpp::get_logging_directory());
   EXPECT_STREQ(rclcpp::get_node_logger(nullptr).get_name(), "rclcpp");
+}
+
+TEST_F(Library, FindsTheNamesOfTypesThatAreMadeAtRunTime) {
+  const auto subscription = node_->create_subscription<String>("topic", 1, [](const String&) {});
+  const auto bytes =
+      node_->create_subscription<String>("topic", 1, [](const std::shared_ptr<const rclcpp::SerializedMessage>) {});
+  EXPECT_EQ(subscription->get_delivered_message_kind(), rclcpp::DeliveredMessageKind::ROS_MESSAGE);
+  EXPECT_EQ(bytes->get_delivered_message_kind(), rclcpp::DeliveredMessageKind::SERIALIZED_MESSAGE);
+  EXPECT_EQ(error_of<rclcpp::exceptions::UnimplementedError>([&] { subscription->create_dynamic_message(); }),
+            "create_dynamic_message is not implemented for subscriptions");
+  EXPECT_EQ(error_of<std::runtime_error>([] { rclcpp::dynamic_typesupport::DynamicSerializationSupport support; }),
+            "Unimplemented");
+  EXPECT_FALSE(std::is_default_constructible_v<rclcpp::dynamic_typesupport::DynamicMessageTypeBuilder>);
+  EXPECT_FALSE(std::is_default_constructible_v<rclcpp::dynamic_typesupport::DynamicMessageTypeSupport>);
 }
 
 }  // namespace

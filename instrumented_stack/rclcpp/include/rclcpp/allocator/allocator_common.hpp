@@ -2,7 +2,12 @@
 // Creates messages in the memory of a user's allocator: the AllocatorT of publishers and subscriptions.
 #pragma once
 
+#include <rcutils/allocator.h>
+
+#include <cstddef>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -52,6 +57,68 @@ UniquePtr<T, AllocatorT> make_unique([[maybe_unused]] const AllocatorT& allocato
 template <typename T, typename AllocatorT, typename... ArgumentTs>
 std::shared_ptr<T> make_shared(const AllocatorT& allocator, ArgumentTs&&... arguments) {
   return std::allocate_shared<T>(Rebound<T, AllocatorT>(allocator), std::forward<ArgumentTs>(arguments)...);
+}
+
+// The functions of an allocator of C that take their memory from an allocator of C++. Such an allocator must be told
+// how large a piece is that it gets back, so the size stands before each piece.
+template <typename AllocatorT>
+struct InC {
+  struct alignas(std::max_align_t) Unit {
+    std::size_t units;
+    std::byte rest[sizeof(std::max_align_t) - sizeof(std::size_t)];
+  };
+  using Traits = AllocRebind<Unit, AllocatorT>;
+  using Units = typename Traits::allocator_type;
+
+  static void* allocate(std::size_t size, void* state) {
+    const std::size_t count = 1 + (size + sizeof(Unit) - 1) / sizeof(Unit);
+    Units units(*static_cast<AllocatorT*>(state));
+    try {
+      Unit* first = Traits::allocate(units, count);
+      first->units = count;
+      return first + 1;
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+  }
+  static void deallocate(void* memory, void* state) {
+    if (memory != nullptr) {
+      Units units(*static_cast<AllocatorT*>(state));
+      Unit* first = static_cast<Unit*>(memory) - 1;
+      Traits::deallocate(units, first, first->units);
+    }
+  }
+  static void* reallocate(void* memory, std::size_t size, void* state) {
+    void* larger = allocate(size, state);
+    if (larger != nullptr && memory != nullptr) {
+      const std::size_t old_size = ((static_cast<Unit*>(memory) - 1)->units - 1) * sizeof(Unit);
+      std::memcpy(larger, memory, old_size < size ? old_size : size);
+      deallocate(memory, state);
+    }
+    return larger;
+  }
+  static void* zero_allocate(std::size_t count, std::size_t size, void* state) {
+    if (size != 0 && count > static_cast<std::size_t>(-1) / 2 / size) {
+      return nullptr;
+    }
+    void* memory = allocate(count * size, state);
+    return memory == nullptr ? nullptr : std::memset(memory, 0, count * size);
+  }
+};
+
+// An allocator of C that takes its memory from `allocator`, which must live longer. For the standard allocator it is
+// the default one.
+template <typename T, typename AllocatorT>
+rcutils_allocator_t get_rcl_allocator(AllocatorT& allocator) {
+  rcutils_allocator_t result = rcutils_get_default_allocator();
+  if constexpr (!IsStandardAllocator<AllocatorT>::value) {
+    result.allocate = InC<AllocatorT>::allocate;
+    result.deallocate = InC<AllocatorT>::deallocate;
+    result.reallocate = InC<AllocatorT>::reallocate;
+    result.zero_allocate = InC<AllocatorT>::zero_allocate;
+    result.state = &allocator;
+  }
+  return result;
 }
 
 }  // namespace rclcpp::allocator

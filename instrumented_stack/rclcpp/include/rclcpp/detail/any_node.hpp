@@ -79,14 +79,17 @@ class AnyNode {
     return rclcpp::create_publisher<MessageT, AllocatorT, PublisherT>(*this, extend_name(topic_name), qos, options);
   }
 
-  // For the forms of the callback see any_subscription_callback.hpp.
+  // For the forms of the callback see any_subscription_callback.hpp. Without a memory strategy, messages come from the
+  // allocator of the options.
   template <typename MessageT, typename CallbackT, typename AllocatorT = std::allocator<void>,
-            typename SubscriptionT = Subscription<MessageT, AllocatorT>>
+            typename SubscriptionT = Subscription<MessageT, AllocatorT>,
+            typename MessageMemoryStrategyT = typename SubscriptionT::MessageMemoryStrategyType>
   std::shared_ptr<SubscriptionT> create_subscription(
       const std::string& topic_name, const QoS& qos, CallbackT&& callback,
-      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>()) {
-    return rclcpp::create_subscription<MessageT, AllocatorT, SubscriptionT>(*this, extend_name(topic_name), qos,
-                                                                            std::forward<CallbackT>(callback), options);
+      const SubscriptionOptionsWithAllocator<AllocatorT>& options = SubscriptionOptionsWithAllocator<AllocatorT>(),
+      typename MessageMemoryStrategyT::SharedPtr msg_mem_strat = nullptr) {
+    return rclcpp::create_subscription<MessageT, CallbackT, AllocatorT, SubscriptionT, MessageMemoryStrategyT>(
+        *this, extend_name(topic_name), qos, std::forward<CallbackT>(callback), options, std::move(msg_mem_strat));
   }
 
   // For types that are known only by name: "std_msgs/msg/String". They also throw std::runtime_error if the type cannot
