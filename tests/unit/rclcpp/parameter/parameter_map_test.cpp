@@ -42,7 +42,7 @@ TEST_F(ParameterStructures, BecomeAMapByNode) {
   set("/ns/b", "bools", "[true, false]");
   set("/ns/b", "integers", "[1, 2]");
   set("/ns/b", "doubles", "[.5]");
-  set("/ns/b", "strings", "[x, y]");
+  set("/ns/b", "strings", "[x, z]");
   const ParameterMap map = rclcpp::parameter_map_from(params_.get());
   EXPECT_EQ(map.size(), 2u);
   EXPECT_EQ(map.at("/a"), (std::vector<Parameter>{Parameter("bool", true), Parameter("integer", 7),
@@ -50,7 +50,7 @@ TEST_F(ParameterStructures, BecomeAMapByNode) {
   EXPECT_EQ(map.at("/ns/b"), (std::vector<Parameter>{Parameter("bools", std::vector<bool>{true, false}),
                                                      Parameter("integers", std::vector<int64_t>{1, 2}),
                                                      Parameter("doubles", std::vector<double>{0.5}),
-                                                     Parameter("strings", std::vector<std::string>{"x", "y"})}));
+                                                     Parameter("strings", std::vector<std::string>{"x", "z"})}));
 }
 
 TEST_F(ParameterStructures, OfOneNodeAreThoseThatApplyToIt) {
