@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 
@@ -29,19 +30,21 @@ std::string cpu_text(const std::optional<ProcessUsage>& usage, const Json& proce
 
 ProcessRow row_of(const Json& process, const std::optional<ProcessUsage>& usage) {
   const auto pid = process.find("pid");
+  const auto restarts = process.find("restarts");
   return {process["name"].get<std::string>(),
           state_text(process),
-          pid == process.end() ? "-" : pid->dump(),
-          process.contains("restarts") ? process["restarts"].dump() : "-",
+          pid == process.end() ? "-" : std::to_string(pid->get<pid_t>()),
+          restarts == process.end() ? "-" : std::to_string(restarts->get<std::int64_t>()),
           cpu_text(usage, process),
           usage ? memory_text(usage->memory) : "-",
-          process.contains("running_for") ? duration_text(process["running_for"].get<double>()) : "-",
+          pid == process.end() ? "-" : duration_text(process.value("running_for", 0.0)),
           place_text(process["place"])};
 }
 
 std::string table(const Json& processes) {
   const std::vector<std::optional<ProcessUsage>> usage = usage_of(processes);
   std::vector<ProcessRow> rows{{"NAME", "STATE", "PID", "RESTARTS", "CPU", "MEMORY", "TIME", "PLACE"}};
+  rows.reserve(processes.size() + 1);
   for (std::size_t i = 0; i < processes.size(); ++i) {
     rows.push_back(row_of(processes[i], usage[i]));
   }
@@ -53,13 +56,13 @@ std::string table(const Json& processes) {
   }
   std::string text;
   for (const ProcessRow& row : rows) {
-    std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - columns_of(row[i]), ' ');
+      const std::size_t padding = widths[i] - columns_of(row[i]);
       const bool to_the_right = i >= 2 && i <= 6;
-      line += (i == 0 ? "" : "  ") + (to_the_right ? padding + row[i] : row[i] + padding);
+      text.append(i == 0 ? 0 : 2, ' ').append(to_the_right ? padding : 0, ' ').append(row[i]);
+      text.append(to_the_right ? 0 : padding, ' ');
     }
-    text += line.erase(line.find_last_not_of(' ') + 1) + "\n";
+    text.erase(text.find_last_not_of(' ') + 1).push_back('\n');
   }
   return text;
 }
