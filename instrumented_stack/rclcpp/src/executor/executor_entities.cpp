@@ -48,28 +48,35 @@ void ExecutorEntities::add_node(const NodePtr& node) {
 
 void ExecutorEntities::remove_node(const NodePtr& node) {
   Owners owners;
-  const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(nodes_.begin(), nodes_.end(), [&node](const auto& weak) { return refers_to(weak, node); });
-  if (found == nodes_.end()) {
-    throw std::runtime_error("Node needs to be associated with this executor.");
-  }
-  nodes_.erase(found);
-  node->set_on_change(nullptr);
-  node->get_associated_with_executor_atomic() = false;
-  for (auto served = groups_.begin(); served != groups_.end();) {
-    if (served->added_by_hand || !refers_to(served->node, node)) {
-      ++served;
-      continue;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found =
+        std::find_if(nodes_.begin(), nodes_.end(), [&node](const auto& weak) { return refers_to(weak, node); });
+    if (found == nodes_.end()) {
+      throw std::runtime_error("Node needs to be associated with this executor.");
     }
-    if (CallbackGroup::SharedPtr group = served->group.lock()) {
-      release(group);
-      owners.groups.push_back(std::move(group));
+    nodes_.erase(found);
+    for (auto served = groups_.begin(); served != groups_.end();) {
+      if (served->added_by_hand || !refers_to(served->node, node)) {
+        ++served;
+        continue;
+      }
+      if (CallbackGroup::SharedPtr group = served->group.lock()) {
+        release(group);
+        owners.groups.push_back(std::move(group));
+      }
+      served = groups_.erase(served);
     }
-    served = groups_.erase(served);
+    ++removals_;
+    mark_changed(owners);
   }
-  ++removals_;
-  mark_changed(owners);
+  forget(*node);
+}
+
+// Without mutex_: a node that is changing at this moment may hold a lock of its own while it calls changed().
+void ExecutorEntities::forget(node_interfaces::NodeBaseInterface& node) {
+  node.set_on_change(nullptr);
+  node.get_associated_with_executor_atomic() = false;
 }
 
 void ExecutorEntities::add_group(const CallbackGroup::SharedPtr& group, const NodePtr& node) {
@@ -99,23 +106,26 @@ void ExecutorEntities::remove_group(const CallbackGroup::SharedPtr& group) {
 
 void ExecutorEntities::remove_all() {
   Owners owners;
-  const std::lock_guard lock(mutex_);
-  for (const auto& weak : nodes_) {
-    if (NodePtr node = weak.lock()) {
-      node->set_on_change(nullptr);
-      node->get_associated_with_executor_atomic() = false;
-      owners.nodes.push_back(std::move(node));
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& weak : nodes_) {
+      if (NodePtr node = weak.lock()) {
+        owners.nodes.push_back(std::move(node));
+      }
     }
-  }
-  for (const ServedGroup& served : groups_) {
-    if (CallbackGroup::SharedPtr group = served.group.lock()) {
-      release(group);
-      owners.groups.push_back(std::move(group));
+    for (const ServedGroup& served : groups_) {
+      if (CallbackGroup::SharedPtr group = served.group.lock()) {
+        release(group);
+        owners.groups.push_back(std::move(group));
+      }
     }
+    nodes_.clear();
+    groups_.clear();
+    mark_changed(owners);
   }
-  nodes_.clear();
-  groups_.clear();
-  mark_changed(owners);
+  for (const NodePtr& node : owners.nodes) {
+    forget(*node);
+  }
 }
 
 std::vector<CallbackGroup::WeakPtr> ExecutorEntities::groups(Origin origin) {

@@ -84,6 +84,7 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   void rebuild(Owners& owners, std::vector<detail::ReadyEntity>& ready_earlier);
   void serve(const CallbackGroup::SharedPtr& group, const NodePtr& node, bool added_by_hand);
   static void release(const CallbackGroup::SharedPtr& group);
+  static void forget(node_interfaces::NodeBaseInterface& node);
 
   GuardCondition interrupt_;
 

@@ -94,8 +94,8 @@ TEST_F(NodeInterfacesTest, AnExecutorServesABaseOfTheProgram) {
     group = node_->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
     timer = node_->create_wall_timer(
         std::chrono::milliseconds(1),
-        [&] {
-          timer->cancel();
+        [&called](rclcpp::TimerBase& self) {
+          self.cancel();
           called.set_value();
         },
         group);
@@ -103,6 +103,23 @@ TEST_F(NodeInterfacesTest, AnExecutorServesABaseOfTheProgram) {
   EXPECT_EQ(executor.spin_until_future_complete(called.get_future(), kPatience), rclcpp::FutureReturnCode::SUCCESS);
   created.get();
   executor.remove_node(base);
+  EXPECT_FALSE(base->get_associated_with_executor_atomic());
+}
+
+// The guard condition of the node has a lock, under which it tells the executor of the change.
+TEST_F(NodeInterfacesTest, ABaseOfTheProgramIsRemovedWhileItChanges) {
+  const auto base = std::make_shared<BaseOfAnother>(node_->get_node_base_interface());
+  auto changes = std::async(std::launch::async, [&] {
+    for (int i = 0; i < 2000; ++i) node_->create_callback_group(rclcpp::CallbackGroupType::Reentrant);
+  });
+  do {
+    rclcpp::executors::SingleThreadedExecutor executor;
+    for (int i = 0; i < 100; ++i) {
+      executor.add_node(base);
+      executor.remove_node(base);
+    }
+    executor.add_node(base);
+  } while (changes.wait_for(std::chrono::seconds(0)) != std::future_status::ready);
   EXPECT_FALSE(base->get_associated_with_executor_atomic());
 }
 
