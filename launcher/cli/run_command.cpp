@@ -35,7 +35,7 @@
 #include "launcher/control/launch_control.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/process/guardian/guardian.hpp"
-#include "launcher/process/isolation.hpp"
+#include "launcher/process/isolation/isolation.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/python/python_places.hpp"
 #include "launcher/ros/ros_client_process.hpp"

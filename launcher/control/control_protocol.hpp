@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/run/steering.hpp"
 

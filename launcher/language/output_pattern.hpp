@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "launcher/base/source.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 
 namespace launch {
 

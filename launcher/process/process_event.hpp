@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/process_spec.hpp"
 

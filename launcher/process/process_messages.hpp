@@ -2,7 +2,7 @@
 // The messages about events of processes, with the texts of ROS 2 launch.
 #pragma once
 
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_supervisor.hpp"
 
 namespace launch {

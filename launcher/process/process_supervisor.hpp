@@ -23,7 +23,7 @@
 #include <string_view>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/process_spec.hpp"

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/process/child_output.hpp"
-#include "launcher/process/generated_files.hpp"
+#include "launcher/process/output/child_output.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/process/respawn_delay.hpp"
+#include "launcher/process/spawn/generated_files.hpp"
 
 namespace launch {
 

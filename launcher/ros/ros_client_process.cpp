@@ -14,7 +14,7 @@
 #include "launcher/base/own_prefix.hpp"
 #include "launcher/base/spawn.hpp"
 #include "launcher/base/unique_fd.hpp"
-#include "launcher/process/namespaces.hpp"
+#include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/ros/ros_protocol.hpp"
 
 namespace launch {

@@ -14,7 +14,7 @@
 
 #include "launcher/crash/crash_collector.hpp"
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/run/active_scopes.hpp"
 #include "launcher/run/farewell.hpp"

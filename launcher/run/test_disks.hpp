@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/process/memory_disk.hpp"
+#include "launcher/process/isolation/memory_disk.hpp"
 #include "launcher/visit/fault_request.hpp"
 
 namespace launch {

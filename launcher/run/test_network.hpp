@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/process/namespaces.hpp"
-#include "launcher/process/packet_switch.hpp"
+#include "launcher/process/isolation/namespaces.hpp"
+#include "launcher/process/isolation/packet_switch.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/visit/fault_request.hpp"
 

@@ -20,7 +20,7 @@
 #include "launcher/language/action.hpp"
 #include "launcher/language/launch_description.hpp"
 #include "launcher/language/registry.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/visit/requests.hpp"
 

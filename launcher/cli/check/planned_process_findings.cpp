@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "launcher/base/remap_name.hpp"
-#include "launcher/process/program_search.hpp"
+#include "launcher/process/spawn/program_search.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 
 namespace launch {

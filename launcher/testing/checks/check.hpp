@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/testing/failure.hpp"
 #include "launcher/testing/output_tail.hpp"

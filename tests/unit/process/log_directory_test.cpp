@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "temporary_directory.hpp"
 
 namespace launch {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A disk in memory in place of a directory. Each test is a process of its own that enters its own mounts.
-#include "launcher/process/memory_disk.hpp"
+#include "launcher/process/isolation/memory_disk.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

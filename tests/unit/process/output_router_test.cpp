@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The switch between the networks of a test, with sockets for devices and on virtual time.
-#include "launcher/process/packet_switch.hpp"
+#include "launcher/process/isolation/packet_switch.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The message for the user when a process cannot be started.
-#include "launcher/process/spawn_failure.hpp"
+#include "launcher/process/spawn/spawn_failure.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "launcher/base/home_directory.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 
 namespace launch {
 namespace {

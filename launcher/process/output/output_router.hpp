@@ -11,9 +11,9 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/process/message_format.hpp"
+#include "launcher/process/output/message_format.hpp"
+#include "launcher/process/output/screen.hpp"
 #include "launcher/process/process_spec.hpp"
-#include "launcher/process/screen.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/log_file.hpp"
+#include "launcher/process/output/log_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/isolation.hpp"
+#include "launcher/process/isolation/isolation.hpp"
 
 #include <system_error>
 

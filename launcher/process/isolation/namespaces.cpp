@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/namespaces.hpp"
+#include "launcher/process/isolation/namespaces.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -22,8 +22,8 @@
 #include "launcher/base/loopback.hpp"
 #include "launcher/base/pipe.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "launcher/process/isolation/tap_device.hpp"
 #include "launcher/process/process_runner.hpp"
-#include "launcher/process/tap_device.hpp"
 
 namespace launch {
 namespace {

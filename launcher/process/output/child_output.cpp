@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/child_output.hpp"
+#include "launcher/process/output/child_output.hpp"
 
 #include <unistd.h>
 

@@ -29,10 +29,10 @@
 #include "launcher/base/unique_fd.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
-#include "launcher/process/namespaces.hpp"
+#include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_runner.hpp"
-#include "launcher/process/program_search.hpp"
-#include "launcher/process/spawn_failure.hpp"
+#include "launcher/process/spawn/program_search.hpp"
+#include "launcher/process/spawn/spawn_failure.hpp"
 
 namespace launch {
 namespace {

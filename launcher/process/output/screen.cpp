@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/screen.hpp"
+#include "launcher/process/output/screen.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/message_format.hpp"
+#include "launcher/process/output/message_format.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "launcher/base/domain_lease.hpp"
-#include "launcher/process/namespaces.hpp"
+#include "launcher/process/isolation/namespaces.hpp"
 
 namespace launch {
 

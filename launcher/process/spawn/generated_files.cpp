@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/generated_files.hpp"
+#include "launcher/process/spawn/generated_files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/tap_device.hpp"
+#include "launcher/process/isolation/tap_device.hpp"
 
 #include <fcntl.h>
 #include <linux/if_tun.h>

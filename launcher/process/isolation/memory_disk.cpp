@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/memory_disk.hpp"
+#include "launcher/process/isolation/memory_disk.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/program_search.hpp"
+#include "launcher/process/spawn/program_search.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "launcher/base/utf8.hpp"
-#include "launcher/process/log_file.hpp"
+#include "launcher/process/output/log_file.hpp"
 
 namespace launch {
 namespace {

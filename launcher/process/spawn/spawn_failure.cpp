@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/spawn_failure.hpp"
+#include "launcher/process/spawn/spawn_failure.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

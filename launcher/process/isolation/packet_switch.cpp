@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/packet_switch.hpp"
+#include "launcher/process/isolation/packet_switch.hpp"
 
 #include <unistd.h>
 

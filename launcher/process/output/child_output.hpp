@@ -8,7 +8,7 @@
 #include <string>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/output_router.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_spec.hpp"
 
 namespace launch {
