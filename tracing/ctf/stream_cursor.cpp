@@ -109,8 +109,10 @@ void StreamCursor::find_losses(const Packet& packet) {
   }
 }
 
-// This and decode_event() are inlined, which makes reading a tenth faster: 0.24 s instead of 0.27 s for ten million events.
-[[gnu::always_inline]] inline std::uint64_t StreamCursor::number(std::uint64_t header, HeaderLayout::Number place) const {
+// This and decode_event() are inlined, which makes reading a tenth faster: 0.24 s instead of 0.27 s for ten million
+// events.
+[[gnu::always_inline]] inline std::uint64_t StreamCursor::number(std::uint64_t header,
+                                                                 HeaderLayout::Number place) const {
   const std::uint64_t bit = header + place.bit;
   const std::uint8_t* const byte = begin_ + bit / kByte;
   if (!layout_.header().is_big_endian && std::endian::native == std::endian::little && bit % kByte + place.size <= 64) {
