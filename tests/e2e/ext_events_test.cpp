@@ -123,7 +123,7 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
     const std::vector<const Event*> made = event("ros2:rmw_" + kind + "_init").select(trace);
     const std::vector<const Event*> qos = event("ros2_ext:rmw_" + kind + "_qos").select(trace);
     ASSERT_EQ(qos.size(), made.size()) << kind;
-    for (std::size_t i = 0; i < made.size(); ++i) EXPECT_EQ(qos[i]->at(handle), made[i]->at(handle));
+    for (std::size_t i = 0; i < made.size(); ++i) EXPECT_EQ(qos[i]->handle(handle), made[i]->handle(handle));
     EXPECT_THAT(trace, EachEvent(event("ros2_ext:rmw_" + kind + "_qos"), event("").with("reliable", 1)));
   }
   // No object existed before the session, so there is no state dump.
