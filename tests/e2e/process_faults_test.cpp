@@ -183,6 +183,8 @@ TEST_F(ProcessFaults, ALogDirectoryThatIsDeletedStopsNothing) {
     fs::remove_all(log(run), error);
   }
   run_command({.argv = {"sh", "-c", "echo > " + fifo}}, kPatience);
+  // Otherwise the first process could hold the pipe still, and get what is for the second one.
+  ASSERT_TRUE(run.wait_for_output("[a-1]: process has finished cleanly")) << run.out() << run.err();
   run_command({.argv = {"sh", "-c", "echo > " + fifo}}, kPatience);
   const CommandResult result = run.wait(kPatience);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

@@ -189,7 +189,7 @@ TEST_F(ContentFilter, MayChangeWhileMessagesAreTaken) {
     ++ticks;
   });
   std::thread spinner([&] { executor.spin(); });
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const int before = ticks;
     subscription->set_content_filter("data > 7");
     subscription->set_content_filter("");
