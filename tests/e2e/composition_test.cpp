@@ -137,7 +137,7 @@ TEST_F(Composition, AContainerOfSomebodyElseIsGivenNodes) {
   write_file(
       file, "<launch><load_composable_node target=\"/c\">" + std::string(kTalker) + "</load_composable_node></launch>");
   const CommandResult guest = run_command({LAUNCH_PROGRAM, file});
-  EXPECT_EQ(guest.exit_code, 0) << guest.err;
+  EXPECT_EQ(guest.exit_code, 0) << guest.err << "\nthe owner of the container: " << owner.out() << owner.err();
   EXPECT_THAT(guest.out, HasSubstr("Loaded node '/talker' in container '/c'"));
   EXPECT_TRUE(owner.wait_for_output("[talker]: Publishing: 'Hello World: 1'"));
   owner.send_signal(SIGINT);
