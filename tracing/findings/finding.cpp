@@ -143,7 +143,7 @@ std::optional<Finding> dropped_messages(const TraceResults& results) {
     };
     place(subscription.overwritten, "pushed out of its queue");
     place(subscription.overwritten_in_buffer, "pushed out of its buffer");
-    place(subscription.lost_by_publisher, "of the publisher's");
+    place(subscription.lost_by_publisher, "lost by the publisher");
     place(subscription.lost_in_transport, "lost in transport");
     place(subscription.lost_unplaced(), "lost on the way");
     place(subscription.not_executed, "not executed");

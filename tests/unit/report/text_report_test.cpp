@@ -386,7 +386,7 @@ Worth a look
   Worst jitter      /slow, timer 100 ms: up to 120 ms off its period, at p99 100 ms; 1 period missed
   Busiest executor  /slow [71]: 95 % busy, once for 80.0 ms in /slow, timer 100 ms
   Dropped messages  /scan to /often
-                    40 of 2040: 30 pushed out of its queue, 8 of the publisher's, 2 not executed
+                    40 of 2040: 30 pushed out of its queue, 8 lost by the publisher, 2 not executed
   Slowest chain     /slow -> /often: 2 steps take 41.0 ms, at p99 48.0 ms, at most 55.0 ms
   Longest wait      /scan to /often
                     messages wait 100 us for a busy executor, at p99 2.00 ms of 3.00 ms in all
