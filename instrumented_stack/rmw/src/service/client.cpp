@@ -73,6 +73,7 @@ rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_typ
 rmw_ret_t rmw_destroy_client(rmw_node_t* node, rmw_client_t* client) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
+  client_of(*client).wait_until_received();
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_client_fini, static_cast<const void*>(client));
   const std::unique_ptr<Client> owned(&client_of(*client));

@@ -137,6 +137,7 @@ rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_t
 rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  service_of(*service).wait_until_received();
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, static_cast<const void*>(service));
   const std::unique_ptr<Service> owned(&service_of(*service));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/service_channel.hpp"
 
+#include <algorithm>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
@@ -23,6 +24,12 @@ namespace rmw_fastrtps {
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+
+// What was sent is asked about after this time, and resent if it was lost. Fast DDS would wait 3 s.
+const Duration_t kHeartbeatPeriod{0, 50'000'000};
+// The end waits so long for an answer to that question. It needs this time only if the other side is stopped or gone.
+const Duration_t kPatienceAtEnd{0, 500'000'000};
 
 const service_type_support_callbacks_t& service_callbacks_of(const rosidl_service_type_support_t& type_support) {
   const auto* found = rosidl_typesupport_fastrtps_cpp::find_callbacks(&type_support);
@@ -52,6 +59,10 @@ void ServiceChannel::open(End end, const rmw_node_t* node, const rosidl_service_
     close_endpoints();
     throw;
   }
+}
+
+void ServiceChannel::wait_until_received() const {
+  (void)writer->wait_for_acknowledgments(kPatienceAtEnd);
 }
 
 void ServiceChannel::close(const rmw_node_t* node) {
@@ -99,6 +110,8 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
                                  const rmw_qos_profile_t& profile) {
   fdds::DataWriterQos qos = participant_->writer_qos(topic_name, type);
   apply_profile(profile, qos);
+  auto& times = qos.reliable_writer_qos().times;
+  times.heartbeatPeriod = std::min(times.heartbeatPeriod, kHeartbeatPeriod);
   writer_type = &type;
   writer_topic_ = &participant_->acquire_topic(topic_name, type);
   writer =

@@ -28,6 +28,10 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
             const std::string& service_name, const rmw_qos_profile_t& profile);
   void close(const rmw_node_t* node);
 
+  // Waits a moment until the other ends have got all that was sent. The end of an endpoint is told on another way than
+  // its messages and may arrive first; then Fast DDS drops the messages. Call it before close(), without the lock.
+  void wait_until_received() const;
+
   const std::string& service_name() const { return service_name_; }
   const Gid& reader_gid() const { return reader_identity_.gid; }
 
