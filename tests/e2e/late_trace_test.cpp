@@ -43,11 +43,15 @@ class LateTrace : public testing::Test {
     ASSERT_TRUE(trace.wait_for_output("press enter to stop...")) << trace.out() << trace.err();
     meanwhile();
     for (int message = 0; message < 3; ++message) {
-      ASSERT_TRUE(listener_.wait_for_output("Hello World: " + std::to_string(next_message()) + "]"));
+      wait_for_message();
     }
     trace.write("\n");
     const CommandResult traced = trace.wait();
     ASSERT_EQ(traced.exit_code, 0) << traced.out << traced.err;
+  }
+
+  void wait_for_message() {
+    ASSERT_TRUE(listener_.wait_for_output("Hello World: " + std::to_string(next_message()) + "]"));
   }
 
   void expect_readable(const json& report) {
@@ -95,15 +99,20 @@ TEST_F(LateTrace, NamesNodesTopicsAndCallbacks) {
 }
 
 TEST_F(LateTrace, CountsObjectsOnceThatAreToldTwice) {
-  record({"ros2:*", "ros2_ext:*"}, [] {
+  record({"ros2:*", "ros2_ext:*"}, [this] {
+    wait_for_message();
     const CommandResult again = run_command({"lttng", "regenerate", "statedump", "--session=late"});
     EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
   });
   const json report = report_on(sandbox_);
   expect_readable(report);
-  EXPECT_EQ(count(report, "ros2:rcl_node_init"), 4);
-  EXPECT_EQ(count(report, "ros2_ext:state_dump_begin"), 4);
-  EXPECT_EQ(count(report, "ros2_ext:state_dump_end"), 4);
+  // Each process tells its state when the session starts and when it is asked again. If it is asked before it has told
+  // its state for the first time, it tells it once.
+  const int dumps = count(report, "ros2_ext:state_dump_begin");
+  EXPECT_GE(dumps, 3);
+  EXPECT_LE(dumps, 4);
+  EXPECT_EQ(count(report, "ros2_ext:state_dump_end"), dumps);
+  EXPECT_EQ(count(report, "ros2:rcl_node_init"), dumps);
 }
 
 }  // namespace
