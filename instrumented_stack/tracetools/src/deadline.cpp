@@ -9,7 +9,7 @@
 
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
-#include "provider_deadline.h"
+#include "provider/provider_deadline.h"
 
 namespace tracetools {
 namespace detail {

@@ -11,13 +11,13 @@
 #include <string>
 #include <string_view>
 
+#include "counters/event_counters.hpp"
 #include "deadline.hpp"
-#include "event_counters.hpp"
-#include "object_state.hpp"
-#include "recording.hpp"
-#include "registration_watch.hpp"
-#include "state_dump_request.hpp"
-#include "wake_memory.hpp"
+#include "recording/recording.hpp"
+#include "registration/registration_watch.hpp"
+#include "registration/wake_memory.hpp"
+#include "state/object_state.hpp"
+#include "state/state_dump_request.hpp"
 
 namespace tracetools {
 namespace {

@@ -30,14 +30,14 @@ bool ros_trace_runtime_status(void) {
 // The tracepoints are defined here. These macros must come before any header of LTTng.
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
+#include "counters/event_counters.hpp"
 #include "deadline.hpp"
-#include "event_counters.hpp"
-#include "init_events.hpp"
-#include "provider.h"
-#include "provider_ext.h"
+#include "provider/provider.h"
+#include "provider/provider_ext.h"
+#include "provider/provider_session.h"
 #include "provider_loader.hpp"
-#include "provider_session.h"
-#include "record_functions.hpp"
+#include "recording/record_functions.hpp"
+#include "state/init_events.hpp"
 
 #define WITHOUT_PARENTHESES(...) __VA_ARGS__
 

@@ -17,7 +17,7 @@
 // These are definitions of its own, which the probes of tracetools serve once they are loaded.
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #define LTTNG_UST_TRACEPOINT_PROBE_DYNAMIC_LINKAGE
-#include "provider.h"
+#include "provider/provider.h"
 
 extern "C" void empty_call(const void*, const void*);
 

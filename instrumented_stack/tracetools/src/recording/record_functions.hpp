@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef TRACETOOLS__RECORD_FUNCTIONS_HPP_
+#define TRACETOOLS__RECORD_FUNCTIONS_HPP_
+
+/// A function record_<provider>_<event>(arguments that are recorded) for each event. It counts the event and records
+/// it. For an event of plain fields it only hands the arguments to the function that records for all (recording.hpp),
+/// and is so short that it has one line of memory.
+
+#include "counters/event_counters.hpp"
+#include "provider/provider.h"
+#include "provider/provider_ext.h"
+#include "recording/fetch_plan.hpp"
+#include "recording/payload.hpp"
+#include "recording/recording.hpp"
+#include "state/init_events.hpp"
+
+namespace tracetools {
+
+/// The plan of an event that is the first one on a message's way; null for others.
+template <typename Event>
+inline constexpr FetchPlan* plan_of = nullptr;
+
+inline constinit FetchPlan publications(&lttng_ust_tracepoint_ros2___rcl_publish,
+                                        &lttng_ust_tracepoint_ros2___rmw_publish);
+template <>
+inline constexpr FetchPlan* plan_of<event::rclcpp_publish> = &publications;
+
+inline constinit FetchPlan takes(&lttng_ust_tracepoint_ros2___rclcpp_executor_execute,
+                                 &lttng_ust_tracepoint_ros2___rmw_take, &lttng_ust_tracepoint_ros2___rcl_take,
+                                 &lttng_ust_tracepoint_ros2___rclcpp_take, &lttng_ust_tracepoint_ros2___callback_start);
+template <>
+inline constexpr FetchPlan* plan_of<event::rclcpp_executor_get_next_ready> = &takes;
+
+}  // namespace tracetools
+
+// Parameters as in tracetools.h, without those that are not recorded.
+#define RECORDED_PARAMETER(type, name) RECORDED_PARAMETER_##type(name)
+#define RECORDED_PARAMETER_ignored(name)
+#define RECORDED_PARAMETER_pointer TRACETOOLS_PARAMETER_pointer
+#define RECORDED_PARAMETER_string TRACETOOLS_PARAMETER_string
+#define RECORDED_PARAMETER_keyword_string TRACETOOLS_PARAMETER_keyword_string
+#define RECORDED_PARAMETER_size TRACETOOLS_PARAMETER_size
+#define RECORDED_PARAMETER_uint64 TRACETOOLS_PARAMETER_uint64
+#define RECORDED_PARAMETER_int64 TRACETOOLS_PARAMETER_int64
+#define RECORDED_PARAMETER_boolean TRACETOOLS_PARAMETER_boolean
+#define RECORDED_PARAMETER_gid TRACETOOLS_PARAMETER_gid
+#define RECORDED_PARAMETER_pointers TRACETOOLS_PARAMETER_pointers
+#define RECORDED_PARAMETER_version TRACETOOLS_PARAMETER_version
+#define RECORDED_PARAMETER_nothing TRACETOOLS_PARAMETER_nothing
+
+#define RECORD_FUNCTION(provider, name, Struct, group, ...)                                                         \
+  [[gnu::noinline, gnu::aligned(64), gnu::section(".text.hot.record"),                                              \
+    maybe_unused]] static void record_##provider##_##name(TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(RECORDED_PARAMETER, \
+                                                                                                __VA_ARGS__))) {    \
+    RECORD(provider, name, TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_ARGUMENT, __VA_ARGS__)))                \
+  }
+#define RECORD(provider, name, ...)                                                                                  \
+  if constexpr (tracetools::is_plain<tracetools::event::name>) {                                                     \
+    using Payload = tracetools::PayloadOf<decltype(lttng_ust_tracepoint_cb_##provider##___##name)>::type;            \
+    const Payload payload{__VA_ARGS__};                                                                              \
+    if constexpr (constexpr auto plan = tracetools::plan_of<tracetools::event::name>; plan != nullptr) {             \
+      tracetools::record_first(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name,           \
+                               payload.data(), Payload::size(), &Payload::call, *plan);                              \
+    } else {                                                                                                         \
+      tracetools::record(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name, payload.data(), \
+                         Payload::size(), &Payload::call);                                                           \
+    }                                                                                                                \
+  } else {                                                                                                           \
+    tracetools::count(tracetools::CountedEvent::name);                                                               \
+    lttng_ust_do_tracepoint(provider, name __VA_OPT__(, ) __VA_ARGS__);                                              \
+  }
+
+TRACETOOLS_EVENT_TABLE(RECORD_FUNCTION, ros2)
+TRACETOOLS_EXT_EVENT_TABLE(RECORD_FUNCTION, ros2_ext)
+
+#undef RECORD_FUNCTION
+#undef RECORD
+
+#endif  // TRACETOOLS__RECORD_FUNCTIONS_HPP_

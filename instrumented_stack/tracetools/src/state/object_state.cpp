@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "state/object_state.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "state/dump_tracepoints.hpp"
+
+namespace tracetools {
+namespace {
+
+// Calls the probes of the session at the event's tracepoint.
+void record_into(const Session* session, const ProbesInUse& probes, const InitEvent& event) {
+  for_each_probe(probes, *event.tracepoint, [&](const Probe& probe) {
+    if (session_of(probe) == session) event.record(probe);
+  });
+  count(event.counted);
+}
+
+bool has(const KnownSession& session, const InitEvent& event) {
+  const auto dumped = session.dumped.find(event.tracepoint);
+  return (dumped != session.dumped.end() && event.number <= dumped->second) ||
+         std::find(event.got_live.begin(), event.got_live.end(), session.mark) != event.got_live.end();
+}
+
+}  // namespace
+
+ObjectState& ObjectState::instance() {
+  static auto* state = new ObjectState;
+  return *state;
+}
+
+std::size_t ObjectState::HashKey::operator()(const ObjectKey& key) const noexcept {
+  return std::hash<const void*>()(key.address) * 31 + static_cast<std::size_t>(key.kind);
+}
+
+void ObjectState::keep(InitEvent event) {
+  const std::lock_guard lock(mutex_);
+  record_live(insert(std::move(event)));
+}
+
+void ObjectState::keep_for_dumps(InitEvent event) {
+  const std::lock_guard lock(mutex_);
+  insert(std::move(event));
+}
+
+InitEvent& ObjectState::insert(InitEvent event) {
+  if (const auto found = of_object_.find(event.objects.front()); event.name != nullptr && found != of_object_.end()) {
+    const auto same = std::find_if(found->second.begin(), found->second.end(), [&](InitEvents::iterator other) {
+      return other->name == event.name && other->objects.front() == event.objects.front();
+    });
+    if (same != found->second.end()) erase(*same);
+  }
+  event.number = ++last_number_;
+  const auto inserted = events_.insert(events_.end(), std::move(event));
+  for (const ObjectKey& object : inserted->objects) of_object_[object].push_back(inserted);
+  return *inserted;
+}
+
+void ObjectState::record_live(InitEvent& event) {
+  const ProbesInUse probes;
+  bool recorded = false;
+  for_each_probe(probes, *event.tracepoint, [&](const Probe& probe) {
+    Session* const session = session_of(probe);
+    if (session == nullptr) {
+      if (probe.data != nullptr) event.record(probe);  // a trigger
+      return;
+    }
+    if (!records(*session)) return;
+    event.record(probe);
+    recorded = true;
+    const std::uint32_t mark = sessions_[session].mark;
+    // If the session has just paused, it is unknown whether it has the event. Then a resume will record it again.
+    const bool certain = records(*session);
+    if (certain && std::find(event.got_live.begin(), event.got_live.end(), mark) == event.got_live.end()) {
+      event.got_live.push_back(mark);
+    }
+  });
+  if (recorded) {
+    count(event.counted);
+  } else {
+    count_unrecorded();
+  }
+}
+
+void ObjectState::forget(ObjectKey object) {
+  const std::lock_guard lock(mutex_);
+  for (auto found = of_object_.find(object); found != of_object_.end(); found = of_object_.find(object)) {
+    erase(found->second.back());
+  }
+}
+
+std::size_t ObjectState::dump_to(Session* session) {
+  const std::lock_guard lock(mutex_);
+  KnownSession* known = nullptr;
+  std::vector<const InitEvent*> due;
+  {
+    const ProbesInUse probes;
+    const Tracepoint* const reference = recorded_init_tracepoint(probes, session);
+    if (reference == nullptr || wants_no_dump(probes, session)) return 0;
+    known = &sessions_[session];
+    const bool asks_again = known->reference != nullptr && ProbeMark::is_after(probes, *known->reference, session);
+    known->reference = reference;
+    for (const InitEvent& event : events_) {
+      if ((asks_again || !has(*known, event)) && has_probe(probes, *event.tracepoint, session)) due.push_back(&event);
+    }
+    if (!due.empty()) {
+      record_dump_begin(probes, session, due.size());
+      for (const InitEvent* event : due) record_into(session, probes, *event);
+      record_dump_end(probes, session, due.size());
+    }
+    for (const InitEvent* event : due) known->dumped[event->tracepoint] = last_number_;
+  }
+  ProbeMark::move_to_end(*known->reference);
+  return due.size();
+}
+
+void ObjectState::erase(InitEvents::iterator event) {
+  for (const ObjectKey& object : event->objects) {
+    const auto found = of_object_.find(object);
+    if (found == of_object_.end()) continue;  // the event names an object twice
+    std::erase(found->second, event);
+    if (found->second.empty()) of_object_.erase(found);
+  }
+  events_.erase(event);
+}
+
+}  // namespace tracetools

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef TRACETOOLS__STATE_DUMP_REQUEST_HPP_
+#define TRACETOOLS__STATE_DUMP_REQUEST_HPP_
+
+#include "probes/probes.hpp"
+
+namespace tracetools {
+
+/// Makes a thread of lttng-ust call `dump` whenever a session asks this process for its state: when the session starts
+/// or resumes, or when a user runs `lttng regenerate statedump`. Call it once, before liblttng-ust.so is loaded. False
+/// if this lttng-ust cannot do it.
+///
+/// While `dump` runs, the tracer's control of this process waits. `dump` may record events.
+bool on_state_dump(void (*dump)(Session* session));
+
+}  // namespace tracetools
+
+#endif  // TRACETOOLS__STATE_DUMP_REQUEST_HPP_
