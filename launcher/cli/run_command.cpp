@@ -40,7 +40,7 @@
 #include "launcher/python/python_places.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
-#include "launcher/run/status_line.hpp"
+#include "launcher/run/user/status_line.hpp"
 #include "launcher/visit/launch_plan.hpp"
 
 namespace launch {

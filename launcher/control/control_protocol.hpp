@@ -11,7 +11,7 @@
 
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_event.hpp"
-#include "launcher/run/steering.hpp"
+#include "launcher/run/user/steering.hpp"
 
 namespace launch {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Something outside that a process may have to wait for before it starts, such as a service that is offered.
 //
-// `depends_on` (launcher/run/start_order.hpp) watches it from the moment at which the waiting process was asked for. A
-// condition on another process of the launch is not of this kind: the launch itself knows about it
+// `depends_on` (launcher/run/start/start_order.hpp) watches it from the moment at which the waiting process was asked
+// for. A condition on another process of the launch is not of this kind: the launch itself knows about it
 // (launcher/visit/dependency.hpp).
 #pragma once
 

@@ -57,7 +57,7 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
 TestCase find_test(const std::string& file, const Registry& registry, const Environment& environment,
                    const LaunchArguments& arguments, std::size_t number, const std::string& name);
 
-// What faults of disks need before a run begins (launcher/run/test_disks.hpp).
+// What faults of disks need before a run begins (launcher/run/system_test/test_disks.hpp).
 struct DiskPlan {
   std::vector<DiskFault> faults;
   std::vector<std::string> traces;  // the directories of all traces

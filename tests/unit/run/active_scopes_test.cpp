@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/active_scopes.hpp"
+#include "launcher/run/scopes/active_scopes.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/farewell.hpp"
+#include "launcher/run/end/farewell.hpp"
 
 #include <gmock/gmock.h>
 

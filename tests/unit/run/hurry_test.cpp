@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/hurry.hpp"
+#include "launcher/run/end/hurry.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/invocation_queue.hpp"
+#include "launcher/run/handlers/invocation_queue.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/processes.hpp"
+#include "launcher/run/start/processes.hpp"
 
 #include <gmock/gmock.h>
 #include <signal.h>

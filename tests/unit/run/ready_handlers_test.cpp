@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/ready_handlers.hpp"
+#include "launcher/run/handlers/ready_handlers.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/recording.hpp"
+#include "launcher/run/scopes/recording.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/rounds.hpp"
+#include "launcher/run/start/rounds.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Handlers of the states of nodes, and handlers that are unregistered. On virtual time.
-#include "launcher/run/state_handlers.hpp"
+#include "launcher/run/handlers/state_handlers.hpp"
 
 #include "launcher/ros/fake/fake_ros_client.hpp"
 #include "tests/unit/run/launch_service_fixture.hpp"

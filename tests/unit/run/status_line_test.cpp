@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/status_line.hpp"
+#include "launcher/run/user/status_line.hpp"
 
 #include <signal.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/steering.hpp"
+#include "launcher/run/user/steering.hpp"
 
 #include "tests/unit/run/launch_service_fixture.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/system_test.hpp"
+#include "launcher/run/system_test/system_test.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/run/timers.hpp"
+#include "launcher/run/handlers/timers.hpp"
 
 #include <gmock/gmock.h>
 

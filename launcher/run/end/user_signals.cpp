@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/run/end/user_signals.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <string.h>
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "launcher/base/ending_signals.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr Duration kSameWish = std::chrono::seconds(1);
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+UserSignals::UserSignals(EventLoop& loop, Acts acts) : loop_(loop), acts_(std::move(acts)) {}
+
+void UserSignals::listen() {
+  std::vector<int> ending;
+  for (const int signal : kEndingSignals) {
+    if (signal != SIGHUP || !is_ignored(SIGHUP)) {
+      ending.push_back(signal);
+    }
+  }
+  ending_ = loop_.on_signal(ending, [this](EventLoop::Signal signal) { on_signal(signal); });
+  if (!is_ignored(SIGTSTP)) {
+    stopping_ = loop_.on_signal({SIGTSTP}, [this](EventLoop::Signal) { acts_.stop(); });
+  }
+  // When a process reads the terminal from the background, its whole group is asked to stop. The launcher goes on.
+  ::signal(SIGTTIN, SIG_IGN);
+  ::signal(SIGTTOU, SIG_IGN);
+}
+
+bool UserSignals::count_as_first() {
+  if (counted_) {
+    return false;
+  }
+  counted_ = loop_.now();
+  return true;
+}
+
+void UserSignals::on_signal(EventLoop::Signal signal) {
+  if (acts_.intercept()) {
+    return;
+  }
+  if (signal.by_terminal) {
+    acts_.by_terminal();
+  }
+  if (counted_ && loop_.now() - *counted_ < kSameWish) {
+    return;
+  }
+  const std::string name =
+      signal.number == SIGINT ? "ctrl-c (SIGINT)" : fmt::format("SIG{}", sigabbrev_np(signal.number));
+  if (std::exchange(counted_, loop_.now())) {
+    acts_.again(signal.number, name);
+  } else {
+    acts_.first(name);
+  }
+}
+
+void UserSignals::stop_this_process() {
+  struct sigaction action {};
+  struct sigaction before {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(SIGTSTP, &action, &before);
+  sigset_t stop;
+  sigemptyset(&stop);
+  sigaddset(&stop, SIGTSTP);
+  ::raise(SIGTSTP);
+  ::pthread_sigmask(SIG_UNBLOCK, &stop, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
+  ::sigaction(SIGTSTP, &before, nullptr);
+}
+
+}  // namespace launch

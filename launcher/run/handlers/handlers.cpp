@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/run/handlers/handlers.hpp"
+
+#include <utility>
+#include <variant>
+
+namespace launch {
+
+Handlers::Handlers(EventLoop& loop, std::function<void(const Invocation&)> visit, std::function<void()> visited,
+                   const std::function<void(const LaunchError&)>& fail)
+    : queue_(loop, std::move(visit), std::move(visited)),
+      states_([this](std::vector<Invocation> invocations) { queue_.add(std::move(invocations)); }, fail),
+      conditions_(
+          loop, [this](std::vector<Invocation> invocations) { queue_.add(std::move(invocations)); }, fail) {}
+
+void Handlers::add(EventHandler handler, RosClient* client) {
+  if (std::holds_alternative<OnceReady>(handler.event)) {
+    conditions_.add(std::move(handler));
+  } else if (std::holds_alternative<OnStateTransition>(handler.event)) {
+    states_.add(std::move(handler), client);
+  } else {
+    events_.add(std::move(handler));
+  }
+}
+
+bool Handlers::remove(const std::string& name) {
+  queue_.forget(name);
+  const bool of_events = events_.remove(name);
+  const bool of_states = states_.remove(name);
+  return of_events || of_states;
+}
+
+std::vector<Invocation> Handlers::shutdown(const std::string& reason) {
+  conditions_.clear();
+  states_.clear();
+  return events_.on_shutdown(reason);
+}
+
+}  // namespace launch

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The processes of a launch, by name: each starts when its conditions hold, and gets the commands that name it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/base/diagnostic.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_supervisor.hpp"
+#include "launcher/run/start/round.hpp"
+#include "launcher/run/start/start_order.hpp"
+#include "launcher/visit/process_table.hpp"
+
+namespace launch {
+
+class Processes {
+ public:
+  struct Callbacks {
+    // A process with this number is about to start. Its spec may still be changed.
+    std::function<void(ProcessSpec& spec, ProcessId id)> starting;
+    // A process won't start, and the launch must end.
+    std::function<void(const LaunchError&)> fail;
+    // `logger` is the name of a process, or "launch".
+    std::function<void(LogLevel level, const std::string& logger, const std::string& text)> tell;
+    // A process won't start, and the launch goes on without it.
+    std::function<void(const TrackedProcess& process)> skipped;
+    // The condition that the process waits for holds.
+    std::function<void(const std::string& process, const Dependency& dependency)> ready;
+  };
+
+  // The references must outlive this object.
+  Processes(EventLoop& loop, ProcessSupervisor& supervisor, Callbacks callbacks);
+
+  // Makes the names of the processes of a traversal known. Throws LaunchError when its dependencies or commands name no
+  // process, or when no process can start first.
+  Round enter(Requests requests);
+  // Throws LaunchError for names that no process has.
+  void check(const std::vector<ProcessCommand>& commands) const { check_commands(commands, table_); }
+  // The processes of this name, in the order in which they were asked for.
+  std::vector<TrackedProcess*> find(const std::string& name) const { return table_.find(name); }
+  // Null if the process was not asked for by a launch file.
+  TrackedProcess* find(ProcessId id) { return table_.find(id); }
+  // Carries out a command. Reports a command that no process could get.
+  void execute(const ProcessCommand& command);
+  // The process must never start. Returns whether it waited.
+  bool drop(const TrackedProcess& process) { return order_.drop(process); }
+  // In the order in which they were asked for. `waiting` is null for a process that does not wait for something.
+  void for_each(const std::function<void(const TrackedProcess& process, const ProcessSpec* waiting)>& tell) const;
+
+  // The processes of a round that wait for something begin to wait. They watch the others from their start on, so this
+  // must be called before start().
+  void wait(Round& round);
+  // Starts the other processes, unless a failing start causes the shutdown.
+  void start(Round& round);
+  // Processes that still wait never start, and start() does nothing after this.
+  void shutdown();
+  // For on_shutdown handlers: starts a process that runs once, whatever its spec says.
+  void start_last(ProcessSpec spec);
+
+  void on_event(const ProcessEvent& event);
+  void on_line(ProcessId id, OutputStream stream, std::string_view line);
+  // Whether some process waits for a line of another one.
+  bool watch_output() const { return order_.watch_output(); }
+  // Whether some process waits for something before it starts.
+  bool waiting() const { return !order_.empty(); }
+
+ private:
+  void start(ProcessSpec spec, TrackedProcess& process);
+
+  ProcessSupervisor& supervisor_;
+  Callbacks callbacks_;
+  ProcessTable table_;
+  StartOrder order_;
+  bool shut_down_ = false;
+};
+
+}  // namespace launch

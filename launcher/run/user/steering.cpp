@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/run/user/steering.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "launcher/base/diagnostic.hpp"
+
+namespace launch {
+
+const char* name_of(Steering::Request request) {
+  switch (request) {
+    case Steering::Request::kStop:
+      return "stop";
+    case Steering::Request::kStart:
+      return "start";
+    case Steering::Request::kRestart:
+      return "restart";
+    case Steering::Request::kSignal:
+      return "signal";
+  }
+  return "";
+}
+
+bool matches(const std::string& pattern, const SteeredProcess& process) {
+  const auto hits = [&](const std::string& name) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; };
+  return hits(process.name) || std::any_of(process.names.begin(), process.names.end(), hits);
+}
+
+std::vector<SteeredProcess> Steering::processes() const {
+  std::vector<SteeredProcess> all;
+  processes_.for_each([&](const TrackedProcess& tracked, const ProcessSpec* waiting) {
+    SteeredProcess& process = all.emplace_back();
+    process.tracked = &tracked;
+    process.id = tracked.id;
+    process.names = tracked.names;
+    process.name = tracked.names.front();
+    if (tracked.id != 0) {
+      const ProcessView view = supervisor_.view(tracked.id);
+      process.name = view.label;
+      process.origin = view.spec.origin;
+    } else {
+      process.waits = waiting != nullptr;
+      process.skipped = waiting == nullptr;
+      process.origin = waiting == nullptr ? SourceRange() : waiting->origin;
+    }
+  });
+  return all;
+}
+
+std::vector<SteeredProcess> Steering::find(const Patterns& patterns, SteeringOutcome& outcome) const {
+  std::vector<SteeredProcess> all = processes();
+  for (const std::string& pattern : patterns) {
+    if (std::none_of(all.begin(), all.end(), [&](const auto& process) { return matches(pattern, process); })) {
+      std::vector<std::string> names;
+      for (const SteeredProcess& process : all) {
+        names.push_back(process.name);
+        names.insert(names.end(), process.names.begin(), process.names.end());
+      }
+      outcome.error = fmt::format("no process is named '{}'", pattern);
+      outcome.help = did_you_mean(pattern, names);
+      return {};
+    }
+  }
+  if (!patterns.empty()) {
+    std::erase_if(all, [&](const SteeredProcess& process) {
+      return std::none_of(patterns.begin(), patterns.end(),
+                          [&](const std::string& pattern) { return matches(pattern, process); });
+    });
+  }
+  return all;
+}
+
+SteeringOutcome Steering::ask(Request request, const Patterns& patterns, int signal) {
+  SteeringOutcome outcome;
+  const std::vector<SteeredProcess> found = find(patterns, outcome);
+  if (!outcome.error.empty()) {
+    return outcome;
+  }
+  if ((request == Request::kStart || request == Request::kRestart) && is_ending()) {
+    outcome.error = fmt::format("the launch is ending, nothing can {} any more", name_of(request));
+    return outcome;
+  }
+  std::vector<std::string> names;
+  for (const SteeredProcess& process : found) {
+    names.push_back(process.name);
+  }
+  callbacks_.tell(fmt::format("launch {}: {}", name_of(request), fmt::join(names, ", ")));
+  for (const SteeredProcess& process : found) {
+    if (request == Request::kStop && process.waits && processes_.drop(*process.tracked)) {
+      outcome.dropped.push_back(process.name);
+    } else if (const std::string reason = carry_out(request, process, signal); reason.empty()) {
+      outcome.done.push_back(process.name);
+    } else {
+      outcome.refused.push_back(process.name + " " + reason);
+    }
+  }
+  callbacks_.done();
+  return outcome;
+}
+
+std::string Steering::carry_out(Request request, const SteeredProcess& process, int signal) {
+  if (process.id == 0) {
+    return process.waits ? "waits for its start" : "has never been started";
+  }
+  const ProcessView view = supervisor_.view(process.id);
+  const bool is_over = view.state == ProcessState::kDone;
+  switch (request) {
+    case Request::kStop:
+      if (is_over) {
+        return "does not run";
+      }
+      if (!is_ending()) {
+        stopped_.insert(process.id);
+      }
+      supervisor_.stop(process.id);
+      return "";
+    case Request::kStart:
+      if (view.state == ProcessState::kRunning || view.state == ProcessState::kStarting) {
+        return "runs already";
+      }
+      supervisor_.restart(process.id);
+      return "";
+    case Request::kRestart:
+      supervisor_.restart(process.id);
+      return "";
+    case Request::kSignal:
+      if (view.pid < 0) {
+        return "does not run";
+      }
+      supervisor_.signal(process.id, signal);
+      return "";
+  }
+  return "";
+}
+
+void Steering::shutdown() {
+  callbacks_.shutdown("launch shutdown");
+}
+
+void Steering::on_event(const ProcessEvent& event) {
+  if (std::holds_alternative<ProcessStarted>(event.what)) {
+    stopped_.erase(event.id);
+  }
+}
+
+}  // namespace launch
