@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

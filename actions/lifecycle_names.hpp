@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

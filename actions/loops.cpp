@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "actions/parameter_value.hpp"
-#include "launcher/base/ascii.hpp"
+#include "launcher/base/text/ascii.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"

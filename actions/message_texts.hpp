@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/interface_type.hpp"
 #include "launcher/substitution/scope.hpp"
 

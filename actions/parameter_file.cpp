@@ -9,7 +9,7 @@
 #include <span>
 
 #include "actions/parameter_value.hpp"
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 
 namespace launch {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <iterator>
 
-#include "launcher/base/ascii.hpp"
+#include "launcher/base/text/ascii.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"

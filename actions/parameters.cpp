@@ -7,7 +7,7 @@
 
 #include "actions/parameter_file.hpp"
 #include "actions/parameter_file_findings.hpp"
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"
 

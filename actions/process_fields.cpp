@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "actions/process_findings.hpp"
-#include "launcher/base/process_mark.hpp"
+#include "launcher/base/processes/process_mark.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"
 

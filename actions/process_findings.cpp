@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "actions/ros_names.hpp"
-#include "launcher/base/remap_name.hpp"
+#include "launcher/base/text/remap_name.hpp"
 
 namespace launch {
 

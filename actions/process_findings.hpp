@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {

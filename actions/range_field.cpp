@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "launcher/base/ascii.hpp"
+#include "launcher/base/text/ascii.hpp"
 
 namespace launch {
 

@@ -9,7 +9,7 @@
 #include "actions/lifecycle_names.hpp"
 #include "actions/message_texts.hpp"
 #include "actions/process_fields.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/messages/interface_library.hpp"
 #include "launcher/messages/message_condition.hpp"
 #include "launcher/messages/read_value.hpp"

@@ -2,7 +2,7 @@
 // <set_ros_log_dir new_log_dir="…"/>: where later nodes write their log files.
 #include <filesystem>
 
-#include "launcher/base/home_directory.hpp"
+#include "launcher/base/environment/home_directory.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

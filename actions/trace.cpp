@@ -8,7 +8,7 @@
 #include "actions/trace_findings.hpp"
 #include "actions/trace_overhead.hpp"
 #include "actions/trace_scope.hpp"
-#include "launcher/base/session_suffix.hpp"
+#include "launcher/base/environment/session_suffix.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/plan/event_classes.hpp"

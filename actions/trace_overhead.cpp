@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/account/cost_measurement.hpp"
 #include "tracing/account/event_cuts.hpp"

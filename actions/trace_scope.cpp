@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "actions/trace_overhead.hpp"
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/loss_text.hpp"
 #include "tracing/account/session_step.hpp"

@@ -2,8 +2,8 @@
 # project_library(<target> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])
 #
 # One library for the current folder. Its headers are included by their path from the top of the repository
-# ("launcher/base/source.hpp"), but only a target that links the library can see them: the include directory is a
-# view in the build tree that holds a link to this folder alone. An include against the dependency arrows of
+# ("launcher/base/diagnostics/source.hpp"), but only a target that links the library can see them: the include directory
+# is a view in the build tree that holds a link to this folder alone. An include against the dependency arrows of
 # docs/architecture.md therefore fails to compile.
 function(project_library target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;PUBLIC;PRIVATE")

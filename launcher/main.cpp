@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "actions/builtin_actions.hpp"
-#include "launcher/base/command_error.hpp"
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/check/check_command.hpp"
 #include "launcher/cli/check/explain_command.hpp"
 #include "launcher/cli/command_line.hpp"

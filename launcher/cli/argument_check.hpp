@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/language/introspection.hpp"
 
 namespace launch {

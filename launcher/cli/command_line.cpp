@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "launcher/base/command_error.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
 #include "launcher/cli/further_commands.hpp"
 
 namespace launch {

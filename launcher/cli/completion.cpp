@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/check/finding_table.hpp"
 #include "launcher/cli/control/control_command.hpp"
 #include "launcher/cli/find_launch_file.hpp"

@@ -11,8 +11,8 @@
 #include <iterator>
 #include <system_error>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "launcher/cli/further_commands.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/visit/joined_description.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 
 namespace launch {
 

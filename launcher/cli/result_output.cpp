@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "launcher/base/command_error.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
 
 namespace launch {
 

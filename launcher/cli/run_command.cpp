@@ -17,11 +17,11 @@
 #include <utility>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "launcher/base/monotonic_clock.hpp"
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/terminal_colour.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/processes/process_mark.hpp"
+#include "launcher/base/terminal/terminal_colour.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/dry_run.hpp"
 #include "launcher/cli/find_launch_file.hpp"

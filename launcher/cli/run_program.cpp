@@ -18,10 +18,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/processes/process_mark.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "launcher/cli/run_command.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/process/event_loop.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "launcher/base/shell_quoted.hpp"
+#include "launcher/base/text/shell_quoted.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/visit/launch_plan.hpp"
 

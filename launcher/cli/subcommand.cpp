@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "launcher/base/terminal_colour.hpp"
+#include "launcher/base/terminal/terminal_colour.hpp"
 
 namespace launch {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/command_error.hpp"
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace CLI {
 class App;

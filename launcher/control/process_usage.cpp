@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <thread>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 

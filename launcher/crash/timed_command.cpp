@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace launch {
 

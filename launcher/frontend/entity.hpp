@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/text/utf8.hpp"
 #include "launcher/frontend/xml_cursor.hpp"
 
 namespace launch {

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

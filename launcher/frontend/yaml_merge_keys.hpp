@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/yaml_node.hpp"
 
 namespace launch {

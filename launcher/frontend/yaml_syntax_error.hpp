@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "launcher/base/ascii.hpp"
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/text/ascii.hpp"
 
 namespace launch {
 

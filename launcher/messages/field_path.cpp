@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

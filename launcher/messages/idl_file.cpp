@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/idl_tokens.hpp"
 #include "launcher/messages/read_value.hpp"
 

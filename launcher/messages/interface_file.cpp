@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/messages/read_value.hpp"
 

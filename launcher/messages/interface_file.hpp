@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 #include "launcher/messages/interface_type.hpp"
 
 namespace launch {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
 #include "launcher/messages/idl_file.hpp"
 #include "launcher/messages/interface_file.hpp"
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/environment.hpp"
+#include "launcher/base/environment/environment.hpp"
 #include "launcher/messages/interface_type.hpp"
 #include "launcher/substitution/package_index.hpp"
 

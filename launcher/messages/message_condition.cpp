@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/field_path.hpp"
 
 namespace launch {

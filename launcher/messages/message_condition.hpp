@@ -12,7 +12,7 @@
 #include <functional>
 #include <memory>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 #include "launcher/messages/interface_type.hpp"
 
 namespace launch {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/utf8.hpp"
 #include "launcher/messages/yaml_text.hpp"
 
 namespace launch {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/utf8.hpp"
 #include "launcher/messages/print_value.hpp"
 
 namespace launch {

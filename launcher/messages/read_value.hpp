@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 #include "launcher/messages/interface_type.hpp"
 
 namespace launch {

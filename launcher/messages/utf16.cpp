@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/messages/utf16.hpp"
 
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/utf8.hpp"
 
 namespace launch {
 

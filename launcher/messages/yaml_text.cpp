@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/utf8.hpp"
 #include "launcher/frontend/frontend.hpp"
 
 namespace launch {

@@ -14,10 +14,10 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "launcher/base/ending_signals.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/ending_signals.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace launch {
 

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

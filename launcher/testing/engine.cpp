@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace launch {
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 
 namespace launch {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/utf8.hpp"
 #include "launcher/cli/xml_text.hpp"
 
 namespace launch {

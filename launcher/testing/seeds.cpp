@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "launcher/base/shell_quoted.hpp"
+#include "launcher/base/text/shell_quoted.hpp"
 
 namespace launch {
 

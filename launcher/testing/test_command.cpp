@@ -17,9 +17,9 @@
 #include <thread>
 
 #include "actions/builtin_actions.hpp"
-#include "launcher/base/home_directory.hpp"
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/home_directory.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/subcommand.hpp"
 #include "launcher/language/introspection.hpp"

@@ -9,9 +9,9 @@
 #include <iterator>
 #include <set>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/home_directory.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/environment/home_directory.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"

@@ -16,10 +16,10 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/domain_lease.hpp"
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/session_suffix.hpp"
+#include "launcher/base/environment/domain_lease.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/environment/session_suffix.hpp"
+#include "launcher/base/processes/process_mark.hpp"
 #include "launcher/cli/launch_tracepoints.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"

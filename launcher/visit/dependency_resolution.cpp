@@ -7,7 +7,7 @@
 #include <functional>
 #include <unordered_map>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

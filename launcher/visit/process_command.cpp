@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace fuzz {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "tracing/ctf/metadata_text.hpp"
 #include "tracing/ctf/trace_class.hpp"
 #include "tracing/plan/ros_events.hpp"

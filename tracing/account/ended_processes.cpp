@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "launcher/base/replace_file.hpp"
+#include "launcher/base/files/replace_file.hpp"
 
 namespace tracing {
 namespace {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "launcher/base/home_directory.hpp"
-#include "launcher/base/replace_file.hpp"
+#include "launcher/base/environment/home_directory.hpp"
+#include "launcher/base/files/replace_file.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {

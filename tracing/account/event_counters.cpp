@@ -19,7 +19,7 @@
 #include <tuple>
 #include <utility>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "tracing/account/ended_processes.hpp"
 
 namespace tracing {

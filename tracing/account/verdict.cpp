@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/replace_file.hpp"
+#include "launcher/base/files/replace_file.hpp"
 #include "tracing/account/event_cost.hpp"
 #include "tracing/account/event_cuts.hpp"
 #include "tracing/account/loss_account.hpp"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "launcher/base/replace_file.hpp"
+#include "launcher/base/files/replace_file.hpp"
 
 namespace tracing {
 namespace {

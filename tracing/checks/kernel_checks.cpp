@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 #include "tracing/plan/event_rule.hpp"

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/pipe.hpp"
+#include "launcher/base/files/pipe.hpp"
 
 namespace tracing {
 namespace {

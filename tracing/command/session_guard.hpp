@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace tracing {
 

@@ -11,7 +11,7 @@
 #include <ctime>
 #include <optional>
 
-#include "launcher/base/command_error.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
 #include "tracing/account/cost_measurement.hpp"
 #include "tracing/account/counter_directory.hpp"
 #include "tracing/account/event_cost.hpp"

@@ -9,8 +9,8 @@
 #include <optional>
 #include <type_traits>
 
-#include "launcher/base/command_error.hpp"
-#include "launcher/base/own_environment.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
+#include "launcher/base/environment/own_environment.hpp"
 
 namespace tracing {
 namespace {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "tracing/export/dot_text.hpp"
 #include "tracing/export/export.hpp"
 #include "tracing/export/output_file.hpp"

@@ -18,13 +18,13 @@
 #include <string_view>
 #include <system_error>
 
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/process_stat.hpp"
-#include "launcher/base/replace_file.hpp"
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/files/replace_file.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/process_mark.hpp"
+#include "launcher/base/processes/process_stat.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"
 

@@ -33,8 +33,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/process_stat.hpp"
-#include "launcher/base/replace_file.hpp"
+#include "launcher/base/files/replace_file.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 #include "tracing/kernel/ctf_writer.hpp"
 #include "tracing/kernel/page_history.hpp"
 #include "tracing/kernel/ring_page.hpp"

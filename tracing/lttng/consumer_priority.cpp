@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/process_stat.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 
 namespace tracing {
 namespace {

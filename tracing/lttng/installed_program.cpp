@@ -6,9 +6,9 @@
 
 #include <system_error>
 
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace tracing {
 namespace {

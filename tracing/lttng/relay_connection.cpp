@@ -14,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "launcher/base/process_stat.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 
 namespace tracing {
 namespace {

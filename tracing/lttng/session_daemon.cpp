@@ -18,11 +18,11 @@
 #include <system_error>
 #include <thread>
 
-#include "launcher/base/home_directory.hpp"
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/process_stat.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/environment/home_directory.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/processes/process_mark.hpp"
+#include "launcher/base/processes/process_stat.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "tracing/plan/perf_counters.hpp"
 #include "tracing/plan/trace_error.hpp"
 

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 #include <fnmatch.h>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "tracetools/event_table.h"
 
 namespace tracing {

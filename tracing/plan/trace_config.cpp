@@ -5,7 +5,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "launcher/base/home_directory.hpp"
+#include "launcher/base/environment/home_directory.hpp"
 
 namespace tracing {
 namespace {

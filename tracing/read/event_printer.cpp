@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/utf8.hpp"
 
 namespace tracing {
 namespace {

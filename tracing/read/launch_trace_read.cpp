@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-#include "launcher/base/command_error.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
 #include "tracing/read/event_filter.hpp"
 #include "tracing/read/event_printer.hpp"
 #include "tracing/reader/trace_reader.hpp"

@@ -17,7 +17,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "launcher/base/command_error.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
 #include "tracing/analysis/trace_analysis.hpp"
 #include "tracing/live/live_report.hpp"
 #include "tracing/report/comparison_command.hpp"

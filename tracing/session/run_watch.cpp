@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "launcher/base/process_stat.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 #include "tracing/account/event_counters.hpp"
 #include "tracing/kernel/kernel_recorder.hpp"
 #include "tracing/lttng/consumer_priority.hpp"

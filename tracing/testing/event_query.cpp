@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "tracing/read/field_expression.hpp"
 #include "tracing/reader/event_pattern.hpp"
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 
 namespace launch_trace_testing {
 

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "launch_trace_testing/expectations.hpp"
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "tracing/testing/event_table.hpp"
 #include "tracing/testing/phrases.hpp"
 #include "tracing/testing/samples.hpp"

@@ -23,11 +23,11 @@
 #include <system_error>
 
 #include "launch_trace_testing/event_query.hpp"
-#include "launcher/base/domain_lease.hpp"
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/session_suffix.hpp"
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/environment/domain_lease.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/environment/session_suffix.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "tracing/testing/wrapper_file.hpp"
 
 namespace launch_trace_testing {

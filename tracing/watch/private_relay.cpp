@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace tracing {
 namespace {

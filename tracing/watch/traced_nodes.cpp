@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace tracing {
 namespace {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <string>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "tracing/reader/live_reader.hpp"
 #include "tracing/watch/private_relay.hpp"
 

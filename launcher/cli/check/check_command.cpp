@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/check/check_launch_file.hpp"
 #include "launcher/cli/check/diagnostic_output.hpp"
 #include "launcher/cli/check/finding_table.hpp"

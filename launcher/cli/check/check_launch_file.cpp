@@ -7,8 +7,8 @@
 #include <functional>
 #include <set>
 
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/argument_check.hpp"
 #include "launcher/cli/check/plan_findings.hpp"
 #include "launcher/cli/check/recorded_findings.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/cli/check/recorded_nodes.hpp"
 #include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

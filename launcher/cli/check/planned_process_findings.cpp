@@ -11,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "launcher/base/remap_name.hpp"
+#include "launcher/base/text/remap_name.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/process/process_spec.hpp"
 
 namespace launch {

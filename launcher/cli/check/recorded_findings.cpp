@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "launcher/base/nearest_name.hpp"
-#include "launcher/base/remap_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
+#include "launcher/base/text/remap_name.hpp"
 #include "launcher/cli/node_names.hpp"
 
 namespace launch {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/cli/check/recorded_nodes.hpp"
 #include "launcher/visit/launch_plan.hpp"
 

@@ -13,10 +13,10 @@
 #include <tuple>
 #include <utility>
 
-#include "launcher/base/command_error.hpp"
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace launch {
 

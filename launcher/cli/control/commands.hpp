@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/environment.hpp"
+#include "launcher/base/environment/environment.hpp"
 
 namespace launch {
 

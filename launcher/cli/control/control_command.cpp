@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "launcher/base/command_error.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
 #include "launcher/cli/control/commands.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/language/exit_code_filter.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/environment.hpp"
+#include "launcher/base/environment/environment.hpp"
 
 namespace launch {
 

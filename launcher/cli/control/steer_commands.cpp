@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <set>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "launcher/cli/control/commands.hpp"
 #include "launcher/cli/control/process_text.hpp"
 #include "launcher/cli/subcommand.hpp"

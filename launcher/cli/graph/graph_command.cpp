@@ -8,7 +8,7 @@
 #include <fstream>
 #include <utility>
 
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/cli/graph/graph.hpp"
 #include "launcher/cli/graph/trace_graph.hpp"

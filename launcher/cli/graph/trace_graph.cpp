@@ -14,9 +14,9 @@
 #include <system_error>
 #include <vector>
 
-#include "launcher/base/command_error.hpp"
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "launcher/cli/result_output.hpp"
 
 namespace launch {

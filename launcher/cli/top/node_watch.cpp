@@ -11,9 +11,9 @@
 #include <sstream>
 #include <utility>
 
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace launch {
 namespace {

@@ -15,8 +15,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "launcher/base/ending_signals.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/ending_signals.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 
 namespace launch {

@@ -13,7 +13,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "launcher/base/ending_signals.hpp"
+#include "launcher/base/processes/ending_signals.hpp"
 
 namespace launch {
 namespace {

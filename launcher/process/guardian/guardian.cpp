@@ -23,9 +23,9 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/process_mark.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/processes/process_mark.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 
 namespace launch {

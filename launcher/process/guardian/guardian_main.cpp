@@ -20,8 +20,8 @@
 #include <string>
 #include <utility>
 
-#include "launcher/base/terminal_state.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/terminal/terminal_state.hpp"
 #include "launcher/process/guardian/clean_ups.hpp"
 #include "launcher/process/guardian/gentle_end.hpp"
 #include "launcher/process/guardian/launch_cgroup.hpp"

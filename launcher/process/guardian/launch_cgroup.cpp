@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {

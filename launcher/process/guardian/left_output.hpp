@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "launcher/process/guardian/guardian_log.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/base/ending_signals.hpp"
+#include "launcher/base/processes/ending_signals.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {

@@ -19,8 +19,8 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/loopback.hpp"
-#include "launcher/base/pipe.hpp"
+#include "launcher/base/environment/loopback.hpp"
+#include "launcher/base/files/pipe.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/isolation/tap_device.hpp"
 #include "launcher/process/process_runner.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 namespace launch {
 

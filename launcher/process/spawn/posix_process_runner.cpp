@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ProcessRunner of real processes (launcher/base/spawn.hpp).
+// The ProcessRunner of real processes (launcher/base/processes/spawn.hpp).
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -20,13 +20,13 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/ending_signals.hpp"
-#include "launcher/base/own_prefix.hpp"
-#include "launcher/base/pipe.hpp"
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/spawn.hpp"
-#include "launcher/base/terminal_state.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/ending_signals.hpp"
+#include "launcher/base/processes/process_mark.hpp"
+#include "launcher/base/processes/spawn.hpp"
+#include "launcher/base/terminal/terminal_state.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 #include "launcher/process/isolation/namespaces.hpp"

@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <string_view>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 namespace {

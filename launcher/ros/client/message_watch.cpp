@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/messages/cdr/cdr_codec.hpp"
 #include "launcher/messages/interface_library.hpp"
 #include "launcher/messages/message_condition.hpp"

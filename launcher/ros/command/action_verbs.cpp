@@ -7,7 +7,7 @@
 #include <iterator>
 #include <random>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/cdr/cdr_codec.hpp"
 #include "launcher/messages/print_value.hpp"
 #include "launcher/messages/read_value.hpp"

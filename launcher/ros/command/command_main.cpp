@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/command_error.hpp"
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/nearest_name.hpp"
-#include "launcher/base/terminal_colour.hpp"
+#include "launcher/base/diagnostics/command_error.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/terminal/terminal_colour.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 #include "launcher/ros/command/verb.hpp"
 
 namespace launch {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <map>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/messages/yaml_text.hpp"
 #include "launcher/ros/command/graph_names.hpp"
 #include "launcher/ros/command/parameter_text.hpp"

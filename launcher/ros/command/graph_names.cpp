@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <rclcpp/exceptions.hpp>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/field_path.hpp"
 #include "launcher/messages/read_value.hpp"
 #include "launcher/ros/command/endpoints.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
 #include "launcher/messages/print_value.hpp"
 #include "launcher/ros/command/verb.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/ros/command/graph_names.hpp"
 #include "launcher/ros/command/topic_graph.hpp"
 

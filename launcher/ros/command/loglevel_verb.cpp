@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/yaml_text.hpp"
 #include "launcher/ros/command/graph_names.hpp"
 #include "launcher/ros/command/parameter_text.hpp"

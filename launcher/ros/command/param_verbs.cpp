@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/print_value.hpp"
 #include "launcher/ros/command/graph_names.hpp"
 #include "launcher/ros/command/parameter_text.hpp"

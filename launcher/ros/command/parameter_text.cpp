@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/messages/print_value.hpp"
 #include "launcher/messages/yaml_text.hpp"

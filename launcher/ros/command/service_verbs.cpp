@@ -7,7 +7,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/python_text.hpp"
 #include "launcher/messages/read_value.hpp"
 #include "launcher/ros/command/endpoints.hpp"

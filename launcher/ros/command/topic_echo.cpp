@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/cdr/cdr_codec.hpp"
 #include "launcher/messages/field_path.hpp"
 #include "launcher/messages/message_condition.hpp"

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

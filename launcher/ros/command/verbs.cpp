@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "launcher/base/own_environment.hpp"
-#include "launcher/base/own_prefix.hpp"
+#include "launcher/base/environment/own_environment.hpp"
+#include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/ros/command/verb.hpp"
 
 namespace launch {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/ending_signals.hpp"
+#include "launcher/base/processes/ending_signals.hpp"
 
 namespace launch {
 

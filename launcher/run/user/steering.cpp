@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

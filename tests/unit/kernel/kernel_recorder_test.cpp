@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "launcher/base/process_stat.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tracing/plan/trace_error.hpp"

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/messages/interface_library.hpp"
 #include "launcher/messages/read_value.hpp"
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/process_mark.hpp"
+#include "launcher/base/processes/process_mark.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_runner.hpp"
 

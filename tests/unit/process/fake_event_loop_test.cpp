@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 namespace {

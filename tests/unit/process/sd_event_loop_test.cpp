@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
 
 namespace launch {

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "launcher/base/process_stat.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
 

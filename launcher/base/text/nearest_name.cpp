@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/nearest_name.hpp"
+#include "launcher/base/text/nearest_name.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "launcher/base/ascii.hpp"
+#include "launcher/base/text/ascii.hpp"
 
 namespace launch {
 

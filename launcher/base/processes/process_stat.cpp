@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/process_stat.hpp"
+#include "launcher/base/processes/process_stat.hpp"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 #include <fmt/format.h>
 

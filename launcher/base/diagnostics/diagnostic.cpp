@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/diagnostic.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "launcher/base/nearest_name.hpp"
-#include "launcher/base/utf8.hpp"
+#include "launcher/base/text/nearest_name.hpp"
+#include "launcher/base/text/utf8.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/terminal_state.hpp"
+#include "launcher/base/terminal/terminal_state.hpp"
 
 #include <signal.h>
 #include <unistd.h>

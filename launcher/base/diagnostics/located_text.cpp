@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/read_source_file.hpp"
+#include "launcher/base/diagnostics/read_source_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "launcher/base/diagnostic.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/pipe.hpp"
+#include "launcher/base/files/pipe.hpp"
 
 #include <fcntl.h>
 

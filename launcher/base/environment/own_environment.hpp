@@ -2,7 +2,7 @@
 // The environment that this process was started with.
 #pragma once
 
-#include "launcher/base/environment.hpp"
+#include "launcher/base/environment/environment.hpp"
 
 namespace launch {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/finding.hpp"
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/finding.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 

@@ -2,7 +2,7 @@
 // A ROS domain that nobody else on this network has leased.
 #pragma once
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/loopback.hpp"
+#include "launcher/base/environment/loopback.hpp"
 
 #include <net/if.h>
 #include <net/route.h>
@@ -10,7 +10,7 @@
 
 #include <cerrno>
 
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 
 namespace launch {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/shell_quoted.hpp"
+#include "launcher/base/text/shell_quoted.hpp"
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/replace_file.hpp"
+#include "launcher/base/files/replace_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

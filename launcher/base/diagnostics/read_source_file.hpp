@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/source.hpp"
+#include "launcher/base/diagnostics/source.hpp"
 
 namespace launch {
 

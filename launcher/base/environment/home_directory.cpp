@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/home_directory.hpp"
+#include "launcher/base/environment/home_directory.hpp"
 
 #include <pwd.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/spawn.hpp"
+#include "launcher/base/processes/spawn.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,8 +21,8 @@
 #include <optional>
 #include <string_view>
 
-#include "launcher/base/process_mark.hpp"
-#include "launcher/base/unique_fd.hpp"
+#include "launcher/base/files/unique_fd.hpp"
+#include "launcher/base/processes/process_mark.hpp"
 
 namespace launch {
 namespace {

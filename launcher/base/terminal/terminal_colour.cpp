@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/terminal_colour.hpp"
+#include "launcher/base/terminal/terminal_colour.hpp"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/domain_lease.hpp"
+#include "launcher/base/environment/domain_lease.hpp"
 
 #include <fmt/format.h>
 #include <netinet/in.h>
