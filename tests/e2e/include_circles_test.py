@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-No files include one another in a circle. A header and the source of the same name count as one file.
+No files include one another in a circle, and no folders within a library. A header and the source of the same name count as one file.
 
 Within a library the compiler accepts such a circle as long as one of the includes stands in a source. It makes every file of
 the circle depend on all others: none can be read, tested or moved alone.
@@ -73,6 +73,16 @@ def folders(graph):
     return result
 
 
+def rooms(graph):
+    """Maps each folder within a library of the launcher to the folders within this library whose headers its files include."""
+    result = {}
+    for file, includes in graph.items():
+        if file.parts[0] == 'launcher' and len(file.parent.parts) > 2:
+            result.setdefault(file.parent, set()).update(
+                i.parent for i in includes if i.parts[:2] == file.parts[:2] and len(i.parent.parts) > 2 and i.parent != file.parent)
+    return result
+
+
 def find_circle(graph):
     """Returns the files of one circle, in the order of their includes, or an empty list."""
     finished = set()
@@ -100,6 +110,12 @@ class IncludeCircles(unittest.TestCase):
         self.assertGreater(sum(len(includes) for includes in graph.values()), 500, 'the includes are found')
         circle = find_circle(graph)
         self.assertEqual(circle, [], 'a circle: ' + ' → '.join(str(file) for file in circle))
+
+    def test_no_folders_within_a_library_of_the_launcher_include_one_another_in_a_circle(self):
+        graph = rooms(include_graph())
+        self.assertIn(Path('launcher/run/start'), graph[Path('launcher/run/system_test')])
+        circle = find_circle(graph)
+        self.assertEqual(circle, [], 'a circle: ' + ' → '.join(str(folder) for folder in circle))
 
     def test_no_files_of_the_stack_include_one_another_in_a_circle(self):
         graph = stack_include_graph()
