@@ -153,18 +153,28 @@ std::optional<ParameterValue> read_any(Reader& reader, const Event& first, const
   return std::visit([](auto value) -> ParameterValue { return value; }, read_scalar(reader, first, name));
 }
 
+struct Key {
+  std::string name;
+  std::size_t line;
+};
+
+// The next key of a mapping, nullopt at the end of the mapping. `what` says what the key is: "a node name".
+std::optional<Key> read_key(Reader& reader, const std::string& what) {
+  Event event;
+  reader.next(event);
+  if (event.type() == YAML_MAPPING_END_EVENT) {
+    return std::nullopt;
+  }
+  if (event.type() != YAML_SCALAR_EVENT || event.text().empty()) {
+    reader.fail(event.line(), what + " must be a plain value");
+  }
+  return Key{event.text(), event.line()};
+}
+
 // Reads the mapping below `ros__parameters`, or a mapping inside it. Names are joined with dots.
 void read_parameters_below(Reader& reader, const std::string& prefix, ParameterSink& sink) {
-  while (true) {
-    Event key;
-    reader.next(key);
-    if (key.type() == YAML_MAPPING_END_EVENT) {
-      return;
-    }
-    if (key.type() != YAML_SCALAR_EVENT || key.text().empty()) {
-      reader.fail(key.line(), "a parameter name must be a plain value");
-    }
-    const std::string name = prefix + key.text();
+  while (const std::optional<Key> key = read_key(reader, "a parameter name")) {
+    const std::string name = prefix + key->name;
     Event value;
     reader.next(value);
     if (value.type() == YAML_MAPPING_START_EVENT) {
@@ -193,25 +203,17 @@ void read_node(Reader& reader, const std::string& node, std::size_t line, Parame
 
 // Reads a mapping above `ros__parameters`. Its keys are parts of the node's name.
 void read_nodes(Reader& reader, const std::string& prefix, ParameterSink& sink) {
-  while (true) {
-    Event key;
-    reader.next(key);
-    if (key.type() == YAML_MAPPING_END_EVENT) {
-      return;
-    }
-    if (key.type() != YAML_SCALAR_EVENT || key.text().empty()) {
-      reader.fail(key.line(), "a node name must be a plain value");
-    }
-    const std::string name = key.text();
+  while (const std::optional<Key> key = read_key(reader, "a node name")) {
+    const std::string& name = key->name;
     if (name.starts_with(kParametersKey)) {
-      read_node(reader, prefix, key.line(), sink);
+      read_node(reader, prefix, key->line, sink);
       continue;
     }
     Event value;
     reader.next(value);
     if (value.type() != YAML_MAPPING_START_EVENT) {
       reader.fail(
-          key.line(),
+          key->line,
           "'" + name + "' stands where a node name is expected; parameters must stand below NODE: ros__parameters:");
     }
     const bool joined = prefix.empty() || prefix.ends_with('/');
