@@ -3,25 +3,38 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace tracing {
 namespace {
 
-TEST(Finding, SaysWhichCallbackOrTopicItIsAbout) {
-  TraceResults results;
+// A timer of 100 ms that was 50 ms late once.
+CallbackResult late_timer_of(const std::string& node) {
   CallbackResult timer;
-  timer.id = 7;
-  timer.node = "/slow";
+  timer.node = node;
   timer.owner = CallbackResult::Owner::kTimer;
   timer.period_ns = 100'000'000;
   timer.jitter.count = 20;
   timer.jitter.max_ns = 50'000'000;
-  results.ros2.callbacks = {timer};
+  return timer;
+}
+
+// It has lost two of twelve messages on /scan.
+SubscriptionResult lossy_subscription_of(const std::string& node) {
   SubscriptionResult subscription;
-  subscription.node = "/slow";
+  subscription.node = node;
   subscription.topic = "/scan";
   subscription.delivered = 10;
   subscription.lost = 2;
-  results.ros2.subscriptions = {subscription};
+  return subscription;
+}
+
+TEST(Finding, SaysWhichCallbackOrTopicItIsAbout) {
+  TraceResults results;
+  CallbackResult timer = late_timer_of("/slow");
+  timer.id = 7;
+  results.ros2.callbacks = {timer};
+  results.ros2.subscriptions = {lossy_subscription_of("/slow")};
 
   const std::vector<Finding> findings = find_worth_a_look(results);
 
@@ -37,20 +50,10 @@ TEST(Finding, SaysWhichCallbackOrTopicItIsAbout) {
 TEST(Finding, NamesTheMachineIfThereAreSeveral) {
   TraceResults results;
   results.overview.processes = {{71, "ping", 1, false, "left"}, {71, "ping", 1, false, "right"}};
-  CallbackResult timer;
+  CallbackResult timer = late_timer_of("/ping");
   timer.process = 1;
-  timer.node = "/ping";
-  timer.owner = CallbackResult::Owner::kTimer;
-  timer.period_ns = 100'000'000;
-  timer.jitter.count = 20;
-  timer.jitter.max_ns = 50'000'000;
   results.ros2.callbacks = {timer};
-  SubscriptionResult subscription;
-  subscription.node = "/pong";
-  subscription.topic = "/scan";
-  subscription.delivered = 10;
-  subscription.lost = 2;
-  results.ros2.subscriptions = {subscription};
+  results.ros2.subscriptions = {lossy_subscription_of("/pong")};
   CallResult call;
   call.service = "/add";
   call.client = "/asker";
