@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/run/system_test/faults.hpp"
+#include "launcher/run/system_test/fault_event.hpp"
 #include "launcher/testing/failure.hpp"
 #include "launcher/visit/fault_request.hpp"
 

@@ -2,46 +2,23 @@
 #include "launcher/run/system_test/faults.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <stdexcept>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
-#include "launcher/visit/clock_process.hpp"
-
 namespace launch {
-
-namespace {
-
-// A slow process runs and stands still once in this time.
-constexpr Duration kTurn = std::chrono::milliseconds(100);
-constexpr unsigned kWhole = 100;  // percent
-
-}  // namespace
 
 struct Faults::Fault {
   explicit Fault(FaultRequest given) : request(std::move(given)) {}
-
-  // A soft limit of a process as it was.
-  struct Limit {
-    ProcessId id;
-    int resource;
-    std::uint64_t before;
-  };
 
   FaultRequest request;
   std::vector<DependencyWatches::WatchPtr> watches{};
   std::size_t open = 0;  // conditions that do not hold yet
   bool is_over = false;
-  EventLoop::SourcePtr timer{};       // its begin, then its end
-  EventLoop::SourcePtr turn_timer{};  // of a slow process
-  std::vector<ProcessId> processes{};
-  std::vector<Limit> limits{};
-  std::uint64_t messages = 0;  // that were hit
+  EventLoop::SourcePtr timer{};  // its begin, then its end
+  std::uint64_t messages = 0;    // that were hit
 
   std::optional<std::size_t> impairment = std::nullopt;  // of the network, while it lasts
   bool fills_disk = false;                               // now
@@ -49,6 +26,7 @@ struct Faults::Fault {
   const NetworkFault* of_network() const { return std::get_if<NetworkFault>(&request.what); }
   const DiskFault* of_disk() const { return std::get_if<DiskFault>(&request.what); }
   const MessageFault* of_messages() const { return std::get_if<MessageFault>(&request.what); }
+  bool of_processes() const { return of_network() == nullptr && of_disk() == nullptr && of_messages() == nullptr; }
 };
 
 Faults::Faults(EventLoop& loop, ProcessSupervisor& supervisor, Processes& processes,
@@ -58,6 +36,7 @@ Faults::Faults(EventLoop& loop, ProcessSupervisor& supervisor, Processes& proces
       processes_(processes),
       log_(std::move(log)),
       watches_(loop),
+      process_faults_(loop, supervisor),
       messages_(loop, [this] {
         for (Fault& fault : faults_) {
           on_messages(fault);
@@ -105,16 +84,8 @@ void Faults::decide(Fault& fault, const std::optional<std::string>& failure) {
 }
 
 void Faults::begin(Fault& fault) {
-  if (fault.of_messages() != nullptr && fault.request.at == Duration(0)) {
-    apply_to_messages(fault);  // before the processes start, so that the first message counts
-    return;
-  }
-  if (fault.of_network() != nullptr && fault.request.at == Duration(0)) {
-    apply_to_network(fault);
-    return;
-  }
-  if (fault.of_disk() != nullptr && fault.request.at == Duration(0)) {
-    apply_to_disk(fault);
+  if (!fault.of_processes() && fault.request.at == Duration(0)) {
+    apply(fault);  // before the processes start, so that the first message counts
     return;
   }
   fault.timer = loop_.after(fault.request.at, [this, &fault] { apply(fault); });
@@ -124,118 +95,96 @@ void Faults::apply(Fault& fault) {
   fault.timer.reset();
   if (fault.of_messages() != nullptr) {
     apply_to_messages(fault);
-    return;
-  }
-  if (fault.of_network() != nullptr) {
+  } else if (fault.of_network() != nullptr) {
     apply_to_network(fault);
-    return;
-  }
-  if (fault.of_disk() != nullptr) {
+  } else if (fault.of_disk() != nullptr) {
     apply_to_disk(fault);
-    return;
+  } else {
+    apply_to_processes(fault);
   }
-  const std::string& name = fault.request.process;
+}
+
+void Faults::apply_to_processes(Fault& fault) {
   FaultEvent event;
   std::vector<ProcessId> running;
-  for (const TrackedProcess* const process : processes_.find(name)) {
+  for (const TrackedProcess* const process : processes_.find(fault.request.process)) {
     if (process->id != 0 && supervisor_.view(process->id).pid >= 0) {
       running.push_back(process->id);
       event.labels.push_back(supervisor_.view(process->id).label);
     }
   }
   if (running.empty()) {
-    miss(fault, fmt::format("'{}' did not run", name));
+    miss(fault, fmt::format("'{}' did not run", fault.request.process));
     return;
   }
   if (const auto* const kill = std::get_if<KillFault>(&fault.request.what)) {
     event.signal = kill->signal;
   }
-  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
+  log_begin(fault);
   tell(fault, event);
-  for (const ProcessId id : running) {
-    const std::string reason = std::visit(
-        [&](const auto& what) -> std::string {
-          using What = std::decay_t<decltype(what)>;
-          if constexpr (std::is_same_v<What, MessageFault> || std::is_same_v<What, NetworkFault> ||
-                        std::is_same_v<What, DiskFault>) {
-            return {};  // not applied to a process
-          } else {
-            return apply(fault, id, what);
-          }
-        },
-        fault.request.what);
-    if (!reason.empty()) {
-      miss(fault, reason);
-      return;
-    }
-    fault.processes.push_back(id);
-  }
-  if (std::holds_alternative<SlowFault>(fault.request.what)) {
-    turn(fault, false);
-  }
-  if (fault.request.lasts) {
-    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end(fault); });
-  } else {
-    fault.is_over = true;
-    tell(fault, {.kind = FaultEvent::Kind::kOver});
-  }
-}
-
-std::string Faults::apply(Fault& /*fault*/, ProcessId id, const KillFault& kill) {
-  supervisor_.signal(id, kill.signal);
-  return {};
-}
-
-std::string Faults::apply(Fault& fault, ProcessId id, const StopFault& /*stop*/) {
-  hold(fault, id);
-  return {};
-}
-
-std::string Faults::apply(Fault& /*fault*/, ProcessId /*id*/, const SlowFault& /*slow*/) {
-  return {};  // turn() follows
-}
-
-std::string Faults::apply(Fault& fault, ProcessId id, const LimitFault& limit) {
-  const std::pair<int, std::optional<std::uint64_t>> limits[] = {{RLIMIT_AS, limit.memory},
-                                                                 {RLIMIT_NOFILE, limit.files}};
-  for (const auto& [resource, value] : limits) {
-    if (!value) {
-      continue;
-    }
-    const std::optional<std::uint64_t> before = supervisor_.limit(id, resource, *value);
-    if (!before) {
-      return fmt::format("'{}' can't be limited", fault.request.process);
-    }
-    fault.limits.push_back({id, resource, *before});
-  }
-  return {};
-}
-
-std::string Faults::apply(Fault& fault, ProcessId id, const ClockFault& clock) {
-  if (!is_clock(supervisor_.view(id).spec)) {
-    return fmt::format("'{}' is no clock", fault.request.process);
-  }
-  const std::string command = clock.kind == ClockFault::Kind::kSkew   ? fmt::format("scale {}\n", clock.rate)
-                              : clock.kind == ClockFault::Kind::kJump ? fmt::format("jump {}\n", clock.by)
-                                                                      : "stop\n";
-  return supervisor_.write(id, command) ? "" : fmt::format("'{}' does not obey", fault.request.process);
-}
-
-// The clock, after a fault that lasts for a time.
-void Faults::go_on(const Fault& fault) const {
-  const auto* const clock = std::get_if<ClockFault>(&fault.request.what);
-  if (clock == nullptr || clock->kind == ClockFault::Kind::kJump) {
+  const std::string reason = process_faults_.apply(fault.request, running);
+  if (!reason.empty()) {
+    miss(fault, reason);
     return;
   }
-  for (const ProcessId id : fault.processes) {
-    supervisor_.write(id, clock->kind == ClockFault::Kind::kStop ? "go\n" : fmt::format("scale {}\n", 1 / clock->rate));
-  }
+  await_end(fault);
 }
 
 void Faults::apply_to_messages(Fault& fault) {
   messages_.arm(fault.request.number, true);
   if (fault.request.lasts) {
-    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end_messages(fault, " in that time"); });
+    await_end(fault);  // else it is over when it has hit as many messages as it says
+  }
+}
+
+void Faults::apply_to_network(Fault& fault) {
+  if (network_ == nullptr) {
+    miss(fault, "there is no network for it");
+    return;
+  }
+  log_begin(fault);
+  fault.impairment = network_->begin(*fault.of_network());
+  tell(fault, {});
+  await_end(fault);
+}
+
+void Faults::apply_to_disk(Fault& fault) {
+  log_begin(fault);
+  try {
+    if (disks_ == nullptr) {
+      throw std::runtime_error("there is no disk for it");
+    }
+    disks_->fill(fault.request.number, *fault.of_disk());
+  } catch (const std::runtime_error& error) {
+    miss(fault, error.what());
+    return;
+  }
+  fault.fills_disk = true;
+  tell(fault, {});
+  await_end(fault);
+}
+
+// A fault that has been applied and has no end goes on, but nothing waits for it.
+void Faults::await_end(Fault& fault) {
+  if (fault.request.lasts) {
+    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end(fault); });
+  } else {
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
+  }
+}
+
+void Faults::end(Fault& fault) {
+  fault.timer.reset();
+  if (fault.of_messages() != nullptr) {
+    end_messages(fault, " in that time");
+  } else if (fault.of_network() != nullptr) {
+    end_network(fault);
+  } else if (fault.of_disk() != nullptr) {
+    end_disk(fault);
+  } else {
+    process_faults_.end(fault.request);
+    fault.is_over = true;
+    tell(fault, {.kind = FaultEvent::Kind::kOver});
   }
 }
 
@@ -250,7 +199,7 @@ void Faults::on_messages(Fault& fault) {
     return;
   }
   if (fault.messages == 0) {
-    log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
+    log_begin(fault);
   }
   fault.messages = hits.hit;
   tell(fault, {.messages = hits.hit, .first = hits.first, .latest = hits.latest});
@@ -278,21 +227,6 @@ void Faults::end_messages(Fault& fault, const char* when) {
                           describe_messages(messages, seen != 1), when));
 }
 
-void Faults::apply_to_network(Fault& fault) {
-  if (network_ == nullptr) {
-    miss(fault, "there is no network for it");
-    return;
-  }
-  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
-  fault.impairment = network_->begin(*fault.of_network());
-  tell(fault, {});
-  if (fault.request.lasts) {
-    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end_network(fault); });
-  } else {
-    tell(fault, {.kind = FaultEvent::Kind::kOver});
-  }
-}
-
 void Faults::end_network(Fault& fault) {
   if (fault.impairment) {
     network_->end(*fault.impairment);
@@ -300,26 +234,6 @@ void Faults::end_network(Fault& fault) {
     fault.impairment.reset();
   }
   fault.is_over = true;
-}
-
-void Faults::apply_to_disk(Fault& fault) {
-  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
-  try {
-    if (disks_ == nullptr) {
-      throw std::runtime_error("there is no disk for it");
-    }
-    disks_->fill(fault.request.number, *fault.of_disk());
-  } catch (const std::runtime_error& error) {
-    miss(fault, error.what());
-    return;
-  }
-  fault.fills_disk = true;
-  tell(fault, {});
-  if (fault.request.lasts) {
-    fault.timer = loop_.after(*fault.request.lasts, [this, &fault] { end_disk(fault); });
-  } else {
-    tell(fault, {.kind = FaultEvent::Kind::kOver});
-  }
 }
 
 void Faults::end_disk(Fault& fault) {
@@ -335,51 +249,8 @@ void Faults::end_disk(Fault& fault) {
   tell(fault, {.kind = FaultEvent::Kind::kOver});
 }
 
-void Faults::turn(Fault& fault, bool runs) {
-  const unsigned percent = std::get<SlowFault>(fault.request.what).percent;
-  for (const ProcessId id : fault.processes) {
-    if (runs) {
-      release(fault, id);
-    } else {
-      hold(fault, id);
-    }
-  }
-  fault.turn_timer =
-      loop_.after(kTurn * (runs ? percent : kWhole - percent) / kWhole, [this, &fault, runs] { turn(fault, !runs); });
-}
-
-void Faults::hold(const Fault& fault, ProcessId id) {
-  if (supervisor_.view(id).pid < 0) {
-    return;
-  }
-  std::set<const Fault*>& holders = held_[id];
-  if (holders.empty()) {
-    supervisor_.pause(id);
-  }
-  holders.insert(&fault);
-}
-
-void Faults::release(const Fault& fault, ProcessId id) {
-  const auto held = held_.find(id);
-  if (held != held_.end() && held->second.erase(&fault) > 0 && held->second.empty()) {
-    held_.erase(held);
-    supervisor_.resume(id);
-  }
-}
-
-void Faults::end(Fault& fault) {
-  fault.timer.reset();
-  fault.turn_timer.reset();
-  for (const ProcessId id : fault.processes) {
-    release(fault, id);
-  }
-  for (const Fault::Limit& limit : fault.limits) {
-    supervisor_.limit(limit.id, limit.resource, limit.before);
-  }
-  fault.limits.clear();
-  go_on(fault);
-  fault.is_over = true;
-  tell(fault, {.kind = FaultEvent::Kind::kOver});
+void Faults::log_begin(const Fault& fault) const {
+  log_(fmt::format("fault {}: {}", fault.request.number, describe(fault.request)));
 }
 
 void Faults::miss(Fault& fault, const std::string& reason) {
@@ -398,11 +269,7 @@ void Faults::tell(const Fault& fault, FaultEvent event) const {
 
 void Faults::on_event(const ProcessEvent& event) {
   if (std::holds_alternative<ProcessExited>(event.what)) {
-    held_.erase(event.id);
-    for (Fault& fault : faults_) {
-      // The next run has limits of its own.
-      std::erase_if(fault.limits, [&](const Fault::Limit& limit) { return limit.id == event.id; });
-    }
+    process_faults_.on_exit(event.id);
   }
   if (const TrackedProcess* const process = processes_.find(event.id)) {
     watches_.on_process_event(*process);
@@ -424,13 +291,9 @@ void Faults::shutdown() {
     end_disk(fault);
     fault.is_over = true;
     fault.timer.reset();
-    fault.turn_timer.reset();
     fault.watches.clear();
   }
-  for (const auto& [id, holders] : held_) {
-    supervisor_.resume(id);
-  }
-  held_.clear();
+  process_faults_.shutdown();
 }
 
 }  // namespace launch

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faults of a test: each is applied to its process, to messages, the network or a disk, when its time has come.
+// The faults of a test: when each of them is applied and ends, and what the test is told of it. Parts apply them to
+// processes, messages, the network and disks.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <list>
-#include <map>
-#include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,30 +14,14 @@
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/run/start/dependency_watches.hpp"
 #include "launcher/run/start/processes.hpp"
+#include "launcher/run/system_test/fault_event.hpp"
 #include "launcher/run/system_test/message_faults.hpp"
+#include "launcher/run/system_test/process_faults.hpp"
 #include "launcher/run/system_test/test_disks.hpp"
 #include "launcher/run/system_test/test_network.hpp"
 #include "launcher/visit/fault_request.hpp"
 
 namespace launch {
-
-// What happens to a fault.
-struct FaultEvent {
-  enum class Kind {
-    kApplied,  // of messages: for the first time, or again
-    kOver,     // it lasted for a time; for a kill, at once
-    kMissed    // it could not be applied
-  };
-  std::size_t number = 0;  // of the fault
-  Kind kind = Kind::kApplied;
-  std::vector<std::string> labels = {};       // of kApplied: the processes
-  int signal = 0;                             // of kApplied: what a kill has sent
-  std::string reason = {};                    // of kMissed: "'worker' did not run"
-  std::uint64_t messages = 0;                 // of kApplied: how many have been hit so far
-  Duration first{0};                          // of kApplied, with messages: when the first one was, as EventLoop::now()
-  Duration latest{0};                         // and the latest one
-  std::optional<std::uint64_t> packets = {};  // of kOver: how many a fault of the network has hit
-};
 
 class Faults {
  public:
@@ -83,24 +64,17 @@ class Faults {
   void decide(Fault& fault, const std::optional<std::string>& failure);
   void begin(Fault& fault);
   void apply(Fault& fault);
-  // Each returns why it can't be applied to the process, or "".
-  std::string apply(Fault& fault, ProcessId id, const KillFault& kill);
-  std::string apply(Fault& fault, ProcessId id, const StopFault& stop);
-  std::string apply(Fault& fault, ProcessId id, const SlowFault& slow);
-  std::string apply(Fault& fault, ProcessId id, const LimitFault& limit);
+  void apply_to_processes(Fault& fault);
   void apply_to_messages(Fault& fault);
+  void apply_to_network(Fault& fault);
+  void apply_to_disk(Fault& fault);
+  void await_end(Fault& fault);
+  void end(Fault& fault);
   void on_messages(Fault& fault);
   void end_messages(Fault& fault, const char* when);
-  void apply_to_network(Fault& fault);
   void end_network(Fault& fault);
-  void apply_to_disk(Fault& fault);
   void end_disk(Fault& fault);
-  std::string apply(Fault& fault, ProcessId id, const ClockFault& clock);
-  void go_on(const Fault& fault) const;
-  void turn(Fault& fault, bool runs);
-  void hold(const Fault& fault, ProcessId id);
-  void release(const Fault& fault, ProcessId id);
-  void end(Fault& fault);
+  void log_begin(const Fault& fault) const;
   void miss(Fault& fault, const std::string& reason);
   void tell(const Fault& fault, FaultEvent event) const;
 
@@ -110,11 +84,11 @@ class Faults {
   std::function<void(const std::string&)> log_;
   std::function<void(const FaultEvent&)> observer_;
   DependencyWatches watches_;
+  ProcessFaults process_faults_;
   MessageFaults messages_;
   TestNetwork* network_ = nullptr;
   TestDisks* disks_ = nullptr;
-  std::list<Fault> faults_;                           // their addresses don't change
-  std::map<ProcessId, std::set<const Fault*>> held_;  // processes that stand still, and the faults that hold them
+  std::list<Fault> faults_;  // their addresses don't change
 };
 
 }  // namespace launch
