@@ -125,4 +125,51 @@ TEST_F(ForeignClient, IsAnsweredWithTheIdentityOfItsRequest) {
   EXPECT_EQ(rmw_destroy_service(node.handle, service), RMW_RET_OK);
 }
 
+// Discovery reports the two endpoints of a client in any order, and on a busy machine long after each other.
+TEST_F(ForeignClient, IsAnsweredWhenItsReaderIsFoundLongAfterItsRequest) {
+  fdds::SubscriberQos subscriber_qos = fdds::SUBSCRIBER_QOS_DEFAULT;
+  subscriber_qos.entity_factory().autoenable_created_entities = false;
+  fdds::DataReaderQos reader_qos = reader_->get_qos();
+  fdds::DataReader* late_reader =
+      participant_->create_subscriber(subscriber_qos)
+          ->create_datareader(participant_->find_topic("rr/addReply", eprosima::fastrtps::Duration_t{1, 0}),
+                              reader_qos);
+  ASSERT_NE(late_reader, nullptr);
+
+  rmw_test::Context context(kDomain);
+  rmw_test::Node node(context);
+  rmw_service_t* service =
+      rmw_create_service(node.handle, rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>(), "/add",
+                         &rmw_qos_profile_services_default);
+  ASSERT_NE(service, nullptr) << rmw_test::take_error();
+  wait_for([&] {
+    fdds::PublicationMatchedStatus sending;
+    writer_->get_publication_matched_status(sending);
+    return sending.current_count == 1;
+  });
+  std::vector<uint8_t> request = cdr({40, 2});
+  rtps::WriteParams sent;
+  sent.related_sample_identity().writer_guid() = late_reader->guid();
+  ASSERT_TRUE(writer_->write(&request, sent));
+  AddTwoInts::Request taken_request;
+  rmw_service_info_t info{};
+  bool taken = false;
+  wait_for([&] {
+    EXPECT_EQ(rmw_take_request(service, &info, &taken_request, &taken), RMW_RET_OK);
+    return taken;
+  });
+  AddTwoInts::Response response;
+  response.sum = 42;
+  EXPECT_EQ(rmw_send_response(service, &info.request_id, &response), RMW_RET_OK) << rmw_test::take_error();
+
+  ASSERT_EQ(late_reader->enable(), ReturnCode_t::RETCODE_OK);
+  fdds::SampleInfo answer;
+  std::vector<uint8_t> bytes;
+  wait_for([&] { return late_reader->take_next_sample(&bytes, &answer) == ReturnCode_t::RETCODE_OK; });
+  EXPECT_EQ(bytes, cdr({42}));
+  EXPECT_EQ(answer.related_sample_identity.writer_guid(), late_reader->guid());
+  EXPECT_EQ(answer.related_sample_identity.sequence_number(), sent.sample_identity().sequence_number());
+  EXPECT_EQ(rmw_destroy_service(node.handle, service), RMW_RET_OK);
+}
+
 }  // namespace

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests and responses between contexts, which are different participants.
+#include <gmock/gmock.h>
+
 #include <algorithm>
-#include <future>
+#include <chrono>
 #include <memory>
+#include <thread>
+#include <vector>
 
 #include "example_interfaces/srv/add_two_ints.hpp"
 #include "rmw_test.hpp"
@@ -22,6 +26,8 @@ using rmw_test::Node;
 using rmw_test::Service;
 using rmw_test::take_error;
 using rmw_test::type_support;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 constexpr rmw_time_t kNoWait{0, 0};
 
@@ -184,16 +190,44 @@ TEST_F(ServiceTest, WaitSetOutlivesAndIsOutlivedByWhatItWaitedFor) {
 
 using rmw_fastrtps::Gid;
 using rmw_fastrtps::ServiceClients;
-using std::chrono::milliseconds;
 
-TEST(ServiceClients, ResponseWaitsForTheReaderOfTheClient) {
+TEST(ServiceClients, ResponsesWaitForTheReaderOfTheClient) {
   ServiceClients clients;
   const Gid reader{1};
+  std::vector<int> sent;
   clients.request_taken(reader, Gid{2});
-  EXPECT_EQ(clients.wait_for_reader(reader, milliseconds(1)), ServiceClients::Presence::kUnmatched);
-  auto presence = std::async(std::launch::async, [&] { return clients.wait_for_reader(reader, milliseconds(10000)); });
+  EXPECT_EQ(clients.presence_of(reader), ServiceClients::Presence::kUnmatched);
+  EXPECT_TRUE(clients.send_when_matched(reader, [&] { sent.push_back(1); }));
+  EXPECT_TRUE(clients.send_when_matched(reader, [&] { sent.push_back(2); }));
+  EXPECT_THAT(sent, IsEmpty());
+  clients.reader_matched(Gid{3});
+  EXPECT_THAT(sent, IsEmpty());
   clients.reader_matched(reader);
-  EXPECT_EQ(presence.get(), ServiceClients::Presence::kMatched);
+  EXPECT_THAT(sent, ElementsAre(1, 2));
+  EXPECT_EQ(clients.presence_of(reader), ServiceClients::Presence::kMatched);
+  EXPECT_TRUE(clients.send_when_matched(reader, [&] { sent.push_back(3); }));
+  EXPECT_THAT(sent, ElementsAre(1, 2, 3));
+}
+
+TEST(ServiceClients, TheEndWaitsForResponses) {
+  ServiceClients clients;
+  clients.request_taken(Gid{1}, Gid{2});
+  bool is_sent = false;
+  EXPECT_TRUE(clients.send_when_matched(Gid{1}, [&] { is_sent = true; }));
+  std::thread discovery([&] { clients.reader_matched(Gid{1}); });
+  clients.wait_until_sent(std::chrono::hours(1));
+  EXPECT_TRUE(is_sent);
+  discovery.join();
+  clients.wait_until_sent(std::chrono::hours(1));
+}
+
+TEST(ServiceClients, TooManyResponsesDoNotWait) {
+  ServiceClients clients;
+  clients.request_taken(Gid{1}, Gid{2});
+  for (std::size_t i = 0; i < ServiceClients::kMostWaiting; ++i) {
+    EXPECT_TRUE(clients.send_when_matched(Gid{1}, [] {}));
+  }
+  EXPECT_FALSE(clients.send_when_matched(Gid{1}, [] {}));
 }
 
 TEST(ServiceClients, ClientIsGoneWithEitherOfItsEndpoints) {
@@ -201,13 +235,16 @@ TEST(ServiceClients, ClientIsGoneWithEitherOfItsEndpoints) {
   for (const bool writer_goes : {true, false}) {
     const Gid reader{1};
     clients.request_taken(reader, Gid{2});
-    clients.reader_matched(reader);
+    EXPECT_TRUE(clients.send_when_matched(reader, [] { FAIL() << "sent to nobody"; }));
     if (writer_goes) {
       clients.writer_unmatched(Gid{2});
     } else {
       clients.reader_unmatched(reader);
     }
-    EXPECT_EQ(clients.wait_for_reader(reader, milliseconds(0)), ServiceClients::Presence::kGone);
+    EXPECT_EQ(clients.presence_of(reader), ServiceClients::Presence::kGone);
+    EXPECT_TRUE(clients.send_when_matched(reader, [] { FAIL() << "sent to nobody"; }));
+    clients.reader_matched(reader);
+    clients.reader_unmatched(reader);
   }
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Services: the end of a service that takes requests and sends responses.
 #include <algorithm>
-#include <chrono>
+#include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
@@ -29,9 +31,6 @@ using rmw_fastrtps::TakeFaults;
 using rmw_fastrtps::Waitable;
 
 namespace {
-
-// A response waits this long for discovery to find the reader of a client whose request has already arrived.
-constexpr std::chrono::milliseconds kDiscoveryPatience{100};
 
 struct Service final : ServiceChannel {
   void on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& info) override {
@@ -82,6 +81,24 @@ void set_faults(Service& service, const rmw_node_t* node) {
   if (auto faults = rmw_fastrtps::faults_of(Side::kResponse, service.service_name(), node)) {
     service.response_faults = std::make_unique<PublishFaults>(std::move(faults), *service.writer, *service.writer_type);
   }
+}
+
+bool write(Service& service, OutgoingMessage outgoing, rtps::WriteParams params) {
+  return service.response_faults == nullptr ? service.writer->write(&outgoing, params)
+                                            : service.response_faults->write(outgoing, params);
+}
+
+// Sends a response when discovery has found the reader of the client. False if it cannot be kept until then.
+bool write_when_matched(Service& service, const rmw_fastrtps::Gid& client, const OutgoingMessage& outgoing,
+                        const rtps::WriteParams& params) {
+  std::vector<std::uint8_t> bytes = rmw_fastrtps::to_bytes(*service.writer_type, outgoing);
+  return !bytes.empty() &&
+         service.clients.send_when_matched(client, [&service, bytes = std::move(bytes), params]() mutable {
+           rmw_serialized_message_t serialized = rmw_get_zero_initialized_serialized_message();
+           serialized.buffer = bytes.data();
+           serialized.buffer_length = serialized.buffer_capacity = bytes.size();
+           (void)write(service, {nullptr, &serialized}, params);
+         });
 }
 
 // Takes the next request that the reader holds. False if there is none.
@@ -137,6 +154,7 @@ rmw_service_t* rmw_create_service(const rmw_node_t* node, const rosidl_service_t
 rmw_ret_t rmw_destroy_service(rmw_node_t* node, rmw_service_t* service) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RMW_CHECK_HANDLE(service, RMW_RET_INVALID_ARGUMENT);
+  service_of(*service).clients.wait_until_sent(ServiceChannel::kPatienceAtEnd);
   service_of(*service).wait_until_received();
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_service_fini, static_cast<const void*>(service));
@@ -179,17 +197,9 @@ rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* requ
   Service& owned = service_of(*service);
   rmw_fastrtps::Gid client;
   std::copy(std::begin(request_header->writer_guid), std::end(request_header->writer_guid), client.begin());
-  if (names_a_reader(client)) {
-    switch (owned.clients.wait_for_reader(client, kDiscoveryPatience)) {
-      case ServiceClients::Presence::kGone:
-        return RMW_RET_OK;
-      case ServiceClients::Presence::kUnmatched:
-        RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the client of service '%s' that a response is for cannot receive it yet",
-                                             service->service_name);
-        return RMW_RET_TIMEOUT;
-      case ServiceClients::Presence::kMatched:
-        break;
-    }
+  const auto presence = names_a_reader(client) ? owned.clients.presence_of(client) : ServiceClients::Presence::kMatched;
+  if (presence == ServiceClients::Presence::kGone) {
+    return RMW_RET_OK;
   }
   rtps::WriteParams params;
   params.related_sample_identity().writer_guid() = rmw_fastrtps::to_guid(client);
@@ -200,10 +210,16 @@ rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* requ
   params.source_timestamp().from_ns(now);
   TRACETOOLS_TRACEPOINT(rmw_send_response, static_cast<const void*>(service), ros_response, client.data(),
                         request_header->sequence_number, now);
-  OutgoingMessage outgoing{ros_response, nullptr};
-  const bool is_written = owned.response_faults == nullptr ? owned.writer->write(&outgoing, params)
-                                                           : owned.response_faults->write(outgoing, params);
-  if (!is_written) {
+  const OutgoingMessage outgoing{ros_response, nullptr};
+  if (presence == ServiceClients::Presence::kUnmatched) {
+    if (!write_when_matched(owned, client, outgoing, params)) {
+      RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the client of service '%s' that a response is for cannot receive it yet",
+                                           service->service_name);
+      return RMW_RET_TIMEOUT;
+    }
+    return RMW_RET_OK;
+  }
+  if (!write(owned, outgoing, params)) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a response of service '%s' cannot be written", service->service_name);
     return RMW_RET_ERROR;
   }

@@ -28,8 +28,6 @@ using eprosima::fastrtps::Duration_t;
 
 // What was sent is asked about after this time, and resent if it was lost. Fast DDS would wait 3 s.
 const Duration_t kHeartbeatPeriod{0, 50'000'000};
-// The end waits so long for an answer to that question. It needs this time only if the other side is stopped or gone.
-const Duration_t kPatienceAtEnd{0, 500'000'000};
 
 const service_type_support_callbacks_t& service_callbacks_of(const rosidl_service_type_support_t& type_support) {
   const auto* found = rosidl_typesupport_fastrtps_cpp::find_callbacks(&type_support);
@@ -62,7 +60,7 @@ void ServiceChannel::open(End end, const rmw_node_t* node, const rosidl_service_
 }
 
 void ServiceChannel::wait_until_received() const {
-  (void)writer->wait_for_acknowledgments(kPatienceAtEnd);
+  (void)writer->wait_for_acknowledgments(to_dds(rmw_time_from_nsec(kPatienceAtEnd.count())));
 }
 
 void ServiceChannel::close(const rmw_node_t* node) {

@@ -2,6 +2,7 @@
 // The two topics of a service as one end sees them: a reader for incoming messages, a writer for outgoing ones.
 #pragma once
 
+#include <chrono>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <string>
@@ -28,7 +29,10 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
             const std::string& service_name, const rmw_qos_profile_t& profile);
   void close(const rmw_node_t* node);
 
-  // Waits a moment until the other ends have got all that was sent. The end of an endpoint is told on another way than
+  // At its end a channel waits so long for other sides. It needs this time only if another side is stopped or gone.
+  static constexpr std::chrono::nanoseconds kPatienceAtEnd = std::chrono::milliseconds(500);
+
+  // Waits until the other ends have got all that was sent. The end of an endpoint is told on another way than
   // its messages and may arrive first; then Fast DDS drops the messages. Call it before close(), without the lock.
   void wait_until_received() const;
 

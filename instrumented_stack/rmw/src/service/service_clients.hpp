@@ -4,9 +4,12 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
+#include <vector>
 
 #include "types/gid.hpp"
 
@@ -17,22 +20,44 @@ namespace rmw_fastrtps {
 class ServiceClients {
  public:
   enum class Presence { kMatched, kUnmatched, kGone };
+  using Send = std::function<void()>;
+
+  // So many responses wait for the reader of one client. Its requests are kept in no larger number by default.
+  static constexpr std::size_t kMostWaiting = 10;
 
   // A request came from `writer`; its response goes to `reader`.
   void request_taken(const Gid& reader, const Gid& writer);
-  // Reports from discovery.
+
+  // Reports from discovery. Responses that wait for a reader are sent when it is matched, and forgotten when the client
+  // goes.
   void reader_matched(const Gid& reader);
   void reader_unmatched(const Gid& reader);
   void writer_unmatched(const Gid& writer);
 
-  // Waits up to `patience` for the reader of a client that has sent a request.
-  Presence wait_for_reader(const Gid& reader, std::chrono::nanoseconds patience);
+  // Of a client that has sent a request.
+  Presence presence_of(const Gid& reader) const;
+
+  // Calls `send` when the reader of a client is matched, in the thread that reports it; here if it is matched by now.
+  // False if too many wait already.
+  bool send_when_matched(const Gid& reader, Send send);
+
+  // Waits at most `patience` until no response waits.
+  void wait_until_sent(std::chrono::nanoseconds patience);
 
  private:
-  std::mutex mutex_;
+  struct Client {
+    Gid writer;
+    std::vector<Send> waiting{};
+  };
+
+  // The caller holds the mutex.
+  void forget(std::size_t responses);
+
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
+  std::size_t waiting_ = 0;  // of all clients, and those that are just being sent
   std::set<Gid> matched_readers_;
-  std::map<Gid, Gid> writers_;  // key: the reader of the same client
+  std::map<Gid, Client> clients_;  // by their readers
 };
 
 }  // namespace rmw_fastrtps
