@@ -47,17 +47,21 @@ struct Measured {
     for (const std::int64_t value : values) total += value;
     return total;
   }
-  std::int64_t median() const {  // by nearest rank
+  // By nearest rank, and the value so many places above it.
+  std::int64_t median(std::ptrdiff_t above = 0) const {
     std::vector<std::int64_t> sorted = values;
     std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? 0 : sorted[(sorted.size() + 1) / 2 - 1];
+    const std::ptrdiff_t count = std::ssize(sorted);
+    return sorted.empty() ? 0 : sorted[std::clamp<std::ptrdiff_t>((count + 1) / 2 - 1 + above, 0, count - 1)];
   }
 };
 
 void write(std::ostream& file, const std::string& name, const Measured& measured) {
   file << name << "_count " << measured.values.size() << "\n"
        << name << "_sum " << measured.sum() << "\n"
-       << name << "_median " << measured.median() << "\n";
+       << name << "_below_median " << measured.median(-1) << "\n"
+       << name << "_median " << measured.median() << "\n"
+       << name << "_above_median " << measured.median(1) << "\n";
 }
 
 class Spans {
