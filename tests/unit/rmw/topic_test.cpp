@@ -40,6 +40,17 @@ void wait_for_match(Publisher<Message>& publisher, Subscription<Message>& subscr
   }
 }
 
+// The graph knows an endpoint before it is matched.
+TEST_F(Topic, AMatchIsAChangeOfTheGraph) {
+  for (int i = 0; i < 50; ++i) {
+    const std::string topic = "/chatter_" + std::to_string(i);
+    Publisher<String> publisher(sender_, topic.c_str());
+    Subscription<String> subscription(receiver_, topic.c_str());
+    sender_.wait_for_graph([&] { return publisher.matched() == 1; });
+    receiver_.wait_for_graph([&] { return subscription.matched() == 1; });
+  }
+}
+
 String text(const std::string& data) {
   String message;
   message.data = data;

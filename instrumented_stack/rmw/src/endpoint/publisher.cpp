@@ -39,6 +39,11 @@ using rmw_fastrtps::WriterEvents;
 namespace {
 
 struct Publisher final : WriterEvents {
+  void on_publication_matched(fdds::DataWriter* of_writer, const fdds::PublicationMatchedStatus& info) override {
+    WriterEvents::on_publication_matched(of_writer, info);
+    participant->graph().match_changed();
+  }
+
   rmw_publisher_t handle{};
   fdds::DataWriter* writer = nullptr;
   std::unique_ptr<PublishFaults> faults;  // of a test; null: none

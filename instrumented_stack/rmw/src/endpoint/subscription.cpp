@@ -104,6 +104,11 @@ namespace {
 
 namespace rmw_fastrtps {
 
+void Subscription::on_subscription_matched(fdds::DataReader* of_reader, const fdds::SubscriptionMatchedStatus& info) {
+  ReaderEvents::on_subscription_matched(of_reader, info);
+  participant->graph().match_changed();
+}
+
 namespace {
 
 void release_topics(Subscription& subscription) {

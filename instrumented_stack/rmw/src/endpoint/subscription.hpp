@@ -31,6 +31,9 @@ struct Loan {
 };
 
 struct Subscription final : ReaderEvents {
+  void on_subscription_matched(eprosima::fastdds::dds::DataReader* of_reader,
+                               const eprosima::fastdds::dds::SubscriptionMatchedStatus& info) override;
+
   [[gnu::hot]] bool is_ready() override {
     if (const auto known = is_known_to_be_ready()) {
       return *known;

@@ -62,6 +62,10 @@ class GraphCache {
   // `on_change` is called after every change, without a lock held.
   explicit GraphCache(std::function<void()> on_change) : on_change_(std::move(on_change)) {}
 
+  // Two endpoints have found, or lost, each other: a change that the graph itself does not show. An endpoint is known
+  // before Fast DDS matches it, so the change of the graph alone comes too early for whoever waits for a match.
+  void match_changed() { on_change_(); }
+
   void add_participant(const Gid& gid, std::string enclave);
   // Also forgets the participant's nodes and endpoints.
   void remove_participant(const Gid& gid);

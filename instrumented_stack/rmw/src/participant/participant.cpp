@@ -183,7 +183,8 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
 };
 
 Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
-    : traffic_(std::make_shared<DiscoveryTraffic>()),
+    : graph_(graph),
+      traffic_(std::make_shared<DiscoveryTraffic>()),
       listener_(std::make_unique<DiscoveryListener>(graph, unanswered_, *traffic_)) {
   const char* from_xml = std::getenv("RMW_FASTRTPS_USE_QOS_FROM_XML");
   qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";

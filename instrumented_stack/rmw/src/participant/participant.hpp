@@ -51,6 +51,7 @@ class Participant {
   void announce_again(const std::vector<Gid>& participants);
 
   const Gid& gid() const { return gid_; }
+  GraphCache& graph() { return graph_; }
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
@@ -75,6 +76,7 @@ class Participant {
     std::size_t users;
   };
 
+  GraphCache& graph_;
   UnansweredParticipants unanswered_;
   std::shared_ptr<DiscoveryTraffic> traffic_;
   std::unique_ptr<DiscoveryListener> listener_;

@@ -6,6 +6,7 @@
 
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
+#include "participant/participant.hpp"
 #include "rmw/error_handling.h"
 #include "service/service_channel.hpp"
 #include "tracetools/tracetools.h"
@@ -16,7 +17,6 @@
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-using rmw_fastrtps::GuardCondition;
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
 using rmw_fastrtps::OutgoingMessage;
@@ -26,20 +26,17 @@ using rmw_fastrtps::Waitable;
 namespace {
 
 struct Client final : ServiceChannel {
-  explicit Client(GuardCondition& graph_changed_) : graph_changed(graph_changed_) {}
-
   void on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& info) override {
     response_writers = info.current_count;
-    graph_changed.trigger();
+    participant().graph().match_changed();
   }
 
   void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& info) override {
     request_readers = info.current_count;
-    graph_changed.trigger();
+    participant().graph().match_changed();
   }
 
   rmw_client_t handle{};
-  GuardCondition& graph_changed;
   // Matched endpoints that belong to services.
   std::atomic<int32_t> response_writers{0};
   std::atomic<int32_t> request_readers{0};
@@ -58,9 +55,8 @@ rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_typ
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_name, nullptr);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(qos_policies, nullptr);
-  rmw_context_impl_t& impl = *node->context->impl;
-  std::lock_guard lock(impl.mutex);
-  auto client = std::make_unique<Client>(impl.graph_changed);
+  std::lock_guard lock(node->context->impl->mutex);
+  auto client = std::make_unique<Client>();
   client->open(ServiceChannel::End::kClient, node, *type_support, service_name, *qos_policies);
   client->handle = {kIdentifier, static_cast<Waitable*>(client.get()), client->service_name().c_str()};
   TRACETOOLS_TRACEPOINT(rmw_client_init, static_cast<const void*>(&client->handle), client->reader_gid().data());

@@ -37,6 +37,7 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
   void wait_until_received() const;
 
   const std::string& service_name() const { return service_name_; }
+  Participant& participant() { return *participant_; }
   const Gid& reader_gid() const { return reader_identity_.gid; }
 
   rmw_ret_t get_reader_qos(rmw_qos_profile_t* qos) const;
