@@ -3,27 +3,16 @@
 
 #include <fcntl.h>
 #include <linux/if_tun.h>
-#include <net/if.h>
-#include <net/route.h>
-#include <netinet/in.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <sys/socket.h>
 
 #include <cerrno>
+
+#include "launcher/base/environment/network_device.hpp"
 
 namespace launch {
 
 namespace {
-
-sockaddr ipv4_address(in_addr_t address) {
-  sockaddr_in specific{};
-  specific.sin_family = AF_INET;
-  specific.sin_addr.s_addr = htonl(address);
-  sockaddr generic{};
-  ::memcpy(&generic, &specific, sizeof generic);
-  return generic;
-}
 
 // 10.77.0.HOST/24. Nothing else is in the namespace, so no other network can have these addresses.
 constexpr in_addr_t kNetwork = 0x0a4d0000;
@@ -39,19 +28,8 @@ bool configure(ifreq& device, unsigned host) {
     return false;
   }
   device.ifr_netmask = ipv4_address(kMask);
-  if (::ioctl(socket.get(), SIOCSIFNETMASK, &device) != 0 || ::ioctl(socket.get(), SIOCGIFFLAGS, &device) != 0) {
-    return false;
-  }
-  device.ifr_flags = static_cast<short>(device.ifr_flags | IFF_UP | IFF_RUNNING | IFF_MULTICAST);
-  if (::ioctl(socket.get(), SIOCSIFFLAGS, &device) != 0) {
-    return false;
-  }
-  rtentry route{};
-  route.rt_dst = ipv4_address(0xe0000000);      // 224.0.0.0
-  route.rt_genmask = ipv4_address(0xf0000000);  // 240.0.0.0
-  route.rt_flags = RTF_UP;
-  route.rt_dev = device.ifr_name;
-  return ::ioctl(socket.get(), SIOCADDRT, &route) == 0 || errno == EEXIST;
+  return ::ioctl(socket.get(), SIOCSIFNETMASK, &device) == 0 && bring_up(socket.get(), device) &&
+         take_multicast(socket.get(), device);
 }
 
 }  // namespace
