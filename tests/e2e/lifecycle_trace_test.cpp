@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "launch_trace_testing/matchers.hpp"
+#include "tests/e2e/main_thread.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
@@ -12,9 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace launch_trace_testing;
-using test_support::CommandResult;
-using test_support::run_command;
-using test_support::Sandbox;
+using namespace test_support;
 using testing::ElementsAre;
 
 constexpr const char* kLaunchFile = R"(<launch>
@@ -29,9 +28,7 @@ constexpr const char* kLaunchFile = R"(<launch>
 
 // Events of the managed node's process, in the thread that made it.
 EventQuery of_talker(const std::string& name) {
-  return event("ros2:" + name).in_process("lifecycle_talke").that("in its main thread", [](const Event& event) {
-    return event.vpid() == event.vtid();
-  });
+  return of_main_thread("lifecycle_talker", name);
 }
 
 std::vector<std::string> texts(const std::vector<const Event*>& events, const std::string& field) {

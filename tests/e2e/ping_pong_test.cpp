@@ -9,213 +9,161 @@
 #include <sstream>
 #include <utility>
 
-#include "tests/e2e/recorded_trace.hpp"
+#include "launch_trace_testing/matchers.hpp"
+#include "tests/e2e/main_thread.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+using namespace launch_trace_testing;
 using namespace test_support;
+using testing::AllOf;
+using testing::Each;
 using testing::ElementsAre;
+using testing::Eq;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Ne;
+using testing::Pointee;
 
 constexpr std::size_t kExchanges = 10;
-using Events = std::vector<RecordedEvent>;
 
-std::vector<std::string> names(const Events& events) {
-  std::vector<std::string> result;
-  for (const RecordedEvent& event : events) {
-    result.push_back(event.name.substr(event.name.find(':') + 1));
+// The events of a process's main thread. The context's own writer publishes about the graph whenever an entity comes or
+// goes. These publications are left out, because they may come between the layers of another event.
+Events thread_of(const Trace& trace, const std::string& process) {
+  const Event& graph_writer = *of_main_thread(process, "rmw_publisher_init").first(trace);
+  const EventQuery about_graph =
+      of_main_thread(process, "rmw_publish").with("rmw_publisher_handle", graph_writer.at("rmw_publisher_handle"));
+  Events events = of_main_thread(process, "*").select(trace);
+  for (const Event* const publication : about_graph.select(trace)) {
+    std::erase(events, publication);
   }
-  return result;
+  return events;
 }
 
-// The events of one process's main thread. The context's own writer publishes about the graph whenever an entity comes
-// or goes. These events are kept apart, because they may come between the layers of another event.
-class Process {
- public:
-  Process(const RecordedTrace& trace, const std::string& procname) {
-    for (const RecordedEvent& event : trace.events) {
-      if (event.procname == procname && event.vpid == event.vtid) {
-        all_events_.push_back(event);
-      }
-    }
-    std::uint64_t graph_writer = 0;
-    for (const RecordedEvent& event : all_events_) {
-      if (graph_writer == 0 && event.name == "ros2:rmw_publisher_init") {
-        graph_writer = event.number("rmw_publisher_handle");
-      }
-      if (event.name != "ros2:rmw_publish" || event.number("rmw_publisher_handle") != graph_writer) {
-        events_.push_back(event);
-      }
-    }
-  }
-
-  const Events& events() const { return events_; }
-  const Events& all_events() const { return all_events_; }
-
-  // Index of the first event of that name from `from` on. When a field is named, `field` must be equal to `value`.
-  std::size_t find(const std::string& name, std::size_t from = 0, const std::string& field = {},
-                   std::uint64_t value = 0) const {
-    for (std::size_t i = from; i < events_.size(); ++i) {
-      if (events_[i].name == "ros2:" + name && (field.empty() || events_[i].number(field) == value)) {
-        return i;
-      }
-    }
-    ADD_FAILURE() << "no event " << name << " " << field << " from " << from << " on";
-    return events_.size();
-  }
-  std::size_t find_topic(const std::string& name, const std::string& topic) const {
-    for (std::size_t i = 0; i < events_.size(); ++i) {
-      if (events_[i].name == "ros2:" + name && events_[i].text("topic_name") == topic) {
-        return i;
-      }
-    }
-    ADD_FAILURE() << "no event " << name << " of topic " << topic;
-    return events_.size();
-  }
-  Events range(std::size_t begin, std::size_t end) const {
-    return {events_.begin() + static_cast<std::ptrdiff_t>(begin),
-            events_.begin() + static_cast<std::ptrdiff_t>(std::min(end, events_.size()))};
-  }
-  // The same events, without those of the messages that the node publishes on a topic by itself, like /rosout.
-  Events without_topic(Events events, const std::string& topic) const {
-    const RecordedEvent& publisher = events_.at(find_topic("rcl_publisher_init", topic));
-    const std::uint64_t handle = publisher.number("publisher_handle");
-    const std::uint64_t rmw_handle = publisher.number("rmw_publisher_handle");
-    std::erase_if(events, [&](const RecordedEvent& event) {
-      return (event.name == "ros2:rcl_publish" && event.number("publisher_handle") == handle) ||
-             (event.name == "ros2:rmw_publish" && event.number("rmw_publisher_handle") == rmw_handle);
-    });
-    return events;
-  }
-
- private:
-  Events all_events_;
-  Events events_;
-};
+const Event& publisher_of(const Trace& trace, const std::string& process, const std::string& topic) {
+  return only(trace, of_main_thread(process, "rcl_publisher_init").with("topic_name", topic));
+}
 
 struct Subscription {
-  std::uint64_t handle;
-  std::uint64_t rmw_handle;
+  const Event* init;  // rcl_subscription_init
   std::uint64_t callback;
 };
 
-void check_context_and_node(const Process& process, const std::string& node_name) {
-  const Events& all = process.all_events();
+void check_context_and_node(const Trace& trace, const std::string& process) {
+  const Events all = of_main_thread(process, "*").select(trace);
+  ASSERT_GE(all.size(), 4U);
+  const Events first(all.begin(), all.begin() + 4);
   // The graph is published by a thread of rmw.
-  EXPECT_THAT(names({all.begin(), all.begin() + 4}),
-              ElementsAre("rcl_init", "rmw_publisher_init", "rmw_subscription_init", "rcl_node_init"));
-  const std::size_t node = process.find("rcl_node_init");
-  EXPECT_NE(process.events().at(0).number("context_handle"), 0U);
-  EXPECT_EQ(process.events().at(0).text("version"), "8.10.1");
-  const RecordedEvent& event = process.events().at(node);
-  EXPECT_EQ(event.text("node_name"), node_name);
-  EXPECT_EQ(event.text("namespace"), "/");
-  EXPECT_NE(event.number("node_handle"), 0U);
-  EXPECT_NE(event.number("rmw_handle"), 0U);
+  EXPECT_THAT(names(first), ElementsAre("rcl_init", "rmw_publisher_init", "rmw_subscription_init", "rcl_node_init"));
+  EXPECT_THAT(*first[0], AllOf(HandleField("context_handle", Ne(0U)), TextField("version", Eq("8.10.1"))));
+  EXPECT_THAT(*first[3], AllOf(TextField("node_name", Eq(process)), TextField("namespace", Eq("/")),
+                               HandleField("node_handle", Ne(0U)), HandleField("rmw_handle", Ne(0U))));
 }
 
-void check_publisher(const Process& process, const std::string& topic, std::uint64_t depth) {
-  const std::size_t at = process.find_topic("rcl_publisher_init", topic);
-  const RecordedEvent& rcl = process.events().at(at);
-  const RecordedEvent& rmw = process.events().at(at - 1);
-  EXPECT_EQ(rmw.name, "ros2:rmw_publisher_init");
-  EXPECT_EQ(rmw.number("rmw_publisher_handle"), rcl.number("rmw_publisher_handle"));
-  EXPECT_EQ(rmw.arrays.at("gid").size(), 16U);
-  EXPECT_EQ(rcl.number("node_handle"), process.events().at(process.find("rcl_node_init")).number("node_handle"));
+void check_publisher(const Trace& trace, const std::string& process, const std::string& topic, std::int64_t depth) {
+  const Event& rcl = publisher_of(trace, process, topic);
+  EXPECT_EQ(rcl.handle("node_handle"), of_main_thread(process, "rcl_node_init").first(trace)->handle("node_handle"));
   EXPECT_EQ(rcl.number("queue_depth"), depth);
+  const Event& rmw = *around(thread_of(trace, process), rcl, 1, 0).front();
+  EXPECT_THAT(rmw, AllOf(Named("ros2:rmw_publisher_init"),
+                         HandleField("rmw_publisher_handle", Eq(rcl.handle("rmw_publisher_handle")))));
+  EXPECT_EQ(rmw.at("gid").array()->size(), 16U);
 }
 
-Subscription check_subscription(const Process& process, const std::string& topic) {
-  const std::size_t at = process.find_topic("rcl_subscription_init", topic);
-  const Events events = process.range(at - 1, at + 4);
+Subscription check_subscription(const Trace& trace, const std::string& process, const std::string& topic) {
+  const Event& init = only(trace, of_main_thread(process, "rcl_subscription_init").with("topic_name", topic));
+  EXPECT_EQ(init.handle("node_handle"), of_main_thread(process, "rcl_node_init").first(trace)->handle("node_handle"));
+  EXPECT_EQ(init.number("queue_depth"), 10);
+  const Events events = around(thread_of(trace, process), init, 1, 3);
   EXPECT_THAT(names(events), ElementsAre("rmw_subscription_init", "rcl_subscription_init", "rclcpp_subscription_init",
                                          "rclcpp_subscription_callback_added", "rclcpp_callback_register"));
-  EXPECT_EQ(events[0].number("rmw_subscription_handle"), events[1].number("rmw_subscription_handle"));
-  EXPECT_EQ(events[0].arrays.at("gid").size(), 16U);
-  EXPECT_EQ(events[1].number("node_handle"), process.events().at(process.find("rcl_node_init")).number("node_handle"));
-  EXPECT_EQ(events[1].number("queue_depth"), 10U);
-  EXPECT_EQ(events[2].number("subscription_handle"), events[1].number("subscription_handle"));
-  EXPECT_EQ(events[3].number("subscription"), events[2].number("subscription"));
-  EXPECT_EQ(events[4].number("callback"), events[3].number("callback"));
-  EXPECT_NE(events[4].text("symbol"), "");
-  return {events[1].number("subscription_handle"), events[1].number("rmw_subscription_handle"),
-          events[3].number("callback")};
+  EXPECT_EQ(events[0]->handle("rmw_subscription_handle"), init.handle("rmw_subscription_handle"));
+  EXPECT_EQ(events[0]->at("gid").array()->size(), 16U);
+  EXPECT_EQ(events[2]->handle("subscription_handle"), init.handle("subscription_handle"));
+  EXPECT_EQ(events[3]->handle("subscription"), events[2]->handle("subscription"));
+  EXPECT_EQ(events[4]->handle("callback"), events[3]->handle("callback"));
+  EXPECT_NE(events[4]->text("symbol"), "");
+  return {&init, events[3]->handle("callback")};
 }
 
 // The source timestamps of the messages that were published on a topic. Checks the three layers of each.
-std::vector<std::uint64_t> published(const Process& process, const std::string& topic) {
-  const RecordedEvent& publisher = process.events().at(process.find_topic("rcl_publisher_init", topic));
-  std::vector<std::uint64_t> timestamps;
-  const Events& events = process.events();
-  for (std::size_t i = 1; i + 1 < events.size(); ++i) {
-    if (events[i].name != "ros2:rcl_publish" ||
-        events[i].number("publisher_handle") != publisher.number("publisher_handle")) {
-      continue;
-    }
-    EXPECT_EQ(events[i - 1].name, "ros2:rclcpp_publish");
-    EXPECT_EQ(events[i + 1].name, "ros2:rmw_publish");
-    EXPECT_EQ(events[i - 1].number("message"), events[i].number("message"));
-    EXPECT_EQ(events[i + 1].number("message"), events[i].number("message"));
-    EXPECT_EQ(events[i + 1].number("rmw_publisher_handle"), publisher.number("rmw_publisher_handle"));
-    timestamps.push_back(events[i + 1].number("timestamp"));
+std::vector<std::int64_t> published(const Trace& trace, const std::string& process, const std::string& topic) {
+  const Event& publisher = publisher_of(trace, process, topic);
+  const Events thread = thread_of(trace, process);
+  std::vector<std::int64_t> timestamps;
+  for (const Event* const rcl : of_main_thread(process, "rcl_publish")
+                                    .with("publisher_handle", publisher.at("publisher_handle"))
+                                    .select(trace)) {
+    const Events layers = around(thread, *rcl, 1, 1);
+    EXPECT_THAT(names(layers), ElementsAre("rclcpp_publish", "rcl_publish", "rmw_publish"));
+    EXPECT_THAT(layers, Each(Pointee(HandleField("message", Eq(rcl->handle("message"))))));
+    EXPECT_EQ(layers.back()->handle("rmw_publisher_handle"), publisher.handle("rmw_publisher_handle"));
+    timestamps.push_back(layers.back()->number("timestamp"));
   }
   return timestamps;
 }
 
 // The source timestamps of the messages that a subscription took. Checks each reception from executor to callback.
-std::vector<std::uint64_t> received(const Process& process, const Subscription& subscription) {
-  std::vector<std::uint64_t> timestamps;
-  const Events& events = process.events();
-  for (std::size_t i = 1; i < events.size(); ++i) {
-    if (events[i].name != "ros2:rclcpp_executor_execute" || events[i].number("handle") != subscription.handle) {
-      continue;
-    }
-    const Events reception = process.range(i - 1, i + 5);
+std::vector<std::int64_t> received(const Trace& trace, const std::string& process, const Subscription& subscription) {
+  const Events thread = thread_of(trace, process);
+  std::vector<std::int64_t> timestamps;
+  for (const Event* const execution : of_main_thread(process, "rclcpp_executor_execute")
+                                          .with("handle", subscription.init->at("subscription_handle"))
+                                          .select(trace)) {
+    const Events reception = around(thread, *execution, 1, 4);
     EXPECT_THAT(names(reception), ElementsAre("rclcpp_executor_get_next_ready", "rclcpp_executor_execute", "rmw_take",
                                               "rcl_take", "rclcpp_take", "callback_start"));
-    const RecordedEvent& take = reception[2];
-    EXPECT_EQ(take.number("rmw_subscription_handle"), subscription.rmw_handle);
-    EXPECT_EQ(take.number("taken"), 1U);
-    EXPECT_EQ(reception[3].number("message"), take.number("message"));
-    EXPECT_EQ(reception[4].number("message"), take.number("message"));
-    EXPECT_EQ(reception[5].number("callback"), subscription.callback);
-    EXPECT_EQ(reception[5].number("is_intra_process"), 0U);
-    process.find("callback_end", i, "callback", subscription.callback);
+    const Event& take = *reception[2];
+    EXPECT_EQ(take.handle("rmw_subscription_handle"), subscription.init->handle("rmw_subscription_handle"));
+    EXPECT_EQ(take.number("taken"), 1);
+    EXPECT_EQ(reception[3]->handle("message"), take.handle("message"));
+    EXPECT_EQ(reception[4]->handle("message"), take.handle("message"));
+    EXPECT_THAT(*reception[5],
+                AllOf(HandleField("callback", Eq(subscription.callback)), Field("is_intra_process", Eq(0))));
+    EXPECT_THAT(
+        trace,
+        HasEvent(of_main_thread(process, "callback_end").after(*execution).with("callback", subscription.callback)));
     timestamps.push_back(take.number("source_timestamp"));
   }
   return timestamps;
 }
 
-void check_timer(const Process& process, std::uint64_t period) {
-  const std::size_t at = process.find("rcl_timer_init");
-  const Events events = process.range(at, at + 4);
-  EXPECT_THAT(names(events), ElementsAre("rcl_timer_init", "rclcpp_timer_callback_added", "rclcpp_callback_register",
-                                         "rclcpp_timer_link_node"));
-  EXPECT_EQ(events[0].number("period"), period);
-  EXPECT_EQ(events[1].number("timer_handle"), events[0].number("timer_handle"));
-  EXPECT_EQ(events[2].number("callback"), events[1].number("callback"));
-  EXPECT_EQ(events[3].number("timer_handle"), events[0].number("timer_handle"));
-  EXPECT_EQ(events[3].number("node_handle"), process.events().at(process.find("rcl_node_init")).number("node_handle"));
+void check_timer(const Trace& trace, std::int64_t period) {
+  const Event& init = *of_main_thread("ping", "rcl_timer_init").first(trace);
+  const Events thread = thread_of(trace, "ping");
+  const Events creation = around(thread, init, 0, 3);
+  EXPECT_THAT(names(creation), ElementsAre("rcl_timer_init", "rclcpp_timer_callback_added", "rclcpp_callback_register",
+                                           "rclcpp_timer_link_node"));
+  EXPECT_EQ(init.number("period"), period);
+  EXPECT_EQ(creation[1]->handle("timer_handle"), init.handle("timer_handle"));
+  EXPECT_EQ(creation[2]->handle("callback"), creation[1]->handle("callback"));
+  EXPECT_EQ(creation[3]->handle("timer_handle"), init.handle("timer_handle"));
+  EXPECT_EQ(creation[3]->handle("node_handle"),
+            of_main_thread("ping", "rcl_node_init").first(trace)->handle("node_handle"));
 
-  // Looks around an expiry that publishes: the first publication on /ping.
-  const std::uint64_t publisher =
-      process.events().at(process.find_topic("rcl_publisher_init", "/ping")).number("publisher_handle");
-  const std::size_t publish = process.find("rcl_publish", 0, "publisher_handle", publisher);
-  std::size_t begin = publish;
-  while (begin > 0 && process.events()[begin].name != "ros2:rclcpp_executor_get_next_ready") {
-    --begin;
-  }
-  const std::size_t end = process.find("callback_end", publish);
-  const Events expiry = process.without_topic(process.range(begin, end + 1), "/rosout");
+  // Looks around an expiry that publishes: the first publication on /ping. The node may also have published a log line.
+  const EventQuery publication = of_main_thread("ping", "rcl_publish");
+  const Event& publish = *EventQuery(publication)
+                              .with("publisher_handle", publisher_of(trace, "ping", "/ping").at("publisher_handle"))
+                              .first(trace);
+  const Event& begin = *of_main_thread("ping", "rclcpp_executor_get_next_ready").before(publish).select(trace).back();
+  const Event& end = *of_main_thread("ping", "callback_end").after(publish).first(trace);
+  const Event& log = publisher_of(trace, "ping", "/rosout");
+  Events expiry(std::find(thread.begin(), thread.end(), &begin), std::find(thread.begin(), thread.end(), &end) + 1);
+  std::erase_if(expiry, [&](const Event* event) {
+    return (event->name() == "ros2:rcl_publish" &&
+            event->handle("publisher_handle") == log.handle("publisher_handle")) ||
+           (event->name() == "ros2:rmw_publish" &&
+            event->handle("rmw_publisher_handle") == log.handle("rmw_publisher_handle"));
+  });
   EXPECT_THAT(names(expiry), ElementsAre("rclcpp_executor_get_next_ready", "rclcpp_executor_execute", "callback_start",
                                          "rclcpp_publish", "rcl_publish", "rmw_publish", "callback_end"));
-  EXPECT_EQ(expiry[1].number("handle"), events[0].number("timer_handle"));
-  EXPECT_EQ(expiry[2].number("callback"), events[1].number("callback"));
-  EXPECT_EQ(expiry[2].number("is_intra_process"), 0U);
+  EXPECT_EQ(expiry[1]->handle("handle"), init.handle("timer_handle"));
+  EXPECT_THAT(*expiry[2],
+              AllOf(HandleField("callback", Eq(creation[1]->handle("callback"))), Field("is_intra_process", Eq(0))));
 }
 
 fs::path only_trace(const Sandbox& sandbox) {
@@ -246,36 +194,32 @@ TEST_P(PingPong, TraceHoldsTheSequenceOfRos2FieldByField) {
   EXPECT_THAT(result.out, HasSubstr("[ping-2] "));
   EXPECT_THAT(result.out, HasSubstr("[pong-1] "));
 
-  const RecordedTrace trace = read_trace(directory);
-  EXPECT_EQ(trace.losses, 0U);
+  const Trace trace(directory);
+  EXPECT_THAT(trace, LostNothing());
   std::set<std::int64_t> processes;
-  for (const RecordedEvent& event : trace.events) {
-    if (!event.name.starts_with("launch:")) {  // not the events of the launcher itself
-      processes.insert(event.vpid);
+  for (const Event& event : trace) {
+    if (!event.name().starts_with("launch:")) {  // not the events of the launcher itself
+      processes.insert(event.vpid());
     }
   }
   EXPECT_EQ(processes.size(), 2U);
 
-  const Process ping(trace, "ping");
-  const Process pong(trace, "pong");
-  ASSERT_FALSE(ping.events().empty());
-  ASSERT_FALSE(pong.events().empty());
-  for (const Process* process : {&ping, &pong}) {
-    check_publisher(*process, "/rosout", 1000);
-    check_publisher(*process, "/parameter_events", 1000);
+  for (const char* const process : {"ping", "pong"}) {
+    SCOPED_TRACE(process);
+    check_context_and_node(trace, process);
+    check_publisher(trace, process, "/rosout", 1000);
+    check_publisher(trace, process, "/parameter_events", 1000);
   }
-  check_context_and_node(ping, "ping");
-  check_context_and_node(pong, "pong");
-  check_publisher(ping, "/ping", 10);
-  check_publisher(pong, "/pong", 10);
-  check_timer(ping, 20'000'000);
+  check_publisher(trace, "ping", "/ping", 10);
+  check_publisher(trace, "pong", "/pong", 10);
+  check_timer(trace, 20'000'000);
 
-  const std::vector<std::uint64_t> pings = published(ping, "/ping");
-  const std::vector<std::uint64_t> pongs = published(pong, "/pong");
+  const std::vector<std::int64_t> pings = published(trace, "ping", "/ping");
+  const std::vector<std::int64_t> pongs = published(trace, "pong", "/pong");
   // The writer got the same timestamp that the reader reports, to the nanosecond. Not every message is taken: one may
   // be sent before the reader knows its writer, and ping may have ended before the last answer.
-  const std::vector<std::uint64_t> at_pong = received(pong, check_subscription(pong, "/ping"));
-  const std::vector<std::uint64_t> at_ping = received(ping, check_subscription(ping, "/pong"));
+  const std::vector<std::int64_t> at_pong = received(trace, "pong", check_subscription(trace, "pong", "/ping"));
+  const std::vector<std::int64_t> at_ping = received(trace, "ping", check_subscription(trace, "ping", "/pong"));
   for (const auto& [takes, publications] : {std::pair(at_pong, pings), std::pair(at_ping, pongs)}) {
     EXPECT_GE(takes.size(), kExchanges);
     EXPECT_TRUE(std::is_sorted(takes.begin(), takes.end()));
@@ -304,9 +248,9 @@ TEST_P(PingPong, CtrlCEndsTheNodesAndLeavesAWholeTraceAndNoSession) {
   EXPECT_THAT(result.out, HasSubstr("[ping-2]: process has finished cleanly"));
   EXPECT_THAT(result.out, HasSubstr("[pong-1]: process has finished cleanly"));
 
-  const RecordedTrace trace = read_trace(only_trace(sandbox_));
-  EXPECT_EQ(trace.losses, 0U);
-  EXPECT_FALSE(published(Process(trace, "pong"), "/pong").empty());
+  const Trace trace(only_trace(sandbox_));
+  EXPECT_THAT(trace, LostNothing());
+  EXPECT_FALSE(published(trace, "pong", "/pong").empty());
   const CommandResult sessions = run_command({"lttng", "list"});
   EXPECT_THAT(sessions.out + sessions.err, HasSubstr("Currently no available recording session"));
 }

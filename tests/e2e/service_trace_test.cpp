@@ -2,11 +2,10 @@
 // The trace of services: those that every node has, and one that a client calls.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <fstream>
-#include <stdexcept>
 
 #include "launch_trace_testing/matchers.hpp"
+#include "tests/e2e/main_thread.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
@@ -14,9 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace launch_trace_testing;
-using test_support::CommandResult;
-using test_support::run_command;
-using test_support::Sandbox;
+using namespace test_support;
 using testing::ElementsAre;
 
 constexpr const char* kLaunchFile = R"(<launch>
@@ -29,24 +26,11 @@ constexpr const char* kLaunchFile = R"(<launch>
 )";
 constexpr int kRequests = 3;
 
-EventQuery of(const std::string& process, const std::string& name) {
-  return event("ros2:" + name).in_process(process).that("in its main thread", [](const Event& event) {
-    return event.vpid() == event.vtid();
-  });
-}
 EventQuery of_server(const std::string& name) {
-  return of("add_two_ints_server", name);
+  return of_main_thread("add_two_ints_server", name);
 }
 EventQuery of_client(const std::string& name) {
-  return of("add_two_ints_client", name);
-}
-
-// The one event that is meant. Without it, the test ends with the nearest ones.
-const Event& only(const Trace& trace, const EventQuery& query) {
-  if (const Verdict verdict = expect_count(trace, query, exactly(1)); !verdict) {
-    throw std::runtime_error(verdict.text);
-  }
-  return *query.first(trace);
+  return of_main_thread("add_two_ints_client", name);
 }
 
 bool is_publication(const Event& event) {
@@ -58,15 +42,9 @@ bool is_publication(const Event& event) {
 // ones, without those of publications: log lines, parameter events, the graph.
 std::vector<std::string> names_around(const Trace& trace, const Event& middle, std::ptrdiff_t before,
                                       std::ptrdiff_t after) {
-  const auto thread =
+  const Events thread =
       of_server("*").that("no publication", [](const Event& event) { return !is_publication(event); }).select(trace);
-  const auto at = std::find(thread.begin(), thread.end(), &middle);
-  std::vector<std::string> names;
-  for (auto event = at - std::min(before, at - thread.begin());
-       event != thread.end() && event <= at + std::min(after, thread.end() - at); ++event) {
-    names.push_back((*event)->name().substr(std::string("ros2:").size()));
-  }
-  return names;
+  return names(around(thread, middle, before, after));
 }
 
 // One line per entity that the server makes.
