@@ -213,6 +213,11 @@ void NodeParameters::remove_post_set_parameters_callback(const PostSetParameters
   remove_handle(post_set_callbacks_, handle, "Post");
 }
 
+void NodeParameters::enable_parameter_modification() {
+  const std::lock_guard lock(mutex_);  // another thread's callback comes to its end first
+  changing_ = false;
+}
+
 NodeParameters::Result NodeParameters::call_on_set_callbacks(const std::vector<Parameter>& parameters) {
   for (const auto& handle : detail::living(on_set_callbacks_)) {
     Result result = handle->callback(parameters);

@@ -144,6 +144,7 @@ QoS declare_qos_parameters(const QosOverridingOptions& options, node_interfaces:
       rcl_interfaces::msg::ParameterDescriptor descriptor;
       descriptor.description = std::string("qos policy {") + qos_policy_kind_to_cstr(kind) + description_end;
       descriptor.read_only = true;
+      parameters.enable_parameter_modification();
       parameters.declare_parameter(name, default_value(kind, qos), descriptor);
     }
     apply(kind, name, parameters.get_parameter(name).get_parameter_value(), overridden);

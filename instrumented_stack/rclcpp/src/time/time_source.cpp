@@ -13,6 +13,7 @@
 
 #include "base/require_ok.hpp"
 #include "rclcpp/create_subscription.hpp"
+#include "rclcpp/detail/qos_parameters.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
 
@@ -172,6 +173,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     // Destroyed after the lock is released, because its thread may wait for the lock.
     std::unique_ptr<detail::ClockThread> ended;
     Subscription<rosgraph_msgs::msg::Clock>::SharedPtr ended_subscription;
+    const QoS qos = enabled ? qos_of_clock() : qos_;
     const std::lock_guard lock(mutex_);
     if (enabled == (subscription_ != nullptr) || (enabled && !node_base_)) {
       return;
@@ -197,7 +199,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
       options.callback_group = thread->group();
     }
     subscription_ = create_subscription<rosgraph_msgs::msg::Clock>(
-        node_parameters_, node_topics_, "/clock", qos_,
+        node_parameters_, node_topics_, "/clock", qos,
         [weak = weak_from_this()](const rosgraph_msgs::msg::Clock& message) {
           if (const auto self = weak.lock()) {
             self->set_time(Time(message.clock).nanoseconds());
@@ -212,6 +214,24 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     if (thread_) {
       thread_->start();
     }
+  }
+
+  // Declares the parameters that override it. Called without our lock, because it takes that of the node's parameters.
+  QoS qos_of_clock() const {
+    node_interfaces::NodeBaseInterface::SharedPtr node_base;
+    node_interfaces::NodeParametersInterface::SharedPtr node_parameters;
+    {
+      const std::lock_guard lock(mutex_);
+      node_base = node_base_;
+      node_parameters = node_parameters_;
+    }
+    if (!node_base) {
+      return qos_;
+    }
+    const QosOverridingOptions overridable{QosPolicyKind::Depth, QosPolicyKind::Durability, QosPolicyKind::History,
+                                           QosPolicyKind::Reliability};
+    return detail::overridden_qos(overridable, node_parameters, *node_base, "/clock", qos_,
+                                  detail::QosEntity::Subscription);
   }
 
   void set_time(rcl_time_point_value_t time) {

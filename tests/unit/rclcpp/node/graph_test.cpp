@@ -111,6 +111,8 @@ TEST_F(GraphTest, TellsWhatANodeHas) {
   EXPECT_THAT(graph->get_client_names_and_types_by_node("other", "/there"), ElementsAre(Pair("/there/subtract", add)));
   EXPECT_THAT(graph->get_publisher_names_and_types_by_node("other", "/there"),
               ElementsAre(Key("/parameter_events"), Key("/rosout"), Key("/there/chatter")));
+  // A node has no subscription but its own. It learns of use_sim_time from its parameters, not from /parameter_events.
+  EXPECT_THAT(graph->get_subscriber_names_and_types_by_node("other", "/there"), ElementsAre(Key("/there/gossip")));
   EXPECT_THAT(graph->get_subscriber_names_and_types_by_node("other", "/there", true),
               Contains(Pair("rt/there/gossip", ElementsAre("std_msgs::msg::dds_::String_"))));
   EXPECT_THAT(node_->get_service_names_and_types_by_node("watcher", "/here"), Not(Contains(Key("/there/add"))));

@@ -109,4 +109,22 @@ TEST_F(QosOverridingOptionsTest, TheProgramMayRefuse) {
             "validation callback failed: the queue is too long");
 }
 
+// As in rclcpp, a program may create its publishers while one of its parameters is set.
+TEST_F(QosOverridingOptionsTest, AreDeclaredWhileAParameterIsSet) {
+  start();
+  node_->declare_parameter("is_on", false);
+  rclcpp::QoS qos(1);
+  const auto callback = node_->add_post_set_parameters_callback(
+      [&](const std::vector<rclcpp::Parameter>&) { qos = publisher_qos({QosPolicyKind::Depth}); });
+  const auto other = node_->add_pre_set_parameters_callback([&](std::vector<rclcpp::Parameter>&) {
+    EXPECT_THROW(node_->declare_parameter("other", 1), rclcpp::exceptions::ParameterModifiedInCallbackException);
+    node_->get_node_parameters_interface()->enable_parameter_modification();
+    node_->declare_parameter("other", 1);
+  });
+  EXPECT_TRUE(node_->set_parameter(rclcpp::Parameter("is_on", true)).successful);
+  EXPECT_EQ(qos.depth(), 10U);
+  EXPECT_EQ(node_->get_parameter("qos_overrides./topic.publisher.depth").as_int(), 10);
+  EXPECT_EQ(node_->get_parameter("other").as_int(), 1);
+}
+
 }  // namespace

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulated time arrives even if nobody spins the node.
+#include <gmock/gmock.h>
+
 #include <future>
 #include <rclcpp/time_source.hpp>
 #include <rosgraph_msgs/msg/clock.hpp>
@@ -61,6 +63,28 @@ TEST_F(TimeSource, WithoutAThreadTheNodeIsToBeSpun) {
     executor.spin_some();
     return node->now().seconds() == 6;
   });
+}
+
+TEST_F(TimeSource, TheQualityOfServiceOfTheClockCanBeOverridden) {
+  const std::string prefix = "qos_overrides./clock.subscription.";
+  const auto names_of = [&](const rclcpp::Node& node) {
+    return node.list_parameters({"qos_overrides./clock"}, 0).names;
+  };
+  const auto options = rclcpp::NodeOptions().parameter_overrides({rclcpp::Parameter(prefix + "depth", 7)});
+  const auto node = std::make_shared<rclcpp::Node>("late", options);
+  EXPECT_THAT(names_of(*node), testing::IsEmpty());
+  // The subscription is made while the parameter is set.
+  ASSERT_TRUE(node->set_parameter(rclcpp::Parameter("use_sim_time", true)).successful);
+  EXPECT_THAT(names_of(*node), testing::UnorderedElementsAre(prefix + "depth", prefix + "durability",
+                                                             prefix + "history", prefix + "reliability"));
+  const auto subscriptions = node->get_subscriptions_info_by_topic("/clock");
+  ASSERT_EQ(subscriptions.size(), 1U);
+  EXPECT_EQ(subscriptions[0].qos_profile().depth(), 7U);
+  EXPECT_EQ(subscriptions[0].qos_profile().reliability(), rclcpp::ReliabilityPolicy::BestEffort);
+
+  const auto early = std::make_shared<rclcpp::Node>("early", simulated());
+  EXPECT_EQ(early->get_parameter(prefix + "depth").as_int(), 1);
+  EXPECT_EQ(early->get_parameter(prefix + "reliability").as_string(), "best_effort");
 }
 
 TEST_F(TimeSource, HasAThreadWhileTimeIsSimulated) {

@@ -69,6 +69,8 @@ class NodeParameters : public NodeParametersInterface {
   void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle) override;
   void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle) override;
 
+  void enable_parameter_modification() override;
+
   const std::map<std::string, ParameterValue>& get_parameter_overrides() const override { return overrides_; }
 
  private:

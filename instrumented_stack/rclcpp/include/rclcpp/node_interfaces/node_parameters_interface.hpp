@@ -85,6 +85,10 @@ class NodeParametersInterface {
   virtual void remove_pre_set_parameters_callback(const PreSetParametersCallbackHandle* handle) = 0;
   virtual void remove_post_set_parameters_callback(const PostSetParametersCallbackHandle* handle) = 0;
 
+  // Called in a callback for parameters: the rest of it may declare and set parameters, which is otherwise refused.
+  // Subscriptions and publishers that are created in a callback call it before they declare `qos_overrides.…`.
+  virtual void enable_parameter_modification() {}
+
   // Overrides by name, from the command line, parameter files and NodeOptions. Only those for this node.
   virtual const std::map<std::string, ParameterValue>& get_parameter_overrides() const = 0;
 };
